@@ -1,0 +1,31 @@
+# fastlio_add_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
+# A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) and, when tests are built, one
+# GoogleTest program test_NAME made of the TESTS files.
+function(fastlio_add_module NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;TESTS" ${ARGN})
+  set(target mrpt_fastlio_${NAME})
+  add_library(${target} SHARED ${ARG_SOURCES})
+  add_library(mrpt_fastlio::${NAME} ALIAS ${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
+    $<BUILD_INTERFACE:fastlio_compiler_options>)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    EXPORT_NAME ${NAME})
+  if(BUILD_TESTING AND ARG_TESTS)
+    fastlio_add_test(test_${NAME} SOURCES ${ARG_TESTS} LINK mrpt_fastlio::${NAME})
+  endif()
+endfunction()
+
+# fastlio_add_test(NAME SOURCES ... [LINK ...]): one GoogleTest program, each TEST a ctest entry.
+function(fastlio_add_test NAME)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  include(GoogleTest)
+  add_executable(${NAME} ${ARG_SOURCES})
+  target_link_libraries(${NAME} PRIVATE ${ARG_LINK} fastlio_compiler_options GTest::gtest
+    GTest::gtest_main)
+  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,39 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file propagation.h Forward propagation of state and covariance (eq. 2-8). */
+#pragma once
+
+#include <fastlio/filter/imu.h>
+#include <fastlio/filter/state.h>
+
+namespace fastlio
+{
+/** Noise vector w = (n_w, n_a, n_bw, n_ba). */
+constexpr int kNoiseDim = 12;
+using NoiseJacobian = Eigen::Matrix<double, kStateDim, kNoiseDim, Eigen::DontAlign>;
+using NoiseVector = Eigen::Matrix<double, kNoiseDim, 1, Eigen::DontAlign>;
+
+/** Fx and Fw of eq. 7. */
+struct ProcessJacobians
+{
+  StateMatrix Fx;
+  NoiseJacobian Fw;
+};
+
+/** x [+] dt f(x, u, w) of eq. 2-3, with the noise w for tests (zero in the filter, eq. 4).
+ * \param gyro w_m [rad/s] \param accel a_m [m/s^2] \param dt [s] */
+[[nodiscard]] NavState propagateMean(
+    const NavState& x, const Vec3& gyro, const Vec3& accel, double dt,
+    const NoiseVector& w = NoiseVector::Zero());
+
+/** The Jacobians of eq. 7 at x with input (gyro, accel) over dt [s]. */
+[[nodiscard]] ProcessJacobians processJacobians(
+    const NavState& x, const Vec3& gyro, const Vec3& accel, double dt);
+
+/** One step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block.
+ * The discrete noise of a zero-order-hold sample is density^2 / dt. */
+[[nodiscard]] FilterState propagate(
+    const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise);
+
+}  // namespace fastlio

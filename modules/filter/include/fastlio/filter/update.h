@@ -1,0 +1,95 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file update.h The iterated Kalman update (eq. 15-20) with both forms of the gain. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+
+#include <functional>
+#include <vector>
+
+namespace fastlio
+{
+/** Sums over all scalar measurements, H's only non-zero columns being attitude and position. */
+struct InformationSums
+{
+  Matrix6 HtRinvH = Matrix6::Zero();  //!< sum of h_j^T h_j / r_j
+  Vector6 HtRinvz = Vector6::Zero();  //!< sum of h_j^T z_j / r_j
+  double weighted_squares = 0.0;      //!< sum of z_j^2 / r_j
+  std::size_t count = 0;              //!< number of scalar measurements
+};
+
+/** The scalar measurements themselves, needed by the standard gain only. */
+struct StackedMeasurements
+{
+  std::vector<Vector6> h;        //!< rows of H (attitude, position columns)
+  std::vector<double> z;         //!< residuals
+  std::vector<double> variance;  //!< R_jj
+};
+
+/** What an iteration of the update needs to know of the measurements at an iterate. */
+struct MeasurementEvaluation
+{
+  InformationSums sums;        //!< always filled
+  StackedMeasurements stacked;  //!< filled when the standard gain is chosen
+};
+
+/** Which form of the Kalman gain is used; algebraically equal (appendix B of the paper). */
+enum class GainForm
+{
+  Information,  //!< eq. 20: cost grows with the state only
+  Standard      //!< eq. 18: cost grows with the cube of the measurement count
+};
+
+/** Convergence rules of the iterated update. */
+struct IterationLimits
+{
+  int max_iterations = 5;
+  double attitude = 1e-4;    //!< [rad]
+  double position = 1e-4;    //!< [m]
+  double velocity = 1e-3;    //!< [m/s]
+  double gyro_bias = 1e-4;   //!< [rad/s]
+  double accel_bias = 1e-3;  //!< [m/s^2]
+  double gravity = 1e-3;     //!< [m/s^2]
+};
+
+/** Evidence of an update. */
+struct UpdateResult
+{
+  FilterState posterior;
+  int iterations = 0;
+  bool converged = false;
+  bool updated = false;         //!< false: no measurement or a non-finite step; posterior = prior
+  InformationSums last;         //!< sums at the last iterate
+};
+
+/** Evaluates the measurements at an iterate; \a iteration counts from 0. */
+using MeasurementModel =
+    std::function<MeasurementEvaluation(const NavState& iterate, int iteration)>;
+
+/** The step dx = -K z - (I - K H) J^-1 (x_kappa [-] x_hat) and the covariance (I - K H) P for one
+ * iterate. */
+struct UpdateStep
+{
+  StateVector dx = StateVector::Zero();
+  StateMatrix P = StateMatrix::Zero();
+};
+
+/** J^-1 of eq. 16: blockdiag(A(Log(R_hat^T R_kappa))^T, I_15). */
+[[nodiscard]] StateMatrix priorJacobianInverse(const NavState& iterate, const NavState& prior);
+
+/** One step with the gain of eq. 20. */
+[[nodiscard]] UpdateStep informationStep(
+    const FilterState& prior, const NavState& iterate, const InformationSums& sums);
+
+/** One step with the gain of eq. 18. */
+[[nodiscard]] UpdateStep standardStep(
+    const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements);
+
+/** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. */
+[[nodiscard]] UpdateResult iteratedUpdate(
+    const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
+    GainForm gain);
+
+}  // namespace fastlio

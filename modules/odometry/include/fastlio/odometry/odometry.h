@@ -1,0 +1,63 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file odometry.h The LiDAR-inertial odometry: IMU samples and scans in, one ScanResult per scan out.
+ */
+#pragma once
+
+#include <fastlio/filter/imu.h>
+#include <fastlio/lidar/scan.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+class SurfaceMap;
+
+/** Counts of everything that was dropped before it reached the filter. */
+struct InputStatistics
+{
+  std::size_t imu_in = 0, imu_not_finite = 0, imu_out_of_order = 0, imu_duplicate = 0;
+  std::size_t scans_in = 0, scans_empty = 0, scans_out_of_order = 0, scans_without_imu = 0;
+};
+
+/** FAST-LIO: feed samples and scans in any interleaving, then drain next().
+ *
+ * A scan is processed once an IMU sample at or after its end has arrived; until then next() returns
+ * nothing. Not thread-safe: one thread feeds and drains.
+ */
+class Odometry
+{
+ public:
+  /** \exception std::invalid_argument a parameter is out of its range (the message names it) */
+  explicit Odometry(const Parameters& parameters);
+  ~Odometry();
+  Odometry(Odometry&&) noexcept;
+  Odometry& operator=(Odometry&&) noexcept;
+
+  /** Samples that are not finite, repeated or older than the newest one are counted and dropped. */
+  void addImu(const ImuSample& sample);
+
+  void addScan(LidarScan scan);
+
+  /** Processes the oldest scan that is covered by IMU data. */
+  [[nodiscard]] std::optional<ScanResult> next();
+
+  /** After the last observation: also processes scans whose end the IMU data do not reach, as long as
+   * the gap is below imu.max_gap. */
+  [[nodiscard]] std::optional<ScanResult> flush();
+
+  [[nodiscard]] const SurfaceMap& map() const;
+  [[nodiscard]] const Parameters& parameters() const;
+  [[nodiscard]] const InputStatistics& inputStatistics() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,65 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_result.h What the odometry says about each scan: state, covariance and the evidence. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+namespace fastlio
+{
+/** What became of a scan. */
+enum class ScanStatus
+{
+  Initializing,    //!< still collecting the resting start; no pose yet
+  FirstScan,       //!< the map was started with this scan
+  Tracking,        //!< updated by the scan
+  PredictionOnly,  //!< too few matches or a rejected update: IMU prediction only, map untouched
+  Diverged         //!< prediction-only for too long, or a non-finite step: the pose is not trusted
+};
+
+/** Printable name of a status ("tracking", ...). */
+[[nodiscard]] const char* toString(ScanStatus status);
+
+/** Wall-clock milliseconds per stage of one scan. */
+struct StageTimings
+{
+  double propagate = 0, deskew = 0, reduce = 0, associate = 0, update = 0, insert = 0, total = 0;
+};
+
+/** Counts and measures of one scan. */
+struct ScanStatistics
+{
+  std::size_t points_in = 0;         //!< points delivered by the bridge
+  std::size_t dropped_invalid = 0;   //!< no echo, NaN or zero
+  std::size_t dropped_near = 0;      //!< nearer than lidar.min_range
+  std::size_t dropped_far = 0;       //!< farther than lidar.max_range
+  std::size_t dropped_time = 0;      //!< with a time far outside of the scan
+  std::size_t points_reduced = 0;    //!< after the voxel grid
+  std::size_t points_effective = 0;  //!< matched with a plane in the last iteration
+  std::size_t imu_samples = 0;       //!< inertial samples of this scan's interval
+  std::size_t map_points = 0;        //!< points in the map after the scan
+  int iterations = 0;
+  bool converged = false;
+  double residual_rms = 0.0;         //!< of the effective points, last iteration [m]
+  double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
+  Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
+};
+
+/** The outcome of one scan. */
+struct ScanResult
+{
+  std::int64_t stamp_ns = 0;  //!< the scan's end t_k, to which the state refers
+  std::int64_t begin_ns = 0;  //!< the scan's first point
+  ScanStatus status = ScanStatus::Initializing;
+  std::string message;        //!< why, when the status is not Tracking
+  FilterState filter;         //!< state and covariance, IMU body in the world frame
+  ScanStatistics statistics;
+  StageTimings milliseconds;
+};
+
+}  // namespace fastlio
