@@ -1,0 +1,28 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file report.h A report for people (table, picture) and for machines (JSON). */
+#pragma once
+
+#include <fastlio/evaluation/gates.h>
+
+#include <filesystem>
+
+namespace fastlio
+{
+/** A table with units, a few dozen lines of at most 100 columns. */
+[[nodiscard]] std::string toTable(
+    const EvaluationReport& report, const std::vector<GateResult>& gates = {});
+
+/** JSON object; keys carry their units. Absent measures are null. */
+[[nodiscard]] std::string toJson(
+    const EvaluationReport& report, const std::vector<GateResult>& gates = {});
+
+/** A self-contained SVG picture: both paths from above and the errors over time. */
+[[nodiscard]] std::string toSvg(const EvaluationReport& report);
+
+/** Writes a temporary file beside \a file and renames it, so that no half-written file is ever
+ * seen. \exception std::runtime_error the file cannot be written */
+void writeFileAtomically(const std::filesystem::path& file, const std::string& content);
+
+}  // namespace fastlio
