@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file state.h The state on the manifold SO(3) x R^15 and its boxplus/boxminus (section III of the
- * paper). */
+/** \file state.h The state on the manifold SO(3) x R^15 and its boxplus/boxminus (section III of
+ * the paper). */
 #pragma once
 
 #include <fastlio/filter/pose.h>

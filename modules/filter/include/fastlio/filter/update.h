@@ -17,6 +17,7 @@ struct InformationSums
   Matrix6 HtRinvH = Matrix6::Zero();  //!< sum of h_j^T h_j / r_j
   Vector6 HtRinvz = Vector6::Zero();  //!< sum of h_j^T z_j / r_j
   double weighted_squares = 0.0;      //!< sum of z_j^2 / r_j
+  double squares = 0.0;               //!< sum of z_j^2
   std::size_t count = 0;              //!< number of scalar measurements
 };
 
@@ -31,7 +32,7 @@ struct StackedMeasurements
 /** What an iteration of the update needs to know of the measurements at an iterate. */
 struct MeasurementEvaluation
 {
-  InformationSums sums;        //!< always filled
+  InformationSums sums;         //!< always filled
   StackedMeasurements stacked;  //!< filled when the standard gain is chosen
 };
 
@@ -60,8 +61,8 @@ struct UpdateResult
   FilterState posterior;
   int iterations = 0;
   bool converged = false;
-  bool updated = false;         //!< false: no measurement or a non-finite step; posterior = prior
-  InformationSums last;         //!< sums at the last iterate
+  bool updated = false;  //!< false: no measurement or a non-finite step; posterior = prior
+  InformationSums last;  //!< sums at the last iterate
 };
 
 /** Evaluates the measurements at an iterate; \a iteration counts from 0. */
@@ -79,15 +80,19 @@ struct UpdateStep
 /** J^-1 of eq. 16: blockdiag(A(Log(R_hat^T R_kappa))^T, I_15). */
 [[nodiscard]] StateMatrix priorJacobianInverse(const NavState& iterate, const NavState& prior);
 
-/** One step with the gain of eq. 20. */
+/** One step with the gain of eq. 20, from the 6x6 sums alone; P may be singular. */
 [[nodiscard]] UpdateStep informationStep(
     const FilterState& prior, const NavState& iterate, const InformationSums& sums);
 
-/** One step with the gain of eq. 18. */
+/** One step with the gain of eq. 18, which solves an m x m system for m measurements.
+ * \throw std::invalid_argument when the three columns of the measurements differ in length */
 [[nodiscard]] UpdateStep standardStep(
     const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements);
 
-/** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. */
+/** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. The
+ * posterior's covariance is symmetric and refers to the posterior's own tangent space.
+ * \throw std::invalid_argument when max_iterations < 1, or when the standard gain is chosen and the
+ * model does not stack as many measurements as it counts */
 [[nodiscard]] UpdateResult iteratedUpdate(
     const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
     GainForm gain);

@@ -1,0 +1,147 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/filter/propagation.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace fastlio
+{
+namespace
+{
+/** The blocks of eq. 7 that are neither zero nor a multiple of the identity. Noise enters as the
+ * biases do (n_w beside b_w, n_a beside b_a), so Fw has no blocks of its own. */
+struct ProcessBlocks
+{
+  Mat3 attitude_attitude;    //!< Exp(-w dt)
+  Mat3 attitude_gyro_bias;   //!< -A(w dt)^T dt
+  Mat3 velocity_attitude;    //!< -R [a]x dt
+  Mat3 velocity_accel_bias;  //!< -R dt
+};
+
+ProcessBlocks processBlocks(const NavState& x, const Vec3& gyro, const Vec3& accel, double dt)
+{
+  const Vec3 angle = (gyro - x.gyro_bias) * dt;
+  ProcessBlocks b;
+  b.attitude_attitude = expSO3(-angle);
+  b.attitude_gyro_bias = -dt * leftJacobianSO3(angle).transpose();
+  b.velocity_accel_bias = -dt * x.R;
+  b.velocity_attitude.noalias() = b.velocity_accel_bias * skew(accel - x.accel_bias);
+  return b;
+}
+
+constexpr int kMotionDim = 9;  //!< attitude, position, velocity: the rows of Fx that differ from I
+using MotionRows = Eigen::Matrix<double, kMotionDim, kStateDim>;
+using MotionSquare = Eigen::Matrix<double, kMotionDim, kMotionDim>;
+
+/** The first nine rows of Fx P. */
+MotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
+{
+  MotionRows m;
+  m.middleRows<3>(kAttitude).noalias() =
+      F.attitude_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
+      F.attitude_gyro_bias.lazyProduct(P.middleRows<3>(kGyroBias));
+  m.middleRows<3>(kPosition) = P.middleRows<3>(kPosition) + dt * P.middleRows<3>(kVelocity);
+  m.middleRows<3>(kVelocity) = P.middleRows<3>(kVelocity) + dt * P.middleRows<3>(kGravity) +
+                               F.velocity_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
+                               F.velocity_accel_bias.lazyProduct(P.middleRows<3>(kAccelBias));
+  return m;
+}
+
+/** The first nine columns of (rows of Fx P) Fx^T. */
+MotionSquare rightMultiply(const MotionRows& m, const ProcessBlocks& F, double dt)
+{
+  MotionSquare s;
+  s.middleCols<3>(kAttitude).noalias() =
+      m.middleCols<3>(kAttitude).lazyProduct(F.attitude_attitude.transpose()) +
+      m.middleCols<3>(kGyroBias).lazyProduct(F.attitude_gyro_bias.transpose());
+  s.middleCols<3>(kPosition) = m.middleCols<3>(kPosition) + dt * m.middleCols<3>(kVelocity);
+  s.middleCols<3>(kVelocity) =
+      m.middleCols<3>(kVelocity) + dt * m.middleCols<3>(kGravity) +
+      m.middleCols<3>(kAttitude).lazyProduct(F.velocity_attitude.transpose()) +
+      m.middleCols<3>(kAccelBias).lazyProduct(F.velocity_accel_bias.transpose());
+  return s;
+}
+
+/** P + Fw Q Fw^T. A sample is the mean over its period dt, so white noise of density s has the
+ * variance s^2 / dt in it; Fw carries dt itself, which leaves s^2 dt. */
+void addNoise(StateMatrix& P, const ProcessBlocks& F, const ImuNoise& noise, double dt)
+{
+  const auto square = [](double s) { return s * s; };
+  const Mat3& B = F.attitude_gyro_bias;
+  P.block<3, 3>(kAttitude, kAttitude) +=
+      square(noise.gyro_noise_density) / dt * B.lazyProduct(B.transpose());
+  // (R dt) (R dt)^T / dt = I dt
+  P.diagonal().segment<3>(kVelocity).array() += square(noise.accel_noise_density) * dt;
+  P.diagonal().segment<3>(kGyroBias).array() += square(noise.gyro_bias_walk) * dt;
+  P.diagonal().segment<3>(kAccelBias).array() += square(noise.accel_bias_walk) * dt;
+}
+
+/** Eq. 8 from the blocks of Fx: only the first nine rows and columns of P change but for noise. */
+StateMatrix propagateCovariance(
+    const StateMatrix& P, const ProcessBlocks& F, double dt, const ImuNoise& noise)
+{
+  constexpr int kRest = kStateDim - kMotionDim;
+  const MotionRows rows = leftMultiply(F, P, dt);
+  const MotionSquare motion = rightMultiply(rows, F, dt);
+  StateMatrix out;
+  out.topLeftCorner<kMotionDim, kMotionDim>() = 0.5 * (motion + motion.transpose());
+  out.topRightCorner<kMotionDim, kRest>() = rows.rightCols<kRest>();
+  out.bottomLeftCorner<kRest, kMotionDim>() = rows.rightCols<kRest>().transpose();
+  out.bottomRightCorner<kRest, kRest>() = P.bottomRightCorner<kRest, kRest>();
+  addNoise(out, F, noise, dt);
+  return out;
+}
+}  // namespace
+
+// Eq. 2-3: x [+] dt f(x, u, w).
+NavState propagateMean(
+    const NavState& x, const Vec3& gyro, const Vec3& accel, double dt, const NoiseVector& w)
+{
+  StateVector f;
+  f.segment<3>(kAttitude) = gyro - x.gyro_bias - w.segment<3>(0);
+  f.segment<3>(kPosition) = x.v;
+  f.segment<3>(kVelocity) = x.R * (accel - x.accel_bias - w.segment<3>(3)) + x.g;
+  f.segment<3>(kGyroBias) = w.segment<3>(6);
+  f.segment<3>(kAccelBias) = w.segment<3>(9);
+  f.segment<3>(kGravity).setZero();
+  return boxplus(x, dt * f);
+}
+
+// Eq. 7: Fx and Fw, written out in full.
+ProcessJacobians processJacobians(const NavState& x, const Vec3& gyro, const Vec3& accel, double dt)
+{
+  const ProcessBlocks b = processBlocks(x, gyro, accel, dt);
+  const Mat3 I_dt = dt * Mat3::Identity();
+  ProcessJacobians j{StateMatrix::Identity(), NoiseJacobian::Zero()};
+  j.Fx.block<3, 3>(kAttitude, kAttitude) = b.attitude_attitude;
+  j.Fx.block<3, 3>(kAttitude, kGyroBias) = b.attitude_gyro_bias;
+  j.Fx.block<3, 3>(kPosition, kVelocity) = I_dt;
+  j.Fx.block<3, 3>(kVelocity, kAttitude) = b.velocity_attitude;
+  j.Fx.block<3, 3>(kVelocity, kAccelBias) = b.velocity_accel_bias;
+  j.Fx.block<3, 3>(kVelocity, kGravity) = I_dt;
+  j.Fw.block<3, 3>(kAttitude, 0) = b.attitude_gyro_bias;
+  j.Fw.block<3, 3>(kVelocity, 3) = b.velocity_accel_bias;
+  j.Fw.block<3, 3>(kGyroBias, 6) = I_dt;
+  j.Fw.block<3, 3>(kAccelBias, 9) = I_dt;
+  return j;
+}
+
+// Eq. 4 (mean, w = 0) and eq. 8 (covariance).
+FilterState propagate(
+    const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise)
+{
+  if (dt == 0.0) return s;
+  if (!(dt > 0.0))
+  {
+    throw std::invalid_argument(
+        "propagate: the time step is " + std::to_string(dt) +
+        " s but must not be negative; sort the inertial samples by stamp");
+  }
+  return {
+      propagateMean(s.x, gyro, accel, dt),
+      propagateCovariance(s.P, processBlocks(s.x, gyro, accel, dt), dt, noise)};
+}
+
+}  // namespace fastlio
