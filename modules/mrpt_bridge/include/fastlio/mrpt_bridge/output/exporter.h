@@ -1,0 +1,65 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file exporter.h What writes results: one class per file format, fed scan by scan. */
+#pragma once
+
+#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <mrpt/maps/CPointsMap.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** What is known when the last scan is done. */
+struct RunEnd
+{
+  const RunSummary& summary;          //!< with the outputs of the exporters that finished before
+  const mrpt::maps::CPointsMap& map;  //!< final map, world frame
+};
+
+/** Turns a run into one or more files. Constructors open the files, so that an unwritable place is
+ * known before the run; rows are written as they come. */
+class Exporter
+{
+ public:
+  Exporter() = default;
+  virtual ~Exporter() = default;
+  Exporter(const Exporter&) = delete;
+  Exporter& operator=(const Exporter&) = delete;
+
+  /** Takes one scan's result, in time order.
+   * \exception std::runtime_error the file cannot be written */
+  virtual void onScan(const ScanResult& result) = 0;
+
+  /** Completes the files and gives them their final names.
+   * \exception std::runtime_error the file cannot be written */
+  virtual std::vector<OutputFile> finish(const RunEnd& end) = 0;
+};
+
+/** All exporters of a run. One that fails is left out from there on and reported; the others go on.
+ */
+class ExporterSet
+{
+ public:
+  void add(std::unique_ptr<Exporter> exporter);
+  void onScan(const ScanResult& result);
+
+  /** Finishes all, in the order they were added.
+   * \return the summary, completed with outputs and output_problems */
+  [[nodiscard]] RunSummary finish(RunSummary summary, const mrpt::maps::CPointsMap& map);
+
+  /** Sentences about exporters that failed so far. */
+  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::vector<std::unique_ptr<Exporter>> exporters_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace fastlio
