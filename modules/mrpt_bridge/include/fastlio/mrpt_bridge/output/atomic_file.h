@@ -31,8 +31,8 @@ void prepareOutputDirectory(const std::string& directory);
 
 /** Writes to `<path>.tmp` and renames to `<path>` on commit().
  *
- * Readers never see half a file, and a file of an earlier run stays until its successor is complete.
- * Destroyed without commit(), the temporary file stays: what was computed is not lost.
+ * Readers never see half a file, and a file of an earlier run stays until its successor is
+ * complete. Destroyed without commit(), the temporary file stays: what was computed is not lost.
  */
 class AtomicFile
 {

@@ -28,7 +28,8 @@ struct PoseEstimate
 [[nodiscard]] bool hasPose(ScanStatus status);
 
 /** T_world_body = T_world_imu T_imu_body, with the covariance carried over to first order:
- * dtheta_body = R_imu_body^T dtheta_imu, dp_body = dp_imu - R_world_imu [p_imu_body]x dtheta_imu. */
+ * dtheta_body = R_imu_body^T dtheta_imu, dp_body = dp_imu - R_world_imu [p_imu_body]x dtheta_imu.
+ */
 [[nodiscard]] PoseEstimate poseEstimateOf(const FilterState& filter, const Pose& T_imu_body);
 
 /** "x,y,z,qx,qy,qz,qw" with the given separator: position with 6 decimals [m], unit quaternion with

@@ -6,8 +6,7 @@
 
 #include <fastlio/mrpt_bridge/output/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/run_statistics.h>
-
-#include <mrpt/containers/yaml.h>
+#include <fastlio/odometry/parameters.h>
 
 #include <string>
 #include <vector>
@@ -31,16 +30,16 @@ struct InputFile
 /** A run, as summary.json tells it. */
 struct RunSummary
 {
-  std::string program, version;         //!< who computed it
-  std::vector<InputFile> inputs;        //!< in reading order
-  std::string configuration;            //!< the YAML file, or which defaults were used
-  std::string frame;                    //!< body frame of the exported poses: "vehicle" or "imu"
-  std::vector<std::string> sensors;     //!< one line per sensor in use
-  mrpt::containers::yaml parameters;    //!< every parameter with the value used
-  std::vector<NamedCount> input_counts; //!< observations read and dropped, by reason
+  std::string program, version;          //!< who computed it
+  std::vector<InputFile> inputs;         //!< in reading order
+  std::string configuration;             //!< the YAML file, or which defaults were used
+  std::string frame;                     //!< body frame of the exported poses: "vehicle" or "imu"
+  std::vector<std::string> sensors;      //!< one line per sensor in use
+  Parameters parameters;                 //!< as used
+  std::vector<NamedCount> input_counts;  //!< observations read and dropped, by reason
   RunStatistics statistics;
-  double wall_seconds = 0;              //!< of the whole run, reading included
-  bool interrupted = false;             //!< stopped by SIGINT or SIGTERM
+  double wall_seconds = 0;                   //!< of the whole run, reading included
+  bool interrupted = false;                  //!< stopped by SIGINT or SIGTERM
   std::vector<std::string> input_problems;   //!< truncated or corrupt input, in sentences
   std::vector<std::string> output_problems;  //!< files that could not be written
   std::vector<OutputFile> outputs;           //!< files that are complete
@@ -50,12 +49,12 @@ struct RunSummary
 enum class ExitStatus : int
 {
   Ok = 0,
-  Usage = 1,              //!< command line or configuration: nothing was run
-  InputUnusable = 2,      //!< unreadable input or no usable sensors: nothing was computed
-  InputBroken = 3,        //!< truncated or corrupt input: results up to there
-  OdometryFailed = 4,     //!< diverged or never initialised: results written
-  OutputFailed = 5,       //!< an output file could not be written; the others are complete
-  Interrupted = 130       //!< SIGINT or SIGTERM: results up to there
+  Usage = 1,           //!< command line or configuration: nothing was run
+  InputUnusable = 2,   //!< unreadable input or no usable sensors: nothing was computed
+  InputBroken = 3,     //!< truncated or corrupt input: results up to there
+  OdometryFailed = 4,  //!< diverged or never initialised: results written
+  OutputFailed = 5,    //!< an output file could not be written; the others are complete
+  Interrupted = 130    //!< SIGINT or SIGTERM: results up to there
 };
 
 /** Exit status of a run that computed something; when several apply, the first of interrupted,

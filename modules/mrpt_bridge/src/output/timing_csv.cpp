@@ -1,0 +1,71 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/mrpt_bridge/output/standard_exporters.h>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kHeader =
+    "# What became of every scan and how long it took. stamp_ns: the scan's end. residual_rms in "
+    "m;\n"
+    "# normalized_innovation: mean z^2/r, about 1 when the noise model is true;\n"
+    "# information_min: smallest eigenvalue of H^T R^-1 H (weakest direction of the pose).\n"
+    "stamp_ns,status,points_in,dropped_invalid,dropped_near,dropped_far,dropped_time,"
+    "points_reduced,points_effective,imu_samples,map_points,iterations,converged,residual_rms,"
+    "normalized_innovation,information_min,propagate_ms,deskew_ms,reduce_ms,associate_ms,update_ms,"
+    "insert_ms,total_ms\n";
+
+std::string counts(const ScanStatistics& s)
+{
+  std::string text;
+  for (const std::size_t n :
+       {s.points_in, s.dropped_invalid, s.dropped_near, s.dropped_far, s.dropped_time,
+        s.points_reduced, s.points_effective, s.imu_samples, s.map_points})
+    text += "," + std::to_string(n);
+  return text + "," + std::to_string(s.iterations) + "," + (s.converged ? "1" : "0");
+}
+
+std::string measures(const ScanStatistics& s)
+{
+  return "," + shortestText(s.residual_rms) + "," + shortestText(s.normalized_innovation) + "," +
+         shortestText(s.information_eigenvalues[0]);
+}
+
+std::string milliseconds(const StageTimings& t)
+{
+  std::string text;
+  for (const double ms :
+       {t.propagate, t.deskew, t.reduce, t.associate, t.update, t.insert, t.total})
+    text += "," + fixedText(ms, 4);
+  return text;
+}
+
+class TimingExporter : public Exporter
+{
+ public:
+  explicit TimingExporter(const std::string& path) : file_(path) { file_.write(kHeader); }
+
+  void onScan(const ScanResult& result) override
+  {
+    file_.write(
+        std::to_string(result.stamp_ns) + "," + toString(result.status) +
+        counts(result.statistics) + measures(result.statistics) +
+        milliseconds(result.milliseconds) + "\n");
+  }
+
+  std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {file_.commit()}; }
+
+ private:
+  AtomicFile file_;
+};
+}  // namespace
+
+std::unique_ptr<Exporter> makeTimingExporter(const std::string& path)
+{
+  return std::make_unique<TimingExporter>(path);
+}
+
+}  // namespace fastlio
