@@ -1,0 +1,116 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "command_line.h"
+
+#include <map>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kFooter = R"(Formats, recognised by content:
+  TUM             time[s] x y z[m] qx qy qz qw
+  KITTI           12 numbers, the 3x4 pose matrix; needs --kitti-times or --kitti-rate
+  states.csv      as written by fastlio-replay
+  covariance.csv  as written by fastlio-replay; as the estimate it adds NEES to the report
+
+Exit status:
+  0  evaluated, all limits kept
+  1  wrong usage, unreadable or unusable input, output not written
+  2  a limit (--max-*, --min-*) is not kept)";
+
+const std::map<std::string, Alignment>& alignmentNames()
+{
+  static const std::map<std::string, Alignment> kNames{
+      {"none", Alignment::None},
+      {"first", Alignment::First},
+      {"yaw", Alignment::Yaw},
+      {"se3", Alignment::Se3},
+      {"sim3", Alignment::Sim3}};
+  return kNames;
+}
+
+const std::map<std::string, NeesAlignment>& neesAlignmentNames()
+{
+  static const std::map<std::string, NeesAlignment> kNames{
+      {"first", NeesAlignment::First}, {"none", NeesAlignment::None}};
+  return kNames;
+}
+
+void addInputOptions(CLI::App& app, EvalCommand& c)
+{
+  app.add_option("reference,-r,--reference", c.reference, "Trajectory taken as the truth")
+      ->required();
+  app.add_option("estimate,-e,--estimate", c.estimate, "Trajectory to be evaluated")->required();
+  auto* times = app.add_option(
+      "--kitti-times", c.kitti.times_file, "File with one time [s] per line for KITTI poses");
+  app.add_option("--kitti-rate", c.kitti.rate, "Poses per second [Hz] of KITTI poses")
+      ->excludes(times);
+  app.add_option(
+         "--max-gap", c.evaluation.association.max_gap,
+         "Do not interpolate the reference across longer gaps [s]")
+      ->capture_default_str();
+  app.add_option(
+         "--time-offset", c.evaluation.association.time_offset,
+         "Added to the times of the estimate [s]")
+      ->capture_default_str();
+}
+
+void addMeasureOptions(CLI::App& app, EvaluationOptions& e)
+{
+  app.add_option("-a,--align", e.alignment, "none | first | yaw (and position) | se3 | sim3")
+      ->transform(CLI::CheckedTransformer(alignmentNames(), CLI::ignore_case))
+      ->default_str("se3");
+  app.add_option(
+         "--nees-align", e.nees_alignment,
+         "first: NEES relative to the first pose | none: world frames are the same")
+      ->transform(CLI::CheckedTransformer(neesAlignmentNames(), CLI::ignore_case))
+      ->default_str("first");
+  app.add_option("--rpe-seconds", e.rpe_seconds, "Span of the RPE per second [s]")
+      ->capture_default_str();
+  app.add_option("--rpe-metres", e.rpe_metres, "Span of the RPE per metre [m]")
+      ->capture_default_str();
+  app.add_option(
+         "--segment-lengths", e.segment_lengths, "Lengths of segments [m], separated by commas")
+      ->delimiter(',')
+      ->default_str("5,10,25,50,100,200,...,800");
+}
+
+void addOutputOptions(CLI::App& app, EvalCommand& c)
+{
+  app.add_option(
+      "--json", c.json_path, "Write the report as JSON to FILE, or with '-' instead of the table");
+  app.add_option("--plot", c.svg_path, "Write a picture (SVG): top view and errors over time");
+}
+
+void addGateOptions(CLI::App& app, GateLimits& g)
+{
+  const auto add = [&](const char* name, std::optional<double>& limit, const char* text)
+  { app.add_option(name, limit, text)->check(CLI::NonNegativeNumber)->group("Limits"); };
+  add("--max-ape", g.max_ape, "APE translation RMSE [m]");
+  add("--max-ape-rotation", g.max_ape_rotation, "APE rotation RMSE [deg]");
+  add("--max-rpe", g.max_rpe, "RPE translation RMSE per second [m/s]");
+  add("--max-rpe-rotation", g.max_rpe_rotation, "RPE rotation RMSE per second [deg/s]");
+  add("--max-segment-percent", g.max_segment_percent, "Mean segment translation error [%]");
+  add("--max-drift", g.max_drift, "End-to-end drift [m]");
+  add("--max-drift-percent", g.max_drift_percent, "End-to-end drift [% of the path]");
+  add("--max-nees", g.max_nees, "Mean NEES of the pose (expected: 6)");
+  add("--max-nees-position", g.max_nees_position, "Mean NEES of the position (expected: 3)");
+  add("--max-nees-rotation", g.max_nees_rotation, "Mean NEES of the rotation (expected: 3)");
+  add("--min-coverage", g.min_coverage_percent, "Share of the reference's time span [%]");
+}
+
+}  // namespace
+
+void addOptions(CLI::App& app, EvalCommand& command)
+{
+  app.set_version_flag("--version", "fastlio-eval " MRPT_FASTLIO_VERSION);
+  app.footer(kFooter);
+  addInputOptions(app, command);
+  addMeasureOptions(app, command.evaluation);
+  addOutputOptions(app, command);
+  addGateOptions(app, command.gates);
+}
+
+}  // namespace fastlio

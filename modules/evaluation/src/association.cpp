@@ -1,0 +1,138 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "text_numbers.h"
+#include <fastlio/evaluation/association.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+std::int64_t toNs(double seconds)
+{
+  return std::llround(seconds * 1e9);
+}
+
+enum class Match
+{
+  Used,
+  Before,
+  After,
+  InGap
+};
+
+struct Sample
+{
+  Match match = Match::Used;
+  Pose pose;
+};
+
+/** The reference at a stamp. */
+Sample sampleAt(
+    const std::vector<StampedPose>& reference, std::int64_t stamp_ns, std::int64_t max_gap_ns)
+{
+  if (stamp_ns < reference.front().stamp_ns) return {Match::Before, {}};
+  if (stamp_ns > reference.back().stamp_ns) return {Match::After, {}};
+  const auto right = std::lower_bound(
+      reference.begin(), reference.end(), stamp_ns,
+      [](const StampedPose& pose, std::int64_t t) { return pose.stamp_ns < t; });
+  if (right->stamp_ns == stamp_ns) return {Match::Used, right->T_world_body};
+  const auto left = right - 1;
+  if (right->stamp_ns - left->stamp_ns > max_gap_ns) return {Match::InGap, {}};
+  return {Match::Used, interpolate(*left, *right, stamp_ns)};
+}
+
+void count(AssociationCounts& counts, Match match)
+{
+  ++counts.estimated;
+  switch (match)
+  {
+    case Match::Used:
+      ++counts.used;
+      break;
+    case Match::Before:
+      ++counts.before;
+      break;
+    case Match::After:
+      ++counts.after;
+      break;
+    case Match::InGap:
+      ++counts.in_gap;
+      break;
+  }
+}
+
+double coverageOf(const std::vector<StampedPose>& used, const std::vector<StampedPose>& reference)
+{
+  const auto span = [](const std::vector<StampedPose>& poses)
+  { return static_cast<double>(poses.back().stamp_ns - poses.front().stamp_ns); };
+  return used.size() < 2 ? 0.0 : span(used) / span(reference);
+}
+
+std::string rangeOf(const Trajectory& t, std::int64_t offset_ns)
+{
+  return "'" + t.source + "' covers " + formatSeconds(t.poses.front().stamp_ns + offset_ns) +
+         " to " + formatSeconds(t.poses.back().stamp_ns + offset_ns) + " s";
+}
+
+void requireOverlap(
+    const AssociationCounts& counts, const Trajectory& estimate, const Trajectory& reference,
+    const AssociationOptions& options)
+{
+  if (counts.used >= 2) return;
+  throw std::invalid_argument(
+      "fewer than two poses have a common time: of " + std::to_string(counts.estimated) +
+      " estimated poses " + std::to_string(counts.before) + " are before, " +
+      std::to_string(counts.after) + " after and " + std::to_string(counts.in_gap) +
+      " in gaps (above " + std::to_string(options.max_gap) + " s) of the reference. The estimate " +
+      rangeOf(estimate, toNs(options.time_offset)) + ", the reference " + rangeOf(reference, 0) +
+      ". Check that both use one clock, the time offset and the largest gap allowed");
+}
+
+void requireValid(const AssociationOptions& options)
+{
+  if (!(options.max_gap > 0.0) || !std::isfinite(options.max_gap))
+    throw std::invalid_argument("the largest gap must be a number above 0 s");
+  if (!std::isfinite(options.time_offset))
+    throw std::invalid_argument("the time offset must be a finite number of seconds");
+}
+
+}  // namespace
+
+Pose interpolate(const StampedPose& a, const StampedPose& b, std::int64_t stamp_ns)
+{
+  const double s =
+      static_cast<double>(stamp_ns - a.stamp_ns) / static_cast<double>(b.stamp_ns - a.stamp_ns);
+  const Pose& A = a.T_world_body;
+  const Pose& B = b.T_world_body;
+  return {A.R * expSO3(s * logSO3(A.R.transpose() * B.R)), A.p + s * (B.p - A.p)};
+}
+
+AssociatedTrajectories associate(
+    const Trajectory& estimate, const Trajectory& reference, const AssociationOptions& options)
+{
+  requireValid(options);
+  requireValid(estimate);
+  requireValid(reference);
+  AssociatedTrajectories result;
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i)
+  {
+    const std::int64_t stamp_ns = estimate.poses[i].stamp_ns + toNs(options.time_offset);
+    const Sample sample = sampleAt(reference.poses, stamp_ns, toNs(options.max_gap));
+    count(result.counts, sample.match);
+    if (sample.match != Match::Used) continue;
+    result.estimate.push_back({stamp_ns, estimate.poses[i].T_world_body});
+    result.reference.push_back({stamp_ns, sample.pose});
+    if (estimate.hasCovariances()) result.covariances.push_back(estimate.covariances[i]);
+  }
+  requireOverlap(result.counts, estimate, reference, options);
+  result.counts.coverage = coverageOf(result.reference, reference.poses);
+  return result;
+}
+
+}  // namespace fastlio

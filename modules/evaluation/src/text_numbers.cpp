@@ -1,0 +1,177 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "text_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::int64_t kMaxSeconds = 9'223'372'035;  // of an int64_t in nanoseconds
+constexpr std::string_view kBlanks = " \t\r";
+
+std::string_view trim(std::string_view text)
+{
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string quoted(std::string_view text)
+{
+  return "'" + std::string(text) + "'";
+}
+
+bool allDigits(std::string_view text)
+{
+  return std::all_of(
+      text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+[[noreturn]] void failTooLarge(std::string_view text, const TextPlace& place)
+{
+  failAt(
+      place, "time " + quoted(text) +
+                 " does not fit into 64-bit nanoseconds; times are in seconds, "
+                 "were they written in nanoseconds?");
+}
+
+std::int64_t parseScientificSeconds(std::string_view text, const TextPlace& place)
+{
+  long double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    failAt(place, "expected a time in seconds, saw " + quoted(text));
+  if (std::abs(value) > static_cast<long double>(kMaxSeconds)) failTooLarge(text, place);
+  return std::llround(value * static_cast<long double>(kNsPerSecond));
+}
+
+/** Nanoseconds of the digits behind the decimal point, rounded at the tenth. */
+std::int64_t fractionNs(std::string_view digits)
+{
+  std::int64_t ns = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    ns = 10 * ns + (i < digits.size() ? digits[i] - '0' : 0);
+  return digits.size() > 9 && digits[9] >= '5' ? ns + 1 : ns;
+}
+
+std::int64_t parseDecimalSeconds(std::string_view text, const TextPlace& place)
+{
+  const bool negative = !text.empty() && text.front() == '-';
+  const std::string_view unsigned_text = text.substr(negative ? 1 : 0);
+  const auto point = unsigned_text.find('.');
+  const std::string_view whole = unsigned_text.substr(0, point);
+  const std::string_view fraction =
+      point == std::string_view::npos ? std::string_view{} : unsigned_text.substr(point + 1);
+  if (whole.empty() || !allDigits(whole) || !allDigits(fraction))
+    failAt(place, "expected a time in seconds, saw " + quoted(text));
+  std::int64_t seconds = 0;
+  const auto parsed = std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
+  if (parsed.ec != std::errc{} || seconds > kMaxSeconds) failTooLarge(text, place);
+  const std::int64_t ns = seconds * kNsPerSecond + fractionNs(fraction);
+  return negative ? -ns : ns;
+}
+
+}  // namespace
+
+void failAt(const TextPlace& place, const std::string& message)
+{
+  throw std::runtime_error(place.file.string() + ":" + std::to_string(place.line) + ": " + message);
+}
+
+std::vector<DataLine> readDataLines(const std::filesystem::path& file)
+{
+  if (std::filesystem::is_directory(file))
+    throw std::runtime_error(file.string() + ": is a directory; give a trajectory file");
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw std::runtime_error(
+        file.string() + ": cannot be opened for reading; check the path and its permissions");
+  std::vector<DataLine> lines;
+  std::string text;
+  for (std::size_t number = 1; std::getline(in, text); ++number)
+  {
+    const std::string_view data = trim(text);
+    if (!data.empty() && data.front() != '#') lines.push_back({number, std::string(data)});
+  }
+  if (in.bad()) throw std::runtime_error(file.string() + ": reading failed half way");
+  if (lines.empty())
+    throw std::runtime_error(file.string() + ": holds no data (empty, or comments only)");
+  return lines;
+}
+
+std::vector<std::string_view> splitAtBlanks(std::string_view text)
+{
+  std::vector<std::string_view> columns;
+  while (!(text = trim(text)).empty())
+  {
+    const auto end = std::min(text.find_first_of(kBlanks), text.size());
+    columns.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+  }
+  return columns;
+}
+
+std::vector<std::string_view> splitAtCommas(std::string_view text)
+{
+  std::vector<std::string_view> columns;
+  for (;;)
+  {
+    const auto comma = text.find(',');
+    columns.push_back(trim(text.substr(0, comma)));
+    if (comma == std::string_view::npos) return columns;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+double parseNumber(std::string_view text, const TextPlace& place)
+{
+  const std::string_view digits = !text.empty() && text.front() == '+' ? text.substr(1) : text;
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    failAt(place, "expected a number, saw " + quoted(text));
+  if (!std::isfinite(value))
+    failAt(place, "expected a finite number, saw " + quoted(text) + "; remove or repair the line");
+  return value;
+}
+
+std::int64_t parseNanoseconds(std::string_view text, const TextPlace& place)
+{
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    failAt(place, "expected an integer number of nanoseconds, saw " + quoted(text));
+  return value;
+}
+
+std::int64_t parseSeconds(std::string_view text, const TextPlace& place)
+{
+  const bool scientific = text.find_first_of("eE") != std::string_view::npos;
+  return scientific ? parseScientificSeconds(text, place) : parseDecimalSeconds(text, place);
+}
+
+std::string formatSeconds(std::int64_t stamp_ns)
+{
+  const auto magnitude = stamp_ns < 0 ? 0 - static_cast<std::uint64_t>(stamp_ns)
+                                      : static_cast<std::uint64_t>(stamp_ns);
+  constexpr auto kNs = static_cast<std::uint64_t>(kNsPerSecond);
+  std::array<char, 40> text{};
+  std::snprintf(
+      text.data(), text.size(), "%s%llu.%09llu", stamp_ns < 0 ? "-" : "",
+      static_cast<unsigned long long>(magnitude / kNs),
+      static_cast<unsigned long long>(magnitude % kNs));
+  return text.data();
+}
+
+}  // namespace fastlio
