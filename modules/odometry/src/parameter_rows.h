@@ -1,0 +1,28 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file parameter_rows.h The rows of parameterTable(), group by group (internal). */
+#pragma once
+
+#include <fastlio/odometry/parameter_table.h>
+
+#include <vector>
+
+namespace fastlio
+{
+using ParameterRows = std::vector<ParameterRow>;
+
+// Defined in parameter_rows_sensors.cpp.
+[[nodiscard]] ParameterRows inputRows();
+[[nodiscard]] ParameterRows initializationRows();
+[[nodiscard]] ParameterRows imuRows();
+[[nodiscard]] ParameterRows lidarRows();
+
+// Defined in parameter_rows_estimation.cpp.
+[[nodiscard]] ParameterRows reductionRows();
+[[nodiscard]] ParameterRows measurementRows();
+[[nodiscard]] ParameterRows mapRows();
+[[nodiscard]] ParameterRows updateRows();
+[[nodiscard]] ParameterRows generalRows();
+
+}  // namespace fastlio

@@ -1,0 +1,90 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "parameter_rows.h"
+
+namespace fastlio
+{
+ParameterRows reductionRows()
+{
+  return {
+      {"reduction.voxel_size", "m",
+       RealValue{[](auto& p) { return &p.reduction.voxel_size; }, 0.01, 10.0},
+       "grid of which each voxel gives one point to the update; smaller: slower, more points"},
+      {"reduction.max_points", "",
+       IntegerValue{[](auto& p) { return &p.reduction.max_points; }, 0, 10000000},
+       "at most so many points in the update; 0: no limit"},
+  };
+}
+
+ParameterRows measurementRows()
+{
+  return {
+      {"measurement.range_noise", "m",
+       RealValue{[](auto& p) { return &p.measurement.range_noise; }, 1e-4, 10.0},
+       "standard deviation of a measured range"},
+      {"measurement.max_normalized_residual", "",
+       RealValue{[](auto& p) { return &p.measurement.max_normalized_residual; }, 0.1, 1e6},
+       "a point is left out when its residual exceeds so many standard deviations of residual and "
+       "prediction"},
+      {"measurement.min_effective_points", "",
+       IntegerValue{[](auto& p) { return &p.measurement.min_effective_points; }, 1, 1000000},
+       "with fewer matched points the scan does not correct the prediction"},
+      {"measurement.association_iterations", "",
+       IntegerValue{[](auto& p) { return &p.measurement.association_iterations; }, 1, 100},
+       "so many iterations of the update search the map anew, the further ones keep the planes"},
+  };
+}
+
+ParameterRows mapRows()
+{
+  return {
+      {"map.type", "", textChoice([](auto& p) { return &p.map.type; }, {"knn", "planes"}),
+       "knn: exact nearest points and a plane through them, as in the paper; planes: voxels that "
+       "hold a ready plane, faster"},
+      {"map.radius", "m", RealValue{[](auto& p) { return &p.map.radius; }, 1.0, 100000.0},
+       "points farther from the sensor than this may leave the map: bounds its memory"},
+      {"map.min_spacing", "m", RealValue{[](auto& p) { return &p.map.min_spacing; }, 0.001, 10.0},
+       "map type knn: points nearer than this to one in the map are not added"},
+      {"map.voxel_size", "m", RealValue{[](auto& p) { return &p.map.voxel_size; }, 0.01, 100.0},
+       "map type planes: edge of the finest voxels"},
+      {"map.levels", "", IntegerValue{[](auto& p) { return &p.map.levels; }, 1, 10},
+       "map type planes: number of scales, each twice as coarse as the one before"},
+  };
+}
+
+ParameterRows updateRows()
+{
+  return {
+      {"update.max_iterations", "",
+       IntegerValue{[](auto& p) { return &p.update.max_iterations; }, 1, 100},
+       "limit of iterations of the update"},
+      {"update.attitude", "rad", RealValue{[](auto& p) { return &p.update.attitude; }, 0.0, 1.0},
+       "the update has converged when no component of a step exceeds its threshold: attitude"},
+      {"update.position", "m", RealValue{[](auto& p) { return &p.update.position; }, 0.0, 10.0},
+       "threshold of convergence of the position"},
+      {"update.velocity", "m/s", RealValue{[](auto& p) { return &p.update.velocity; }, 0.0, 10.0},
+       "threshold of convergence of the velocity"},
+      {"update.gyro_bias", "rad/s",
+       RealValue{[](auto& p) { return &p.update.gyro_bias; }, 0.0, 1.0},
+       "threshold of convergence of the gyro bias"},
+      {"update.accel_bias", "m/s^2",
+       RealValue{[](auto& p) { return &p.update.accel_bias; }, 0.0, 10.0},
+       "threshold of convergence of the accelerometer bias"},
+      {"update.gravity", "m/s^2", RealValue{[](auto& p) { return &p.update.gravity; }, 0.0, 10.0},
+       "threshold of convergence of gravity"},
+  };
+}
+
+ParameterRows generalRows()
+{
+  return {
+      {"gain", "", enumeration([](auto& p) { return &p.gain; }, {"information", "standard"}),
+       "form of the Kalman gain, equal results: information is eq. 20, fast for any number of "
+       "points; standard is eq. 18, its cost grows with the cube of the number of points"},
+      {"threads", "", IntegerValue{[](auto& p) { return &p.threads; }, 0, 1024},
+       "worker threads; 0: all cores; the results do not depend on it"},
+  };
+}
+
+}  // namespace fastlio

@@ -1,0 +1,115 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "parameter_rows.h"
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kRadPerDeg = 0.017453292519943295;
+}  // namespace
+
+ParameterRows inputRows()
+{
+  return {
+      {"input.lidar_sensor_label", "",
+       RegexValue{[](auto& p) { return &p.input.lidar_sensor_label; }},
+       "regular expression that the whole sensor label of the LiDAR matches; empty: found "
+       "automatically"},
+      {"input.imu_sensor_label", "", RegexValue{[](auto& p) { return &p.input.imu_sensor_label; }},
+       "regular expression that the whole sensor label of the IMU matches; empty: found "
+       "automatically"},
+      {"input.T_vehicle_imu", "m, deg", PoseValue{[](auto& p) { return &p.input.T_vehicle_imu; }},
+       "pose of the IMU in the vehicle frame as [x, y, z, yaw, pitch, roll]; null: the sensor pose "
+       "of the recording"},
+      {"input.T_vehicle_lidar", "m, deg",
+       PoseValue{[](auto& p) { return &p.input.T_vehicle_lidar; }},
+       "pose of the LiDAR in the vehicle frame as [x, y, z, yaw, pitch, roll]; null: the sensor "
+       "pose of the recording"},
+  };
+}
+
+ParameterRows initializationRows()
+{
+  return {
+      {"initialization.duration", "s",
+       RealValue{[](auto& p) { return &p.initialization.duration; }, 0.1, 60.0},
+       "time at rest that is averaged at the start; longer: better gravity direction and gyro "
+       "bias"},
+      {"initialization.max_gyro_std", "deg/s",
+       RealValue{[](auto& p) { return &p.initialization.max_gyro_std; }, 0.001, 500.0, kRadPerDeg},
+       "the platform does not rest when the angular rate scatters more than this"},
+      {"initialization.max_accel_std", "m/s^2",
+       RealValue{[](auto& p) { return &p.initialization.max_accel_std; }, 0.001, 100.0},
+       "the platform does not rest when the specific force scatters more than this"},
+      {"initialization.max_gyro_mean", "deg/s",
+       RealValue{[](auto& p) { return &p.initialization.max_gyro_mean; }, 0.001, 500.0, kRadPerDeg},
+       "the platform does not rest when the mean angular rate is above this; must exceed the gyro "
+       "bias"},
+      {"initialization.gravity", "m/s^2",
+       RealValue{[](auto& p) { return &p.initialization.gravity; }, 1.0, 30.0},
+       "magnitude of gravity at the start"},
+      {"initialization.gravity_std", "m/s^2",
+       RealValue{[](auto& p) { return &p.initialization.gravity_std; }, 0.0, 1.0},
+       "how well the magnitude of gravity is known"},
+      {"initialization.max_gravity_error", "m/s^2",
+       RealValue{[](auto& p) { return &p.initialization.max_gravity_error; }, 0.01, 20.0},
+       "the platform does not rest when the magnitude of the mean specific force differs more than "
+       "this from gravity"},
+      {"initialization.gyro_bias_std", "rad/s",
+       RealValue{[](auto& p) { return &p.initialization.gyro_bias_std; }, 0.0, 1.0},
+       "added to the uncertainty of the averaged gyro bias"},
+      {"initialization.accel_bias_std", "m/s^2",
+       RealValue{[](auto& p) { return &p.initialization.accel_bias_std; }, 0.0, 10.0},
+       "uncertainty of the accelerometer bias at the start, around zero"},
+      {"initialization.velocity_std", "m/s",
+       RealValue{[](auto& p) { return &p.initialization.velocity_std; }, 0.0, 10.0},
+       "uncertainty of the velocity at the start, around zero"},
+      {"initialization.align_with_gravity", "",
+       BooleanValue{[](auto& p) { return &p.initialization.align_with_gravity; }},
+       "true: the z axis of the world points up; false: the world is the first IMU frame, as in "
+       "the paper"},
+  };
+}
+
+ParameterRows imuRows()
+{
+  return {
+      {"imu.gyro_noise_density", "rad/s/sqrt(Hz)",
+       RealValue{[](auto& p) { return &p.imu.noise.gyro_noise_density; }, 1e-7, 10.0},
+       "white noise of the angular rate; above the data sheet when the IMU vibrates"},
+      {"imu.accel_noise_density", "m/s^2/sqrt(Hz)",
+       RealValue{[](auto& p) { return &p.imu.noise.accel_noise_density; }, 1e-7, 100.0},
+       "white noise of the specific force; above the data sheet when the IMU vibrates"},
+      {"imu.gyro_bias_walk", "rad/s^2/sqrt(Hz)",
+       RealValue{[](auto& p) { return &p.imu.noise.gyro_bias_walk; }, 0.0, 10.0},
+       "how fast the gyro bias wanders"},
+      {"imu.accel_bias_walk", "m/s^3/sqrt(Hz)",
+       RealValue{[](auto& p) { return &p.imu.noise.accel_bias_walk; }, 0.0, 100.0},
+       "how fast the accelerometer bias wanders"},
+      {"imu.hold", "", enumeration([](auto& p) { return &p.imu.hold; }, {"midpoint", "left"}),
+       "input between two samples: midpoint is their interpolation in the middle of the period; "
+       "left is the sample at its start, as in the paper"},
+      {"imu.max_gap", "s", RealValue{[](auto& p) { return &p.imu.max_gap; }, 0.001, 60.0},
+       "a longer gap between inertial samples is reported as a fault"},
+  };
+}
+
+ParameterRows lidarRows()
+{
+  return {
+      {"lidar.min_range", "m", RealValue{[](auto& p) { return &p.lidar.min_range; }, 0.0, 1000.0},
+       "nearer points are dropped: the platform itself, the operator"},
+      {"lidar.max_range", "m", RealValue{[](auto& p) { return &p.lidar.max_range; }, 0.1, 10000.0},
+       "farther points are dropped"},
+      {"lidar.time_offset", "s",
+       RealValue{[](auto& p) { return &p.lidar.time_offset; }, -10.0, 10.0},
+       "added to the stamps of the LiDAR to bring them to the clock of the IMU"},
+      {"lidar.deskew", "", BooleanValue{[](auto& p) { return &p.lidar.deskew; }},
+       "motion compensation of every point with its own time (eq. 9-10); false only for scans "
+       "without motion inside"},
+  };
+}
+
+}  // namespace fastlio
