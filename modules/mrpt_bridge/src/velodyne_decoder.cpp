@@ -1,0 +1,240 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "velodyne_models.h"
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace
+{
+using fastlio::FiringTiming;
+using fastlio::LaserGeometry;
+using fastlio::VelodyneModel;
+using fastlio::VelodyneSweep;
+using Scan = mrpt::obs::CObservationVelodyneScan;
+using Packet = Scan::TVelodyneRawPacket;
+using Block = Scan::raw_block_t;
+
+constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
+constexpr std::size_t kReturns = Scan::SCANS_PER_BLOCK;
+constexpr int kFullCircle = Scan::ROTATION_MAX_UNITS;  // azimuth unit: 0.01 deg
+constexpr double kRadiansPerUnit = 1e-4 * 1.7453292519943295;
+constexpr double kMetresPerUnit = 0.002;
+constexpr std::int64_t kMicrosecondsPerHour = 3'600'000'000;
+constexpr std::int64_t kMaxSweepMicroseconds = 2'000'000;
+constexpr double kNanosecondsPerMicrosecond = 1e3;
+
+// What stays the same for all packets of a sweep.
+struct Sensor
+{
+  VelodyneModel model;
+  FiringTiming timing;
+  std::vector<LaserGeometry> lasers;
+  double min_range, max_range;  // [m]
+};
+
+// One packet, understood: blocks of one group fire at the same time (banks, or the two returns of a
+// dual return packet).
+struct PacketLayout
+{
+  std::size_t blocks_per_group = 1;
+  bool dual = false;
+  double azimuth_per_us = 0;  // [rad/us]
+  double offset_us = 0;       // of the packet's first firing to that of the sweep
+};
+
+bool isGood(const Block& block, const FiringTiming& timing)
+{
+  const bool upper = block.header() == Scan::UPPER_BANK;
+  const bool lower = timing.blocks_at_once == 2 && block.header() == Scan::LOWER_BANK;
+  return (upper || lower) && block.rotation() < kFullCircle;
+}
+
+// The return mode byte of the HDL-64E carries status; two pairs of banks with one azimuth give it
+// away.
+bool isDual(const Packet& packet, const Sensor& sensor)
+{
+  if (sensor.model != VelodyneModel::Hdl64e) return packet.laser_return_mode == Scan::RETMODE_DUAL;
+  return packet.blocks[0].rotation() == packet.blocks[2].rotation() &&
+         packet.blocks[4].rotation() == packet.blocks[6].rotation();
+}
+
+// Rotor speed as the mean of the steps between groups, without those that a corrupt or missing
+// block or the edge of a restricted field of view makes odd. A single step is rounded to 0.01 deg,
+// the mean is not.
+double azimuthPerMicrosecond(
+    const Packet& packet, const FiringTiming& timing, std::size_t blocks_per_group)
+{
+  constexpr int kOddStep = 5;
+  std::vector<int> steps;
+  for (std::size_t i = 0; i + blocks_per_group < kBlocks; i += blocks_per_group)
+  {
+    const Block& from = packet.blocks[i];
+    const Block& to = packet.blocks[i + blocks_per_group];
+    if (isGood(from, timing) && isGood(to, timing))
+      steps.push_back((to.rotation() - from.rotation() + kFullCircle) % kFullCircle);
+  }
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const int median = *middle;
+  double sum = 0;
+  int count = 0;
+  for (const int step : steps)
+    if (std::abs(step - median) <= kOddStep) sum += step, ++count;
+  return sum / count * kRadiansPerUnit / timing.block_us;
+}
+
+double packetDuration(const PacketLayout& layout, const FiringTiming& timing)
+{
+  return static_cast<double>(kBlocks / layout.blocks_per_group) * timing.block_us;
+}
+
+// Packets carry microseconds past the hour. A stamp that does not follow the first packet's within
+// two seconds, or repeats the one before, is replaced by the time at which the packet was due.
+class PacketClock
+{
+ public:
+  explicit PacketClock(std::uint32_t first_us) : first_us_(first_us) {}
+
+  // Offset to the first packet [us]; counts a stamp that cannot be.
+  double offsetOf(std::uint32_t stamp_us, double duration_us, std::size_t& bad)
+  {
+    std::int64_t elapsed = static_cast<std::int64_t>(stamp_us) - first_us_;
+    if (elapsed < 0) elapsed += kMicrosecondsPerHour;
+    const bool repeats = started_ && stamp_us == previous_us_;
+    const bool good = elapsed >= 0 && elapsed < kMaxSweepMicroseconds && !repeats;
+    if (!good) ++bad;
+    const double offset = good ? static_cast<double>(elapsed) : due_us_;
+    due_us_ = offset + duration_us;
+    previous_us_ = stamp_us;
+    started_ = true;
+    return offset;
+  }
+
+ private:
+  std::int64_t first_us_;
+  std::uint32_t previous_us_ = 0;
+  double due_us_ = 0;
+  bool started_ = false;
+};
+
+// Velodyne's azimuth runs clockwise from its +y axis, which is forward: our +x.
+void addPoint(
+    VelodyneSweep& sweep, const LaserGeometry& laser, double distance, double azimuth,
+    std::uint8_t intensity, double time_us)
+{
+  const double a = azimuth - laser.azimuth_correction;
+  const double sin_a = std::sin(a), cos_a = std::cos(a);
+  const double xy = distance * laser.cos_elevation + laser.offset_xy;
+  sweep.points.push_back(
+      static_cast<float>(xy * cos_a + laser.horizontal_offset * sin_a),
+      static_cast<float>(-xy * sin_a + laser.horizontal_offset * cos_a),
+      static_cast<float>(distance * laser.sin_elevation + laser.offset_z), intensity,
+      static_cast<std::int32_t>(std::lround(time_us * kNanosecondsPerMicrosecond)), laser.ring);
+}
+
+// The block of the same lasers that a dual return packet holds for the first of both returns.
+const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std::size_t index)
+{
+  const std::size_t banks = layout.blocks_per_group / 2;
+  const bool second = layout.dual && index % layout.blocks_per_group >= banks;
+  return second ? &packet.blocks[index - banks] : nullptr;
+}
+
+void decodeBlock(
+    VelodyneSweep& sweep, const Packet& packet, const Sensor& sensor, const PacketLayout& layout,
+    std::size_t index)
+{
+  const Block& block = packet.blocks[index];
+  const Block* first_return = firstReturnOf(packet, layout, index);
+  const FiringTiming& timing = sensor.timing;
+  const std::size_t bank = block.header() == Scan::LOWER_BANK ? timing.lasers_per_sequence : 0;
+  const double block_us = static_cast<double>(index / layout.blocks_per_group) * timing.block_us;
+  for (std::size_t i = 0; i < kReturns; ++i)
+  {
+    const int raw = block.laser_returns[i].distance();
+    const LaserGeometry& laser = sensor.lasers[bank + i % timing.lasers_per_sequence];
+    const double distance = raw * kMetresPerUnit + laser.distance_correction;
+    if (raw == 0)
+      ++sweep.counts.no_return;
+    else if (first_return != nullptr && first_return->laser_returns[i].distance() == raw)
+      ++sweep.counts.duplicate;
+    else if (distance < sensor.min_range || distance > sensor.max_range)
+      ++sweep.counts.out_of_range;
+    else
+    {
+      const double since_block_us =
+          static_cast<double>(i / timing.lasers_per_sequence) * timing.sequence_us +
+          static_cast<double>(i % timing.lasers_per_sequence) * timing.laser_us;
+      const double azimuth =
+          block.rotation() * kRadiansPerUnit + since_block_us * layout.azimuth_per_us;
+      addPoint(
+          sweep, laser, distance, azimuth, block.laser_returns[i].intensity(),
+          layout.offset_us + block_us + since_block_us);
+    }
+  }
+}
+
+PacketLayout layoutOf(const Packet& packet, const Sensor& sensor)
+{
+  PacketLayout layout;
+  layout.dual = isDual(packet, sensor);
+  layout.blocks_per_group = sensor.timing.blocks_at_once * (layout.dual ? 2 : 1);
+  layout.azimuth_per_us = azimuthPerMicrosecond(packet, sensor.timing, layout.blocks_per_group);
+  return layout;
+}
+
+Sensor sensorOf(const Scan& scan)
+{
+  const auto model = fastlio::modelOf(scan);
+  if (!model)
+    throw std::runtime_error(
+        "Velodyne model byte " + std::to_string(scan.scan_packets.front().velodyne_model_ID) +
+        " is not supported (VLP-16, Puck LITE, Puck Hi-Res, HDL-32E and HDL-64E are). Convert the "
+        "recording to point clouds with the time of each point.");
+  return {
+      *model, fastlio::timingOf(*model), fastlio::lasersOf(*model, scan.calibration), scan.minRange,
+      scan.maxRange};
+}
+}  // namespace
+
+namespace fastlio
+{
+std::string velodyneModelName(const mrpt::obs::CObservationVelodyneScan& scan)
+{
+  const auto model = modelOf(scan);
+  return model ? nameOf(*model) : "unknown model";
+}
+
+VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
+{
+  VelodyneSweep sweep;
+  if (scan.scan_packets.empty()) return sweep;
+  const Sensor sensor = sensorOf(scan);
+  sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturns);
+  PacketClock clock(scan.scan_packets.front().gps_timestamp());
+  for (const Packet& packet : scan.scan_packets)
+  {
+    PacketLayout layout = layoutOf(packet, sensor);
+    layout.offset_us = clock.offsetOf(
+        packet.gps_timestamp(), packetDuration(layout, sensor.timing),
+        sweep.counts.bad_packet_times);
+    for (std::size_t i = 0; i < kBlocks; ++i)
+    {
+      if (isGood(packet.blocks[i], sensor.timing))
+        decodeBlock(sweep, packet, sensor, layout, i);
+      else
+        ++sweep.counts.bad_blocks;
+    }
+  }
+  return sweep;
+}
+
+}  // namespace fastlio
