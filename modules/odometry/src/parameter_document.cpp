@@ -32,11 +32,10 @@ std::string commentLines(const std::string& text, const std::string& indent)
   return lines + line + "\n";
 }
 
-/** "[m] 0.1 to 10, default 0.5". */
+/** "0.1 to 10 m; default 0.5". */
 std::string limitsText(const ParameterRow& row)
 {
-  const std::string unit = row.unit.empty() ? "" : "[" + std::string(row.unit) + "] ";
-  return unit + allowedText(row) + "; default " + valueText(row, Parameters{});
+  return allowedText(row) + "; default " + valueText(row, Parameters{});
 }
 
 std::string yamlEntry(const ParameterRow& row, const Parameters& parameters)
