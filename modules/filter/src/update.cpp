@@ -75,7 +75,7 @@ StackedMatrices stack(const StackedMeasurements& measurements)
 bool isFinite(const InformationSums& sums)
 {
   return sums.HtRinvH.allFinite() && sums.HtRinvz.allFinite() &&
-         std::isfinite(sums.weighted_squares);
+         std::isfinite(sums.weighted_squares) && std::isfinite(sums.squares);
 }
 
 bool isFinite(const UpdateStep& step)

@@ -1,0 +1,340 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "measurement_problems.h"
+#include <fastlio/filter/update.h>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace fastlio
+{
+namespace
+{
+using test::Random;
+
+constexpr double kSigma = 0.01;  //!< standard deviation of the plane residuals [m]
+
+/** A prior whose pose is off by about sigma (m and rad) from a true state. */
+struct Problem
+{
+  NavState truth;
+  FilterState prior;
+};
+
+Problem problemOff(Random& random, double sigma)
+{
+  Problem p;
+  p.truth = random.state();
+  StateVector dx = StateVector::Zero();
+  dx.head<6>() = sigma * random.stateVector(1.0).head<6>();
+  p.prior.x = boxplus(p.truth, dx);
+  p.prior.P = random.covariance(sigma, 4.0);
+  return p;
+}
+
+IterationLimits tightLimits(int max_iterations = 30)
+{
+  return {max_iterations, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
+}
+
+TEST(IteratedUpdate, exactPlanesRecoverThePose)
+{
+  Random random(41);
+  for (int i = 0; i < 20; ++i)
+  {
+    Problem p = problemOff(random, 0.2);
+    p.prior.P = StateMatrix::Identity();
+    const auto model =
+        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
+    const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
+    EXPECT_TRUE(r.updated);
+    EXPECT_TRUE(r.converged);
+    EXPECT_LT(boxminus(r.posterior.x, p.truth).head<6>().norm(), 1e-8);
+    EXPECT_LT(r.last.weighted_squares, 1e-6);
+    EXPECT_EQ(r.last.count, 200u);
+  }
+}
+
+TEST(IteratedUpdate, iteratingIsWhatRemovesTheNonlinearity)
+{
+  Random random(42);
+  Problem p = problemOff(random, 0.2);
+  p.prior.P = StateMatrix::Identity();
+  const auto model = test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
+  const auto error = [&](int iterations)
+  {
+    const auto limits = tightLimits(iterations);
+    const UpdateResult r = iteratedUpdate(p.prior, model, limits, GainForm::Information);
+    return boxminus(r.posterior.x, p.truth).head<6>().norm();
+  };
+  EXPECT_GT(error(1), 1e-3);
+  EXPECT_LT(error(2), 0.2 * error(1));
+  EXPECT_LT(error(5), 1e-6);
+}
+
+TEST(IteratedUpdate, bothGainsEndAtTheSamePosterior)
+{
+  Random random(43);
+  for (const int count : {4, 20, 150})
+  {
+    const Problem p = problemOff(random, 0.1);
+    const auto model =
+        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), count, kSigma), kSigma);
+    const UpdateResult a = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
+    const UpdateResult b = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Standard);
+    EXPECT_EQ(a.iterations, b.iterations);
+    EXPECT_LT(boxminus(a.posterior.x, b.posterior.x).norm(), 1e-9);
+    EXPECT_LT((a.posterior.P - b.posterior.P).norm(), 1e-9 * a.posterior.P.norm());
+  }
+}
+
+/** Eq. 17: |x [-] x_hat|^2 weighted by P_hat^-1 plus the sum of z^2 / r. */
+double mapCost(const FilterState& prior, const NavState& x, const std::vector<test::PlaneMatch>& m)
+{
+  const StateVector d = boxminus(x, prior.x);
+  return d.dot(prior.P.inverse() * d) +
+         test::sumsOf(test::residualsOf(m, x, kSigma)).weighted_squares;
+}
+
+TEST(IteratedUpdate, endsAtTheMaximumAPosteriori)
+{
+  constexpr double kStep = 1e-5;
+  Random random(44);
+  for (int i = 0; i < 10; ++i)
+  {
+    const Problem p = problemOff(random, 0.3);
+    const auto matches = test::planesSeenFrom(random, p.truth.pose(), 40, kSigma);
+    const UpdateResult r = iteratedUpdate(
+        p.prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+    ASSERT_TRUE(r.converged);
+    StateVector gradient;
+    for (int c = 0; c < kStateDim; ++c)
+    {
+      const StateVector e = kStep * StateVector::Unit(c);
+      gradient[c] = (mapCost(p.prior, boxplus(r.posterior.x, e), matches) -
+                     mapCost(p.prior, boxplus(r.posterior.x, -e), matches)) /
+                    (2.0 * kStep);
+    }
+    // Slope in units of the posterior's standard deviation: far below one.
+    EXPECT_LT((r.posterior.P * gradient).dot(gradient), 1e-10);
+  }
+}
+
+TEST(IteratedUpdate, posteriorCovarianceIsThatOfTheErrors)
+{
+  // Draw truths from the prior and noise from R: e^T P_bar^-1 e averages to the dimension.
+  Random random(45);
+  constexpr int kRuns = 400;
+  double nees = 0.0;
+  for (int i = 0; i < kRuns; ++i)
+  {
+    Problem p = problemOff(random, 0.03);
+    const StateMatrix L = p.prior.P.llt().matrixL();
+    p.truth = boxplus(p.prior.x, L * random.stateVector(1.0));
+    const auto matches = test::planesSeenFrom(random, p.truth.pose(), 30, kSigma);
+    const UpdateResult r = iteratedUpdate(
+        p.prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+    const StateVector e = boxminus(p.truth, r.posterior.x);
+    nees += e.dot(r.posterior.P.inverse() * e) / kRuns;
+  }
+  // Standard deviation of the average: sqrt(2 * 18 / 400) = 0.3.
+  EXPECT_NEAR(nees, kStateDim, 1.0);
+}
+
+TEST(IteratedUpdate, posteriorCovarianceIsSymmetricPositiveAndSmaller)
+{
+  Random random(46);
+  for (int i = 0; i < 20; ++i)
+  {
+    const Problem p = problemOff(random, 0.1);
+    const auto model =
+        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 500, kSigma), kSigma);
+    const UpdateResult r = iteratedUpdate(p.prior, model, IterationLimits{}, GainForm::Information);
+    EXPECT_EQ((r.posterior.P - r.posterior.P.transpose()).norm(), 0.0);
+    EXPECT_GT(test::eigenvaluesOf(r.posterior.P).minCoeff(), 0.0);
+    EXPECT_LT(r.posterior.P.trace(), p.prior.P.trace());
+    EXPECT_LT((r.posterior.x.R * r.posterior.x.R.transpose() - Mat3::Identity()).norm(), 1e-14);
+  }
+}
+
+TEST(IteratedUpdate, covarianceRefersToThePosteriorsTangentSpace)
+{
+  // One large step: the covariance of the step is at the prior, the posterior's a rotation away.
+  Random random(47);
+  const Problem p = problemOff(random, 0.3);
+  const auto model =
+      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 5, kSigma), kSigma);
+  const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(1), GainForm::Information);
+  const UpdateStep step = informationStep(p.prior, p.prior.x, model(p.prior.x, 0).sums);
+  const StateMatrix J_inv = priorJacobianInverse(r.posterior.x, p.prior.x);
+  EXPECT_GT((r.posterior.P - step.P).norm(), 1e-3 * step.P.norm());
+  EXPECT_LT((r.posterior.P - J_inv * step.P * J_inv.transpose()).norm(), 1e-13 * step.P.norm());
+}
+
+TEST(IteratedUpdate, aCorridorLeavesItsAxisToThePrior)
+{
+  // Walls, floor and ceiling fix all but the position along x, which must neither move nor shrink.
+  Random random(48);
+  FilterState prior;
+  prior.P = 1e-2 * StateMatrix::Identity();
+  NavState truth;
+  truth.p = Vec3(0.5, 0.05, -0.04);
+  const auto matches =
+      test::planesSeenFrom(random, truth.pose(), 300, 0.0, {Vec3::UnitY(), Vec3::UnitZ()});
+  const UpdateResult r = iteratedUpdate(
+      prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+  EXPECT_TRUE(r.converged);
+  EXPECT_NEAR(r.posterior.x.p.x(), 0.0, 1e-4);
+  EXPECT_NEAR(r.posterior.P(kPosition, kPosition), 1e-2, 1e-5);
+  EXPECT_NEAR(r.posterior.x.p.y(), 0.05, 1e-4);
+  EXPECT_LT(r.posterior.P(kPosition + 1, kPosition + 1), 1e-5);
+}
+
+/** A measurement that pulls the position along x by a fixed amount in every iteration. */
+MeasurementModel pull(double amount)
+{
+  return [amount](const NavState& iterate, int)
+  {
+    StackedMeasurements m;
+    m.h.push_back(Vector6::Unit(kPosition));
+    m.z.push_back(-amount);
+    m.variance.push_back(1e-12);
+    (void)iterate;
+    return MeasurementEvaluation{test::sumsOf(m), m};
+  };
+}
+
+TEST(IteratedUpdate, stopsAtTheIterationLimit)
+{
+  FilterState prior;
+  prior.P = StateMatrix::Identity();
+  for (const int limit : {1, 3, 7})
+  {
+    IterationLimits limits;
+    limits.max_iterations = limit;
+    std::vector<int> seen;
+    const MeasurementModel model = [&seen](const NavState& x, int iteration)
+    {
+      seen.push_back(iteration);
+      return pull(1.0)(x, iteration);
+    };
+    const UpdateResult r = iteratedUpdate(prior, model, limits, GainForm::Information);
+    EXPECT_EQ(r.iterations, limit);
+    EXPECT_FALSE(r.converged);
+    EXPECT_TRUE(r.updated);
+    EXPECT_NEAR(r.posterior.x.p.x(), limit, 1e-6);
+    ASSERT_EQ(seen.size(), static_cast<std::size_t>(limit));
+    for (int i = 0; i < limit; ++i)
+      EXPECT_EQ(seen[static_cast<std::size_t>(i)], i);
+  }
+}
+
+TEST(IteratedUpdate, eachComponentHasItsOwnThreshold)
+{
+  // Every component is fully correlated with the position, so that one pull moves all of them by
+  // the same amount; tightening the limit of any one of them must keep the filter iterating.
+  FilterState prior;
+  prior.P = StateMatrix::Ones() + 1e-9 * StateMatrix::Identity();
+  const IterationLimits loose{4, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+  ASSERT_EQ(iteratedUpdate(prior, pull(1e-2), loose, GainForm::Information).iterations, 1);
+  for (double IterationLimits::*limit :
+       {&IterationLimits::attitude, &IterationLimits::position, &IterationLimits::velocity,
+        &IterationLimits::gyro_bias, &IterationLimits::accel_bias, &IterationLimits::gravity})
+  {
+    IterationLimits limits = loose;
+    limits.*limit = 1e-3;
+    const UpdateResult r = iteratedUpdate(prior, pull(1e-2), limits, GainForm::Information);
+    EXPECT_EQ(r.iterations, 4);
+    EXPECT_FALSE(r.converged);
+  }
+}
+
+void expectUntouched(const UpdateResult& r, const FilterState& prior)
+{
+  EXPECT_FALSE(r.updated);
+  EXPECT_FALSE(r.converged);
+  EXPECT_EQ(r.posterior.P, prior.P);
+  EXPECT_EQ(r.posterior.x.R, prior.x.R);
+  EXPECT_EQ(r.posterior.x.p, prior.x.p);
+  EXPECT_EQ(r.posterior.x.v, prior.x.v);
+  EXPECT_EQ(r.posterior.x.g, prior.x.g);
+}
+
+TEST(IteratedUpdate, withoutMeasurementsThePriorStays)
+{
+  Random random(49);
+  const Problem p = problemOff(random, 0.1);
+  const MeasurementModel none = [](const NavState&, int) { return MeasurementEvaluation{}; };
+  for (const GainForm gain : {GainForm::Information, GainForm::Standard})
+  {
+    const UpdateResult r = iteratedUpdate(p.prior, none, IterationLimits{}, gain);
+    expectUntouched(r, p.prior);
+    EXPECT_EQ(r.iterations, 1);
+  }
+}
+
+TEST(IteratedUpdate, matchesLostOnTheWayLeaveThePrior)
+{
+  Random random(50);
+  const Problem p = problemOff(random, 0.2);
+  const auto planes =
+      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
+  const MeasurementModel model = [&planes](const NavState& x, int iteration)
+  { return iteration == 0 ? planes(x, 0) : MeasurementEvaluation{}; };
+  const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
+  expectUntouched(r, p.prior);
+  EXPECT_EQ(r.iterations, 2);
+}
+
+TEST(IteratedUpdate, nonFiniteNumbersNeverEnterTheState)
+{
+  Random random(51);
+  const Problem p = problemOff(random, 0.2);
+  const auto planes =
+      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  {
+    for (const int when : {0, 1})
+    {
+      const MeasurementModel model = [&planes, bad, when](const NavState& x, int iteration)
+      {
+        MeasurementEvaluation e = planes(x, iteration);
+        if (iteration != when) return e;
+        e.stacked.z[3] = bad;
+        e.sums = test::sumsOf(e.stacked);
+        return e;
+      };
+      for (const GainForm gain : {GainForm::Information, GainForm::Standard})
+      {
+        const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(), gain);
+        expectUntouched(r, p.prior);
+        EXPECT_EQ(r.iterations, when + 1);
+      }
+    }
+  }
+}
+
+TEST(IteratedUpdate, wrongUseIsRefused)
+{
+  FilterState prior;
+  prior.P = StateMatrix::Identity();
+  IterationLimits none;
+  none.max_iterations = 0;
+  EXPECT_THROW(
+      (void)iteratedUpdate(prior, pull(1.0), none, GainForm::Information), std::invalid_argument);
+  const MeasurementModel sums_only = [](const NavState& x, int iteration) {
+    return MeasurementEvaluation{pull(1.0)(x, iteration).sums, {}};
+  };
+  EXPECT_THROW(
+      (void)iteratedUpdate(prior, sums_only, IterationLimits{}, GainForm::Standard),
+      std::invalid_argument);
+}
+}  // namespace
+}  // namespace fastlio

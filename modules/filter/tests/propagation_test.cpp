@@ -1,0 +1,199 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "random_problems.h"
+#include <fastlio/filter/propagation.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace fastlio
+{
+namespace
+{
+/** A state, an input and a period. */
+struct Case
+{
+  NavState x;
+  Vec3 gyro;
+  Vec3 accel;
+  double dt;
+};
+
+/** Rates from rest to far above those of any sensor, periods from 1 kHz to 10 Hz. */
+std::vector<Case> cases(unsigned seed)
+{
+  test::Random random(seed);
+  std::vector<Case> all;
+  for (const double rate : {0.0, 1e-6, 1e-2, 1.0, 20.0})
+  {
+    for (const double dt : {0.001, 0.005, 0.1})
+    {
+      for (int i = 0; i < 5; ++i)
+      {
+        all.push_back({random.state(), rate * random.axis(), random.vector(10.0), dt});
+      }
+    }
+  }
+  // Measured rate exactly the bias: the angle is zero and A(0) = I.
+  Case still = all.front();
+  still.gyro = still.x.gyro_bias;
+  all.push_back(still);
+  return all;
+}
+
+/** Q of eq. 8 for one sample: density^2 / dt per axis. */
+NoiseVector discreteVariances(const ImuNoise& noise, double dt)
+{
+  NoiseVector q;
+  q.segment<3>(0).setConstant(noise.gyro_noise_density * noise.gyro_noise_density / dt);
+  q.segment<3>(3).setConstant(noise.accel_noise_density * noise.accel_noise_density / dt);
+  q.segment<3>(6).setConstant(noise.gyro_bias_walk * noise.gyro_bias_walk / dt);
+  q.segment<3>(9).setConstant(noise.accel_bias_walk * noise.accel_bias_walk / dt);
+  return q;
+}
+
+TEST(Propagation, meanFollowsTheProcessModel)
+{
+  NavState x;
+  x.v = Vec3(1.0, 2.0, 3.0);
+  x.gyro_bias = Vec3(0.01, 0.0, 0.0);
+  x.accel_bias = Vec3(0.0, 0.1, 0.0);
+  x.g = Vec3(0.0, 0.0, -9.8);
+  const NavState y = propagateMean(x, Vec3(0.01, 0.0, 1.0), Vec3(1.0, 0.1, 9.8), 0.1);
+  EXPECT_LT((y.R - expSO3(Vec3(0.0, 0.0, 0.1))).norm(), 1e-15);
+  EXPECT_LT((y.p - Vec3(0.1, 0.2, 0.3)).norm(), 1e-15);
+  EXPECT_LT((y.v - Vec3(1.1, 2.0, 3.0)).norm(), 1e-14);
+  EXPECT_EQ(y.gyro_bias, x.gyro_bias);
+  EXPECT_EQ(y.accel_bias, x.accel_bias);
+  EXPECT_EQ(y.g, x.g);
+}
+
+TEST(Propagation, restingSensorStaysAtRest)
+{
+  test::Random random(11);
+  NavState x = random.state();
+  x.v.setZero();
+  const Vec3 accel = x.accel_bias - x.R.transpose() * x.g;
+  NavState y = x;
+  for (int i = 0; i < 2000; ++i)
+    y = propagateMean(y, x.gyro_bias, accel, 0.005);
+  EXPECT_LT(boxminus(y, x).norm(), 1e-9);
+}
+
+TEST(Propagation, FxIsTheDerivativeByTheErrorState)
+{
+  constexpr double kStep = 1e-6;
+  for (const Case& c : cases(12))
+  {
+    StateMatrix numeric;
+    for (int i = 0; i < kStateDim; ++i)
+    {
+      const StateVector e = kStep * StateVector::Unit(i);
+      const NavState y = propagateMean(c.x, c.gyro, c.accel, c.dt);
+      const NavState plus = propagateMean(boxplus(c.x, e), c.gyro, c.accel, c.dt);
+      const NavState minus = propagateMean(boxplus(c.x, -e), c.gyro, c.accel, c.dt);
+      numeric.col(i) = (boxminus(plus, y) - boxminus(minus, y)) / (2.0 * kStep);
+    }
+    const StateMatrix Fx = processJacobians(c.x, c.gyro, c.accel, c.dt).Fx;
+    EXPECT_LT((Fx - numeric).cwiseAbs().maxCoeff(), 5e-8) << "dt " << c.dt;
+  }
+}
+
+TEST(Propagation, FwIsTheDerivativeByTheNoise)
+{
+  constexpr double kStep = 1e-5;
+  for (const Case& c : cases(13))
+  {
+    NoiseJacobian numeric;
+    const NavState y = propagateMean(c.x, c.gyro, c.accel, c.dt);
+    for (int i = 0; i < kNoiseDim; ++i)
+    {
+      const NoiseVector e = kStep * NoiseVector::Unit(i);
+      const NavState plus = propagateMean(c.x, c.gyro, c.accel, c.dt, e);
+      const NavState minus = propagateMean(c.x, c.gyro, c.accel, c.dt, -e);
+      numeric.col(i) = (boxminus(plus, y) - boxminus(minus, y)) / (2.0 * kStep);
+    }
+    const NoiseJacobian Fw = processJacobians(c.x, c.gyro, c.accel, c.dt).Fw;
+    EXPECT_LT((Fw - numeric).cwiseAbs().maxCoeff(), 1e-8) << "dt " << c.dt;
+  }
+}
+
+TEST(Propagation, covarianceIsEquation8)
+{
+  test::Random random(14);
+  const ImuNoise noise{0.3, 0.7, 0.05, 0.09};
+  for (const Case& c : cases(15))
+  {
+    const FilterState s{c.x, random.covariance(0.3, 100.0)};
+    const auto [Fx, Fw] = processJacobians(c.x, c.gyro, c.accel, c.dt);
+    const StateMatrix expected = Fx * s.P * Fx.transpose() +
+                                 Fw * discreteVariances(noise, c.dt).asDiagonal() * Fw.transpose();
+    const FilterState out = propagate(s, c.gyro, c.accel, c.dt, noise);
+    EXPECT_LT((out.P - expected).norm(), 1e-13 * expected.norm());
+    EXPECT_EQ((out.P - out.P.transpose()).norm(), 0.0);
+    EXPECT_EQ(boxminus(out.x, propagateMean(c.x, c.gyro, c.accel, c.dt)).tail<15>().norm(), 0.0);
+  }
+}
+
+TEST(Propagation, noiseGrowsWithTimeWhateverTheSampleRate)
+{
+  // A random walk of density s has the variance s^2 T after T seconds, at 100 Hz as at 1 kHz.
+  const ImuNoise noise{1e-3, 1e-2, 1e-4, 1e-3};
+  const NavState rest;
+  for (const int rate : {100, 1000})
+  {
+    FilterState s{rest, StateMatrix::Zero()};
+    for (int i = 0; i < 2 * rate; ++i)
+    {
+      s = propagate(s, Vec3::Zero(), Vec3(0.0, 0.0, 9.81), 1.0 / rate, noise);
+    }
+    const StateVector variance = s.P.diagonal();
+    EXPECT_NEAR(variance[kGyroBias], 2.0 * 1e-8, 1e-16) << rate;
+    EXPECT_NEAR(variance[kAccelBias], 2.0 * 1e-6, 1e-14) << rate;
+    // Attitude about the vertical: white rate noise and the integrated bias walk, s^2 T^3 / 3.
+    EXPECT_NEAR(variance[kAttitude + 2], 2.0 * 1e-6 + 1e-8 * 8.0 / 3.0, 1e-9) << rate;
+    // Vertical velocity at rest: white noise and bias walk likewise.
+    EXPECT_NEAR(variance[kVelocity + 2], 2.0 * 1e-4 + 1e-6 * 8.0 / 3.0, 1e-7) << rate;
+  }
+}
+
+TEST(Propagation, covarianceStaysSymmetricAndPositiveOverAMinute)
+{
+  test::Random random(16);
+  FilterState s{NavState{}, StateMatrix::Zero()};
+  for (int i = 0; i < 12000; ++i)
+  {
+    const Vec3 accel = Vec3(0.0, 0.0, 9.81) + random.vector(1.0);
+    s = propagate(s, random.vector(1.0), accel, 0.005, ImuNoise{});
+  }
+  EXPECT_TRUE(isFinite(s.x));
+  EXPECT_LT((s.x.R * s.x.R.transpose() - Mat3::Identity()).norm(), 1e-11);
+  EXPECT_EQ((s.P - s.P.transpose()).norm(), 0.0);
+  EXPECT_GT(test::eigenvaluesOf(s.P).minCoeff(), -1e-12 * s.P.norm());
+}
+
+TEST(Propagation, aStepOfNoLengthChangesNothing)
+{
+  test::Random random(17);
+  const FilterState s{random.state(), random.covariance(1.0, 10.0)};
+  const FilterState out = propagate(s, random.vector(), random.vector(), 0.0, ImuNoise{});
+  EXPECT_EQ(out.P, s.P);
+  EXPECT_EQ(out.x.R, s.x.R);
+  EXPECT_EQ(out.x.p, s.x.p);
+}
+
+TEST(Propagation, aStepBackInTimeIsRefused)
+{
+  const FilterState s;
+  for (const double dt : {-0.005, std::numeric_limits<double>::quiet_NaN()})
+  {
+    EXPECT_THROW(
+        (void)propagate(s, Vec3::Zero(), Vec3::Zero(), dt, ImuNoise{}), std::invalid_argument);
+  }
+}
+}  // namespace
+}  // namespace fastlio
