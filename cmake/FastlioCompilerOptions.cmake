@@ -1,4 +1,6 @@
-# Compiler settings shared by all targets, as the interface library fastlio_compiler_options.
+# mrpt_fastlio: compiler settings shared by all targets, as the interface library
+# fastlio_compiler_options.
+# SPDX-License-Identifier: BSD-3-Clause
 add_library(fastlio_compiler_options INTERFACE)
 target_compile_features(fastlio_compiler_options INTERFACE cxx_std_17)
 target_compile_options(fastlio_compiler_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)

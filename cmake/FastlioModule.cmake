@@ -1,3 +1,6 @@
+# mrpt_fastlio: functions that add modules and tests.
+# SPDX-License-Identifier: BSD-3-Clause
+
 # fastlio_add_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
 # A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) and, when tests are built, one
 # GoogleTest program test_NAME made of the TESTS files.

@@ -1,0 +1,58 @@
+# mrpt_fastlio: one command each for the usual jobs; `make help` lists them.
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# The build itself is CMake: see CMakePresets.json for its variants.
+
+PRESET ?= release
+JOBS ?= $(shell nproc)
+RECORDINGS ?=
+DEMO_DIR ?= demo-output
+
+BUILD_DIR := build/$(PRESET)
+
+.DEFAULT_GOAL := help
+.PHONY: help dependencies lint-dependencies configure build test demo docs format lint clean
+
+help:
+	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
+	@echo "make test    install what is missing, build, run every test"
+	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
+	@echo "make build   install what is missing, build            PRESET=release|debug|asan|tsan"
+	@echo "make lint    check format, structure and clang-tidy"
+	@echo "make format  format the sources"
+	@echo "make docs    regenerate docs/parameters.md and params/*.yaml from the parameter table"
+	@echo "make clean   remove build/ and $(DEMO_DIR)/"
+
+dependencies:
+	@cmake/install_dependencies.sh build
+
+lint-dependencies:
+	@cmake/install_dependencies.sh build lint
+
+configure: dependencies
+	cmake --preset $(PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
+
+build: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS)
+
+test: build
+	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
+	ctest --preset $(PRESET) --parallel $(JOBS)
+
+demo: build
+	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)
+
+docs: build
+	MRPT_FASTLIO_REGENERATE=1 $(BUILD_DIR)/modules/odometry/test_odometry \
+	  --gtest_filter="ParameterDocument.*"
+
+format: lint-dependencies
+	cmake/list_sources.sh | xargs clang-format -i
+
+lint: lint-dependencies build
+	cmake/list_sources.sh | xargs clang-format --dry-run --Werror
+	tests/structure/check_structure.sh
+	cmake/run_clang_tidy.sh $(BUILD_DIR) $(JOBS)
+
+clean:
+	$(RM) -r build $(DEMO_DIR)

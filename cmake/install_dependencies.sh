@@ -1,0 +1,61 @@
+#!/bin/sh
+# mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Usage: cmake/install_dependencies.sh [build] [lint]      (default: build)
+set -eu
+
+build_packages="g++ cmake ninja-build pkg-config
+  libmrpt-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev"
+lint_packages="clang-format clang-tidy"
+
+is_installed() {
+  [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing_of() {
+  for package in "$@"; do
+    is_installed "$package" || printf '%s ' "$package"
+  done
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "Missing packages, and neither root nor sudo to install them. As root, run:" >&2
+    echo "  $*" >&2
+    exit 1
+  fi
+}
+
+wanted=""
+for set in "${@:-build}"; do
+  case "$set" in
+    build) wanted="$wanted $build_packages" ;;
+    lint) wanted="$wanted $lint_packages" ;;
+    *)
+      echo "install_dependencies.sh: unknown set '$set'; known: build, lint" >&2
+      exit 2
+      ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "Not a Debian system: please see to these packages (Debian names) yourself:" >&2
+  echo "$wanted" >&2
+  exit 0
+fi
+
+# shellcheck disable=SC2086  # lists of words
+missing=$(missing_of $wanted)
+if [ -n "$missing" ]; then
+  echo "Installing: $missing"
+  as_root apt-get update --quiet
+  # shellcheck disable=SC2086
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install --yes --quiet --no-install-recommends $missing </dev/null
+fi
