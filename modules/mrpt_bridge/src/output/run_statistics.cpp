@@ -33,6 +33,13 @@ PointTotals plus(PointTotals sum, const ScanStatistics& scan)
 }
 }  // namespace
 
+std::string machineName(ScanStatus status)
+{
+  std::string name = toString(status);
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
 void RunStatistics::add(const ScanResult& result)
 {
   const Trouble trouble{scans_, result.stamp_ns, result.status, result.message};

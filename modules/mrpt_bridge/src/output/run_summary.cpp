@@ -11,7 +11,8 @@ ExitStatus exitStatusOf(const RunSummary& summary)
   if (!summary.output_problems.empty()) return ExitStatus::OutputFailed;
   if (!summary.input_problems.empty()) return ExitStatus::InputBroken;
   const bool diverged = summary.statistics.count(ScanStatus::Diverged) > 0;
-  if (diverged || summary.statistics.poses() == 0) return ExitStatus::OdometryFailed;
+  if (!summary.failure.empty() || diverged || summary.statistics.poses() == 0)
+    return ExitStatus::OdometryFailed;
   return ExitStatus::Ok;
 }
 

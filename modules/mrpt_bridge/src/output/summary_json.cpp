@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 /** Numbers, booleans, lists and null keep their type; the rest is text. */
 Json valueOf(const ParameterRow& row, const Parameters& parameters)
 {
-  if (const auto* text = std::get_if<RegexValue>(&row.value)) return text->member.read(parameters);
+  if (const auto* text = std::get_if<RegexValue>(&row.value)) return text->member.of(parameters);
   const std::string yaml = valueText(row, parameters);
   const Json value = Json::parse(yaml, nullptr, false);
   return value.is_discarded() ? Json(yaml) : value;
@@ -63,7 +63,7 @@ Json scansJson(const RunStatistics& statistics)
   for (std::size_t i = 0; i < kScanStatusCount; ++i)
   {
     const auto status = static_cast<ScanStatus>(i);
-    json[toString(status)] = statistics.count(status);
+    json[machineName(status)] = statistics.count(status);
   }
   return json;
 }
@@ -85,7 +85,7 @@ Json troubleJson(const Trouble& trouble)
   return {
       {"scan", trouble.scan_index},
       {"stamp", secondsText(trouble.stamp_ns)},
-      {"status", toString(trouble.status)},
+      {"status", machineName(trouble.status)},
       {"message", trouble.message}};
 }
 
@@ -130,6 +130,7 @@ Json summaryJson(const RunSummary& run)
       {"first_trouble", trouble ? troubleJson(*trouble) : Json(nullptr)},
       {"troubles", troublesJson(run.statistics)},
       {"outputs", filesJson(run.outputs)},
+      {"failure", run.failure},
       {"output_problems", run.output_problems},
       {"parameters", parametersJson(run.parameters)}};
 }

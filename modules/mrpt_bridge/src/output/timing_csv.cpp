@@ -51,7 +51,7 @@ class TimingExporter : public Exporter
   void onScan(const ScanResult& result) override
   {
     file_.write(
-        std::to_string(result.stamp_ns) + "," + toString(result.status) +
+        std::to_string(result.stamp_ns) + "," + machineName(result.status) +
         counts(result.statistics) + measures(result.statistics) +
         milliseconds(result.milliseconds) + "\n");
   }

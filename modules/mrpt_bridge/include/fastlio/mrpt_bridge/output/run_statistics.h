@@ -17,6 +17,9 @@ namespace fastlio
 /** Number of values of ScanStatus. */
 constexpr std::size_t kScanStatusCount = 5;
 
+/** toString() with underscores, for keys and columns: "prediction_only". */
+[[nodiscard]] std::string machineName(ScanStatus status);
+
 /** A scan that was not tracked as it should be. */
 struct Trouble
 {

@@ -38,9 +38,10 @@ struct RunSummary
   Parameters parameters;                 //!< as used
   std::vector<NamedCount> input_counts;  //!< observations read and dropped, by reason
   RunStatistics statistics;
-  double wall_seconds = 0;                   //!< of the whole run, reading included
-  bool interrupted = false;                  //!< stopped by SIGINT or SIGTERM
-  std::vector<std::string> input_problems;   //!< truncated or corrupt input, in sentences
+  double wall_seconds = 0;                  //!< of the whole run, reading included
+  bool interrupted = false;                 //!< stopped by SIGINT or SIGTERM
+  std::vector<std::string> input_problems;  //!< truncated or corrupt input, in sentences
+  std::string failure;                      //!< unexpected error that ended the run early, or empty
   std::vector<std::string> output_problems;  //!< files that could not be written
   std::vector<OutputFile> outputs;           //!< files that are complete
 };

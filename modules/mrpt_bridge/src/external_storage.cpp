@@ -1,0 +1,40 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "external_storage.h"
+
+#include "mrpt_messages.h"
+
+#include <mrpt/io/lazy_load_path.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CRawlog.h>
+
+#include <filesystem>
+
+namespace fastlio
+{
+std::optional<std::string> loadExternal(
+    const mrpt::obs::CObservation& observation, const std::string& rawlog)
+{
+  const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+  if (cloud == nullptr || !cloud->isExternallyStored()) return std::nullopt;
+  // MRPT keeps one base folder per process; files of several rawlogs may lie in several folders.
+  mrpt::io::setLazyLoadPathBase(mrpt::obs::CRawlog::detectImagesDirectory(rawlog));
+  const std::string file = mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile());
+  const std::string prefix =
+      rawlog + ": a point cloud of sensor '" + cloud->sensorLabel + "' lies in the file " + file;
+  std::error_code error;
+  if (!std::filesystem::exists(file, error))
+    return prefix + ", which does not exist. Copy the folder of external files along.";
+  try
+  {
+    cloud->load();
+    return std::nullopt;
+  }
+  catch (const std::exception& e)
+  {
+    return prefix + ", which cannot be read: " + innermostMessage(e.what()) + ".";
+  }
+}
+
+}  // namespace fastlio

@@ -1,0 +1,128 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "object_stream.h"
+
+#include <mrpt/rtti/CObject.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <stdexcept>
+
+namespace
+{
+constexpr std::size_t kChunk = 1U << 18U;
+constexpr std::size_t kLargestObject = 1U << 30U;  // [bytes]
+constexpr std::size_t kLongestClassName = 120;     // limit of MRPT's format
+constexpr unsigned char kHeaderFlag = 0x80;
+const std::string kObservations = "mrpt::obs::";
+
+bool isClassNameCharacter(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr(":_<>, ", c) != nullptr;
+}
+}  // namespace
+
+namespace fastlio
+{
+// Makes size bytes available from the position on; grows by what the file really holds only.
+bool ObjectStream::require(std::size_t size)
+{
+  while (available() < size)
+  {
+    if (bytes_.size() - object_ > kLargestObject)
+      throw std::runtime_error("the object is larger than 1 GiB");
+    const std::size_t old_size = bytes_.size();
+    bytes_.resize(old_size + kChunk);
+    bytes_.resize(old_size + file_.read(bytes_.data() + old_size, kChunk));
+    if (bytes_.size() == old_size) return false;
+  }
+  return true;
+}
+
+std::size_t ObjectStream::Read(void* data, std::size_t size)
+{
+  if (!require(size))
+  {
+    ran_out_ = true;
+    position_ = bytes_.size();
+    throw std::runtime_error("the file ends inside an object");
+  }
+  std::memcpy(data, bytes_.data() + position_, size);
+  position_ += size;
+  return size;
+}
+
+std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)
+{
+  throw std::logic_error("ObjectStream is for reading only");
+}
+
+void ObjectStream::beginObject()
+{
+  object_ = position_;
+  ran_out_ = false;
+  if (object_ < kChunk) return;
+  bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(object_));
+  origin_ += object_;
+  position_ = object_ = 0;
+}
+
+void ObjectStream::rewindTo(std::size_t offset)
+{
+  position_ = std::min(object_ + offset, bytes_.size());
+  ran_out_ = false;
+}
+
+bool ObjectStream::atEnd()
+{
+  return !require(1);
+}
+
+std::optional<ObjectHeader> ObjectStream::headerAt(std::size_t at) const
+{
+  const auto flagged = static_cast<unsigned char>(bytes_[at]);
+  const std::size_t length = flagged & ~kHeaderFlag & 0xFFU;
+  if ((flagged & kHeaderFlag) == 0 || length == 0 || length > kLongestClassName) return {};
+  if (bytes_.size() - at < 1 + length) return {};
+  const char* name = bytes_.data() + at + 1;
+  if (!std::all_of(name, name + length, isClassNameCharacter)) return {};
+  return ObjectHeader{std::string(name, length), 1 + length};
+}
+
+std::optional<ObjectHeader> ObjectStream::peekHeader()
+{
+  require(1 + kLongestClassName);
+  if (available() == 0) return {};
+  return headerAt(position_);
+}
+
+std::optional<ObjectHeader> ObjectStream::lastHeaderRead() const
+{
+  for (std::size_t length = 1; length <= kLongestClassName; ++length)
+  {
+    if (position_ - object_ < length + 2) return {};
+    const std::size_t at = position_ - length - 2;
+    const auto header = headerAt(at);
+    if (header && header->length == length + 1) return header;
+  }
+  return {};
+}
+
+bool ObjectStream::seekNextObservation()
+{
+  for (; require(1); ++position_)
+  {
+    if ((static_cast<unsigned char>(bytes_[position_]) & kHeaderFlag) == 0) continue;
+    require(1 + kLongestClassName);
+    const auto header = headerAt(position_);
+    if (header && header->class_name.compare(0, kObservations.size(), kObservations) == 0 &&
+        mrpt::rtti::findRegisteredClass(header->class_name) != nullptr)
+      return true;
+    if (position_ - object_ > kChunk) beginObject();
+  }
+  return false;
+}
+
+}  // namespace fastlio

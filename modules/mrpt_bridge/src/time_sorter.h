@@ -1,0 +1,54 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file time_sorter.h Puts observations that come late in order of their stamps. */
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <queue>
+#include <vector>
+
+namespace fastlio
+{
+/** Holds observations back until those that may still come cannot precede them. Equal stamps keep
+ * their order. An observation with an absurd stamp does not hold up the others. */
+class TimeSorter
+{
+ public:
+  explicit TimeSorter(std::int64_t window_ns) : window_ns_(window_ns) {}
+
+  void push(mrpt::obs::CObservation::Ptr observation);
+
+  /** An observation is due: the one pushed last is later by the window, or too many are held. */
+  [[nodiscard]] bool ready() const;
+
+  [[nodiscard]] bool empty() const { return held_.empty(); }
+
+  /** The earliest one held. */
+  [[nodiscard]] mrpt::obs::CObservation::Ptr pop();
+
+ private:
+  struct Held
+  {
+    std::int64_t stamp_ns;
+    std::uint64_t sequence;
+    mrpt::obs::CObservation::Ptr observation;
+  };
+  struct Later
+  {
+    bool operator()(const Held& a, const Held& b) const
+    {
+      return a.stamp_ns != b.stamp_ns ? a.stamp_ns > b.stamp_ns : a.sequence > b.sequence;
+    }
+  };
+
+  std::int64_t window_ns_;
+  std::int64_t newest_ns_ = 0;  // of the observation pushed last
+  std::uint64_t sequence_ = 0;
+  std::priority_queue<Held, std::vector<Held>, Later> held_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,262 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "output_test_support.h"
+#include <fastlio/mrpt_bridge/output/standard_exporters.h>
+
+#include <Eigen/Geometry>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/opengl/PLY_import_export.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <map>
+
+namespace fastlio
+{
+namespace
+{
+using testing::contentOf;
+using testing::dataLinesOf;
+using testing::madeUpResult;
+using testing::split;
+using testing::TemporaryFolder;
+
+constexpr std::int64_t kStamp = 1'403'636'580'838'555'648;
+
+mrpt::maps::CSimplePointsMap smallMap()
+{
+  mrpt::maps::CSimplePointsMap map;
+  for (int i = 0; i < 5000; ++i)  // more than one block of the writer
+    map.insertPointFast(0.5F * static_cast<float>(i), -1.25F, 1e-3F * static_cast<float>(i));
+  return map;
+}
+
+/** Feeds the results and finishes; the files are complete then. */
+void run(Exporter& exporter, const std::vector<ScanResult>& results)
+{
+  for (const auto& result : results)
+    exporter.onScan(result);
+  const RunSummary summary;
+  const auto map = smallMap();
+  for (const auto& file : exporter.finish({summary, map}))
+    EXPECT_EQ(file.bytes, std::filesystem::file_size(file.path)) << file.path;
+}
+
+/** Cells of row \a index of a CSV file by column name. */
+std::map<std::string, std::string> rowOf(const std::string& path, std::size_t index)
+{
+  const auto lines = dataLinesOf(path);
+  const auto names = split(lines.at(0), ',');
+  const auto cells = split(lines.at(index + 1), ',');
+  EXPECT_EQ(names.size(), cells.size()) << path;
+  std::map<std::string, std::string> row;
+  for (std::size_t i = 0; i < std::min(names.size(), cells.size()); ++i)
+    row[names[i]] = cells[i];
+  EXPECT_EQ(row.size(), names.size()) << "repeated column in " << path;
+  return row;
+}
+
+Mat3 rotationOf(double x, double y, double z, double w)
+{
+  return Eigen::Quaterniond(w, x, y, z).toRotationMatrix();
+}
+
+TEST(TrajectoryTum, HoldsTheVehiclePoseAtTheExactStamp)
+{
+  const TemporaryFolder folder;
+  OutputFrame frame{"vehicle", {expSO3({0.0, 0.4, -0.1}), {0.3, 0.2, -0.1}}};
+  const auto exporter = makeTumExporter(folder.file("t.tum"), frame);
+  const ScanResult result = madeUpResult(kStamp);
+  run(*exporter, {result});
+
+  const auto cells = split(dataLinesOf(folder.file("t.tum")).at(0), ' ');
+  ASSERT_EQ(cells.size(), 8U);
+  EXPECT_EQ(cells[0], "1403636580.838555648");
+  std::vector<double> v;
+  for (const auto& cell : cells)
+    v.push_back(std::stod(cell));
+  const Pose expected = result.filter.x.pose() * frame.T_imu_body;
+  EXPECT_LT((Vec3(v[1], v[2], v[3]) - expected.p).norm(), 1e-6);
+  EXPECT_LT(logSO3(rotationOf(v[4], v[5], v[6], v[7]).transpose() * expected.R).norm(), 1e-8);
+  EXPECT_GE(v[7], 0.0);
+}
+
+TEST(TrajectoryTum, LeavesOutScansWithoutATrustedPose)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makeTumExporter(folder.file("t.tum"), {});
+  std::vector<ScanResult> results;
+  std::int64_t stamp = kStamp;
+  for (const auto status :
+       {ScanStatus::Initializing, ScanStatus::FirstScan, ScanStatus::Tracking,
+        ScanStatus::PredictionOnly, ScanStatus::Diverged})
+    results.push_back(madeUpResult(++stamp, status));
+  run(*exporter, results);
+  const auto lines = dataLinesOf(folder.file("t.tum"));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(split(lines[0], ' ')[0], "1403636580.838555650");
+  EXPECT_EQ(split(lines[2], ' ')[0], "1403636580.838555652");
+}
+
+TEST(StatesCsv, HoldsStateAndDeviationsByName)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makeStatesExporter(folder.file("s.csv"));
+  const ScanResult result = madeUpResult(kStamp);
+  run(*exporter, {result});
+  auto row = rowOf(folder.file("s.csv"), 0);
+  EXPECT_EQ(row.size(), 1U + 7U + 12U + 18U);
+  EXPECT_EQ(row["stamp_ns"], "1403636580838555648");
+  const NavState& x = result.filter.x;
+  EXPECT_EQ(std::stod(row["y"]), x.p.y());
+  EXPECT_EQ(std::stod(row["vx"]), x.v.x());
+  EXPECT_EQ(std::stod(row["bgy"]), x.gyro_bias.y());
+  EXPECT_EQ(std::stod(row["baz"]), x.accel_bias.z());
+  EXPECT_EQ(std::stod(row["gz"]), x.g.z());
+  const std::array<const char*, 6> blocks = {"rot", "pos", "vel", "bg", "ba", "g"};
+  for (int i = 0; i < kStateDim; ++i)
+  {
+    const std::string name =
+        std::string("sigma_") + blocks.at(static_cast<std::size_t>(i / 3)) + "_" + "xyz"[i % 3];
+    EXPECT_EQ(std::stod(row[name]), std::sqrt(result.filter.P(i, i))) << name;
+  }
+}
+
+TEST(CovarianceCsv, HoldsTheUpperTriangleOfThePose)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makeCovarianceExporter(folder.file("c.csv"), {"imu", Pose{}});
+  const ScanResult result = madeUpResult(kStamp);
+  run(*exporter, {result});
+  auto row = rowOf(folder.file("c.csv"), 0);
+  EXPECT_EQ(row.size(), 8U + 21U);
+  const std::array<std::string, 6> axes = {"rx", "ry", "rz", "px", "py", "pz"};
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i; j < 6; ++j)
+      EXPECT_NEAR(
+          std::stod(row["c_" + axes.at(i) + "_" + axes.at(j)]),
+          result.filter.P(static_cast<int>(i), static_cast<int>(j)), 1e-15);
+  const std::string text = contentOf(folder.file("c.csv"));
+  EXPECT_NE(text.find("(rx,ry,rz,px,py,pz)"), std::string::npos);
+  EXPECT_NE(text.find("imu frame"), std::string::npos);
+}
+
+/** The covariance of another body, against the spread of perturbed poses. */
+TEST(PoseOutput, CovarianceMovesWithTheBody)
+{
+  const FilterState filter = madeUpResult(0).filter;
+  const Pose T_imu_body{expSO3({0.5, -1.0, 0.3}), {0.4, -0.7, 1.1}};
+  const PoseEstimate estimate = poseEstimateOf(filter, T_imu_body);
+  Matrix6 J;
+  for (int i = 0; i < 6; ++i)
+  {
+    StateVector dx = StateVector::Zero();
+    constexpr double kStep = 1e-6;
+    dx[i] = kStep;
+    const Pose moved = boxplus(filter.x, dx).pose() * T_imu_body;
+    J.block<3, 1>(0, i) = logSO3(estimate.T_world_body.R.transpose() * moved.R) / kStep;
+    J.block<3, 1>(3, i) = (moved.p - estimate.T_world_body.p) / kStep;
+  }
+  const Matrix6 P_imu = filter.P.topLeftCorner<6, 6>();
+  const Matrix6 expected = J * P_imu * J.transpose();
+  EXPECT_LT((estimate.covariance - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_LT((poseEstimateOf(filter, Pose{}).covariance - P_imu).norm(), 1e-15);
+}
+
+TEST(TimingCsv, HoldsEveryScanWithItsStatus)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makeTimingExporter(folder.file("t.csv"));
+  run(*exporter, {madeUpResult(kStamp, ScanStatus::Initializing),
+                  madeUpResult(kStamp + 1, ScanStatus::PredictionOnly)});
+  auto row = rowOf(folder.file("t.csv"), 1);
+  EXPECT_EQ(row["status"], "prediction_only");
+  EXPECT_EQ(row["points_in"], "20000");
+  EXPECT_EQ(row["points_effective"], "900");
+  EXPECT_EQ(row["converged"], "1");
+  EXPECT_EQ(row["total_ms"], "4.5000");
+  EXPECT_EQ(rowOf(folder.file("t.csv"), 0)["status"], "initializing");
+}
+
+TEST(MapPly, IsReadByMrpt)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makePlyMapExporter(folder.file("m.ply"));
+  run(*exporter, {});
+  EXPECT_EQ(contentOf(folder.file("m.ply")).rfind("ply\nformat binary_little_endian 1.0\n", 0), 0U);
+  mrpt::maps::CSimplePointsMap read;
+  ASSERT_TRUE(read.loadFromPlyFile(folder.file("m.ply")));
+  const auto written = smallMap();
+  EXPECT_TRUE(read.getPointsBufferRef_x() == written.getPointsBufferRef_x());
+  EXPECT_TRUE(read.getPointsBufferRef_y() == written.getPointsBufferRef_y());
+  EXPECT_TRUE(read.getPointsBufferRef_z() == written.getPointsBufferRef_z());
+}
+
+TEST(MetricMap, IsAGzippedObjectOfAStandardClass)
+{
+  const TemporaryFolder folder;
+  const auto exporter = makeMetricMapExporter(folder.file("m.metricmap"));
+  run(*exporter, {});
+  EXPECT_EQ(contentOf(folder.file("m.metricmap")).substr(0, 2), "\x1f\x8b");
+  mrpt::io::CFileGZInputStream stream(folder.file("m.metricmap"));
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  const auto object = archive.ReadObject();
+  const auto read = std::dynamic_pointer_cast<mrpt::maps::CSimplePointsMap>(object);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->getPointsBufferRef_z() == smallMap().getPointsBufferRef_z());
+}
+
+/** An exporter that fails on its second scan. */
+class FailingExporter : public Exporter
+{
+ public:
+  void onScan(const ScanResult& /*result*/) override
+  {
+    if (++scans_ == 2) throw std::runtime_error("disk full");
+  }
+  std::vector<OutputFile> finish(const RunEnd& /*end*/) override
+  {
+    ADD_FAILURE() << "a failed exporter is not finished";
+    return {};
+  }
+
+ private:
+  int scans_ = 0;
+};
+
+TEST(ExporterSet, OneFailureLeavesTheOthersComplete)
+{
+  const TemporaryFolder folder;
+  ExporterSet set;
+  set.add(std::make_unique<FailingExporter>());
+  set.add(makeTumExporter(folder.file("t.tum"), {}));
+  for (int i = 0; i < 5; ++i)
+    set.onScan(madeUpResult(kStamp + i));
+  EXPECT_EQ(set.problems().size(), 1U);
+  RunSummary summary = set.finish({}, smallMap());
+  EXPECT_EQ(dataLinesOf(folder.file("t.tum")).size(), 5U);
+  EXPECT_EQ(summary.outputs.size(), 1U);
+  ASSERT_EQ(summary.output_problems.size(), 1U);
+  EXPECT_EQ(summary.output_problems[0], "disk full");
+  EXPECT_EQ(exitStatusOf(summary), ExitStatus::OutputFailed);
+}
+
+TEST(ExporterSet, StandardFilesAreAllThere)
+{
+  const TemporaryFolder folder;
+  ExporterSet set = makeStandardExporters({folder.path(), folder.file("extra.tum"), {}});
+  set.onScan(madeUpResult(kStamp));
+  const RunSummary summary = set.finish({}, smallMap());
+  EXPECT_TRUE(summary.output_problems.empty());
+  for (const auto* name :
+       {"trajectory.tum", "extra.tum", "states.csv", "covariance.csv", "timing.csv", "map.ply",
+        "map.metricmap", "summary.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
+  EXPECT_EQ(summary.outputs.size(), 8U);
+  EXPECT_EQ(contentOf(folder.file("extra.tum")), contentOf(folder.file("trajectory.tum")));
+}
+
+}  // namespace
+}  // namespace fastlio

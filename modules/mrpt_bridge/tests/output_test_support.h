@@ -1,0 +1,103 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file output_test_support.h A folder that cleans up after itself, files as text, made-up
+ * results.
+ */
+#pragma once
+
+#include <fastlio/odometry/scan_result.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace fastlio::testing
+{
+/** A new folder, removed at the end. */
+class TemporaryFolder
+{
+ public:
+  TemporaryFolder()
+  {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::temp_directory_path() /
+            ("fastlio-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
+             std::to_string(getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string contentOf(const std::string& path)
+{
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/** Lines without comments. */
+inline std::vector<std::string> dataLinesOf(const std::string& path)
+{
+  std::istringstream in(contentOf(path));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty() && line.front() != '#') lines.push_back(line);
+  return lines;
+}
+
+inline std::vector<std::string> split(const std::string& line, char separator)
+{
+  std::istringstream in(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(in, cell, separator);)
+    cells.push_back(cell);
+  return cells;
+}
+
+/** A result whose every number differs from the others. */
+inline ScanResult madeUpResult(std::int64_t stamp_ns, ScanStatus status = ScanStatus::Tracking)
+{
+  ScanResult result;
+  result.stamp_ns = stamp_ns;
+  result.begin_ns = stamp_ns - 100'000'000;
+  result.status = status;
+  result.message = status == ScanStatus::Tracking ? "" : "because of \"this\"";
+  NavState& x = result.filter.x;
+  x.R = expSO3({0.1, -0.2, 0.3});
+  x.p = {1.25, -2.5, 3.75};
+  x.v = {0.1, 0.2, 0.3};
+  x.gyro_bias = {1e-3, 2e-3, 3e-3};
+  x.accel_bias = {0.01, 0.02, 0.03};
+  x.g = {0.05, -0.06, -9.8};
+  StateMatrix A;
+  for (int i = 0; i < kStateDim; ++i)
+    for (int j = 0; j < kStateDim; ++j)
+      A(i, j) = 1e-3 * (1 + (7 * i + 3 * j) % 11);
+  result.filter.P = A * A.transpose() + 1e-6 * StateMatrix::Identity();
+  result.statistics.points_in = 20000;
+  result.statistics.points_effective = 900;
+  result.statistics.converged = true;
+  result.milliseconds.total = 4.5;
+  return result;
+}
+
+}  // namespace fastlio::testing
