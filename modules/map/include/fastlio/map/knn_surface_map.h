@@ -1,0 +1,86 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file knn_surface_map.h Planes from the nearest map points: the association of the paper
+ * (eq. 12-14) with exact neighbours. */
+#pragma once
+
+#include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/surface_map.h>
+
+#include <optional>
+
+namespace fastlio
+{
+/** How neighbours are found; both are exact and give the same planes. */
+enum class NeighborEngine
+{
+  Incremental,  //!< the map's own cell index: fast, grows point by point
+  KdTree        //!< MRPT's nanoflann kd-tree, rebuilt after every change: the reference
+};
+
+/** What configures a KnnSurfaceMap. */
+struct KnnSurfaceMapOptions
+{
+  /** Neighbours that make a plane, 3 to kMaxNeighbors. */
+  std::size_t neighbors = 5;
+  /** The farthest neighbour may be this far from the point [m]. */
+  double max_neighbor_distance = 2.23606797749979;
+  /** A neighbour farther from the plane than this makes it no plane [m]. */
+  double max_plane_distance = 0.1;
+  /** Points of the map are at least this far apart [m]; 0 keeps every point. */
+  double min_spacing = 0.4;
+  /** Edge of the index cells [m]; 0 chooses it from min_spacing. */
+  double cell_size = 0.0;
+  /** Standard deviation of a map point about its surface before its neighbours are seen [m]. */
+  double point_noise = 0.02;
+  /** Observations that point_noise is worth against the fit's own residuals. */
+  double point_noise_weight = 4.0;
+  /** removeOutside() acts once the centre moved by this fraction of the radius since it last did.
+   */
+  double removal_step = 0.1;
+  NeighborEngine engine = NeighborEngine::Incremental;
+};
+
+/** SurfaceMap over a CIncrementalPointsMap: plane through the nearest points of each query.
+ *
+ * A match is valid when `neighbors` points lie within max_neighbor_distance, are not on a line, and
+ * all lie within max_plane_distance of their plane. Its variance is planeOffsetVariance() with the
+ * point variance s^2 = (w s_0^2 + SSR) / (w + n - 3): point_noise s_0 as the prior, worth w
+ * observations, and the squared residuals SSR of the n neighbours, which have n - 3 degrees of
+ * freedom. With five neighbours the residuals alone would now and then claim a perfect plane.
+ *
+ * match() is const, allocates nothing with the incremental engine, and may run in several threads
+ * at once; the other methods may not run beside it. */
+class KnnSurfaceMap : public SurfaceMap
+{
+ public:
+  /** \exception std::invalid_argument an option is out of its range (the message names it) */
+  explicit KnnSurfaceMap(const KnnSurfaceMapOptions& options = {});
+
+  /** \exception std::invalid_argument the range exceeds the points or the matches */
+  void match(
+      const WorldPoints& points, std::size_t first, std::size_t last,
+      std::vector<PlaneMatch>& matches) const override;
+  void insert(const WorldPoints& points) override;
+  void removeOutside(const Vec3& center, double radius) override;
+  [[nodiscard]] std::size_t pointCount() const override { return map_.size(); }
+  [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;
+
+  [[nodiscard]] const CIncrementalPointsMap& pointsMap() const { return map_; }
+  [[nodiscard]] const KnnSurfaceMapOptions& options() const { return options_; }
+  /** Bytes held by the points and their index. */
+  [[nodiscard]] std::size_t memoryBytes() const { return map_.memoryBytes(); }
+
+ private:
+  [[nodiscard]] NeighborSet neighborsOf(float x, float y, float z) const;
+  [[nodiscard]] NeighborSet kdTreeNeighborsOf(float x, float y, float z) const;
+  [[nodiscard]] PlaneMatch matchPoint(float x, float y, float z) const;
+  void prepareEngine();
+
+  KnnSurfaceMapOptions options_;
+  CIncrementalPointsMap map_;
+  std::optional<Vec3> last_removal_center_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,62 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file surface_map.h What the filter asks of a map: planes for points (eq. 12-14), growth (eq.
+ * 21) and bounded memory. */
+#pragma once
+
+#include <fastlio/filter/so3.h>
+
+#include <mrpt/maps/CSimplePointsMap.h>
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** Points in the world frame as columns of equal length [m]. */
+struct WorldPoints
+{
+  std::vector<float> x, y, z;
+
+  [[nodiscard]] std::size_t size() const { return x.size(); }
+  void resize(std::size_t n);
+};
+
+/** A plane of the map near a point: the residual of eq. 12 is z = n . p + d. */
+struct PlaneMatch
+{
+  float nx = 0, ny = 0, nz = 0;  //!< unit normal u, world frame
+  float d = 0;                   //!< -u . q [m]
+  float variance = -1;  //!< variance of the plane's offset at the point [m^2]; negative: no match
+
+  [[nodiscard]] bool valid() const { return variance >= 0.0F; }
+};
+
+/** A map of surfaces. match() is const and may be called from several threads on disjoint ranges.
+ */
+class SurfaceMap
+{
+ public:
+  virtual ~SurfaceMap() = default;
+
+  /** Finds the plane for each of the points [first, last); writes matches[first..last). */
+  virtual void match(
+      const WorldPoints& points, std::size_t first, std::size_t last,
+      std::vector<PlaneMatch>& matches) const = 0;
+
+  /** Adds the points of a scan (eq. 21), measured from \a sensor_origin (world frame). */
+  virtual void insert(const WorldPoints& points, const Vec3& sensor_origin) = 0;
+
+  /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
+  virtual void removeOutside(const Vec3& center, double radius) = 0;
+
+  /** Number of points held. */
+  [[nodiscard]] virtual std::size_t pointCount() const = 0;
+
+  /** The points as an MRPT map: a copy, safe to keep. */
+  [[nodiscard]] virtual mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const = 0;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,22 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/register_classes.h>
+
+#include <mrpt/core/initializer.h>
+#include <mrpt/rtti/CObject.h>
+
+MRPT_INITIALIZER(registerFastlioMapClasses)
+{
+  fastlio::registerMapClasses();
+}
+
+namespace fastlio
+{
+void registerMapClasses()
+{
+  mrpt::rtti::registerClass(CLASS_ID(fastlio::CIncrementalPointsMap));
+}
+
+}  // namespace fastlio

@@ -1,0 +1,15 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/map/surface_map.h>
+
+namespace fastlio
+{
+void WorldPoints::resize(std::size_t n)
+{
+  x.resize(n);
+  y.resize(n);
+  z.resize(n);
+}
+
+}  // namespace fastlio
