@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include <cmath>
 #include <map>
 
 namespace fastlio
@@ -41,10 +42,15 @@ const std::map<std::string, NeesAlignment>& neesAlignmentNames()
 void addInputOptions(CLI::App& app, EvalCommand& c)
 {
   app.add_option("reference,-r,--reference", c.reference, "Trajectory taken as the truth")
+      ->type_name("FILE")
       ->required();
-  app.add_option("estimate,-e,--estimate", c.estimate, "Trajectory to be evaluated")->required();
-  auto* times = app.add_option(
-      "--kitti-times", c.kitti.times_file, "File with one time [s] per line for KITTI poses");
+  app.add_option("estimate,-e,--estimate", c.estimate, "Trajectory to be evaluated")
+      ->type_name("FILE")
+      ->required();
+  auto* times =
+      app.add_option(
+             "--kitti-times", c.kitti.times_file, "File with one time [s] per line for KITTI poses")
+          ->type_name("FILE");
   app.add_option("--kitti-rate", c.kitti.rate, "Poses per second [Hz] of KITTI poses")
       ->excludes(times);
   app.add_option(
@@ -57,16 +63,28 @@ void addInputOptions(CLI::App& app, EvalCommand& c)
       ->capture_default_str();
 }
 
+/** An option that takes one of some names. */
+template <typename T>
+void addChoice(
+    CLI::App& app, const char* name, const char* text, const std::map<std::string, T>& choices,
+    T& value, const char* default_name)
+{
+  app.add_option_function<std::string>(
+         name, [&](const std::string& choice) { value = choices.at(choice); }, text)
+      ->check(CLI::IsMember(&choices))
+      ->type_name("NAME")
+      ->default_str(default_name);
+}
+
 void addMeasureOptions(CLI::App& app, EvaluationOptions& e)
 {
-  app.add_option("-a,--align", e.alignment, "none | first | yaw (and position) | se3 | sim3")
-      ->transform(CLI::CheckedTransformer(alignmentNames(), CLI::ignore_case))
-      ->default_str("se3");
-  app.add_option(
-         "--nees-align", e.nees_alignment,
-         "first: NEES relative to the first pose | none: world frames are the same")
-      ->transform(CLI::CheckedTransformer(neesAlignmentNames(), CLI::ignore_case))
-      ->default_str("first");
+  addChoice(
+      app, "-a,--align", "What aligns both world frames ('yaw': yaw and position)",
+      alignmentNames(), e.alignment, "se3");
+  addChoice(
+      app, "--nees-align",
+      "NEES relative to the first pose ('first'), or with one common world frame ('none')",
+      neesAlignmentNames(), e.nees_alignment, "first");
   app.add_option("--rpe-seconds", e.rpe_seconds, "Span of the RPE per second [s]")
       ->capture_default_str();
   app.add_option("--rpe-metres", e.rpe_metres, "Span of the RPE per metre [m]")
@@ -80,14 +98,26 @@ void addMeasureOptions(CLI::App& app, EvaluationOptions& e)
 void addOutputOptions(CLI::App& app, EvalCommand& c)
 {
   app.add_option(
-      "--json", c.json_path, "Write the report as JSON to FILE, or with '-' instead of the table");
-  app.add_option("--plot", c.svg_path, "Write a picture (SVG): top view and errors over time");
+         "--json", c.json_path,
+         "Write the report as JSON to FILE, or with '-' instead of the table")
+      ->type_name("FILE");
+  app.add_option("--plot", c.svg_path, "Write a picture (SVG): top view and errors over time")
+      ->type_name("FILE");
+}
+
+/** Empty when the text is a limit; CLI::Range would let a NaN pass. */
+std::string limitNumber(const std::string& text)
+{
+  double value = 0.0;
+  const bool is_number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+  return is_number && value >= 0.0 ? ""
+                                   : "a limit must be a number, 0 or above, saw '" + text + "'";
 }
 
 void addGateOptions(CLI::App& app, GateLimits& g)
 {
   const auto add = [&](const char* name, std::optional<double>& limit, const char* text)
-  { app.add_option(name, limit, text)->check(CLI::NonNegativeNumber)->group("Limits"); };
+  { app.add_option(name, limit, text)->check(limitNumber)->group("Limits"); };
   add("--max-ape", g.max_ape, "APE translation RMSE [m]");
   add("--max-ape-rotation", g.max_ape_rotation, "APE rotation RMSE [deg]");
   add("--max-rpe", g.max_rpe, "RPE translation RMSE per second [m/s]");

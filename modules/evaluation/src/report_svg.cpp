@@ -13,7 +13,7 @@ namespace
 {
 constexpr double kWidth = 900.0, kTopViewHeight = 520.0, kErrorHeight = 200.0;  // [px]
 constexpr std::size_t kMaxPoints = 4000;  // more than pixels; bounds the size of the file
-constexpr const char* kReferenceColour = "#888888";
+constexpr const char* kReferenceColour = "#9bb8d3";
 constexpr const char* kEstimateColour = "#c0392b";
 
 /** Poses that one drawn point stands for. */
@@ -23,19 +23,18 @@ std::size_t strideFor(std::size_t count)
 }
 
 PlotSeries pathFromAbove(
-    const std::vector<StampedPose>& poses, const char* name, const char* colour)
+    const std::vector<StampedPose>& poses, const char* name, const char* colour, double width)
 {
-  PlotSeries series{name, colour, {}};
+  PlotSeries series{name, colour, {}, width};
   for (std::size_t i = 0; i < poses.size(); i += strideFor(poses.size()))
     series.points.push_back({poses[i].T_world_body.p.x(), poses[i].T_world_body.p.y()});
   return series;
 }
 
 /** The largest error of each stride, so that no peak is lost. */
-PlotSeries errorOverTime(
-    const EvaluationReport& r, double PoseError::*member, double factor, const char* name)
+PlotSeries errorOverTime(const EvaluationReport& r, double PoseError::*member, double factor)
 {
-  PlotSeries series{name, kEstimateColour, {}};
+  PlotSeries series{"", kEstimateColour, {}};
   const std::size_t stride = strideFor(r.errors.size());
   const auto smaller = [member](const PoseError& a, const PoseError& b)
   { return a.*member < b.*member; };
@@ -60,8 +59,8 @@ PlotPanel topView(const EvaluationReport& r)
       "Top view, aligned: " + toString(r.options.alignment),
       "x [m]",
       "y [m]",
-      {pathFromAbove(r.aligned.reference, "reference", kReferenceColour),
-       pathFromAbove(r.aligned.estimate, "estimate", kEstimateColour)},
+      {pathFromAbove(r.aligned.reference, "reference", kReferenceColour, 5.0),
+       pathFromAbove(r.aligned.estimate, "estimate", kEstimateColour, 1.5)},
       true,
       false};
 }
@@ -76,11 +75,10 @@ PlotPanel errorPanel(const char* title, const char* unit, PlotSeries series)
 std::string toSvg(const EvaluationReport& report)
 {
   const PlotPanel translation = errorPanel(
-      "Absolute translation error", "[m]",
-      errorOverTime(report, &PoseError::translation, 1.0, "translation"));
+      "Absolute translation error", "[m]", errorOverTime(report, &PoseError::translation, 1.0));
   const PlotPanel rotation = errorPanel(
       "Absolute rotation error", "[deg]",
-      errorOverTime(report, &PoseError::rotation, toDegrees(1.0), "rotation"));
+      errorOverTime(report, &PoseError::rotation, toDegrees(1.0)));
   const double rotation_top = kTopViewHeight + kErrorHeight;
   return svgDocument(
       kWidth, rotation_top + kErrorHeight,

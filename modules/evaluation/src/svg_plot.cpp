@@ -13,7 +13,7 @@ namespace fastlio
 namespace
 {
 constexpr double kLeft = 70.0, kRight = 20.0, kTop = 34.0, kBottom = 46.0;  // margins [px]
-constexpr double kPixelsPerTick = 80.0;
+constexpr double kPixelsPerXTick = 80.0, kPixelsPerYTick = 40.0;
 
 struct Range
 {
@@ -65,6 +65,7 @@ Axes axesOf(const PlotPanel& panel, const PlotRectangle& inner)
       x = extended(x, point.x);
       y = extended(y, point.y);
     }
+  if (panel.from_zero) y = extended(y, 0.0);
   Axes axes{padded(x), padded(y), inner};
   if (panel.from_zero) axes.y.low = 0.0;
   if (!panel.equal_scales) return axes;
@@ -95,19 +96,14 @@ std::string number(double value)
   return out.str();
 }
 
-int tickCount(double pixels)
-{
-  return std::max(2, static_cast<int>(pixels / kPixelsPerTick));
-}
-
 std::string grid(const Axes& a)
 {
   const PlotRectangle& r = a.inner;
   std::string out;
-  for (const double v : roundTicks(a.x.low, a.x.high, tickCount(r.width)))
+  for (const double v : roundTicks(a.x.low, a.x.high, static_cast<int>(r.width / kPixelsPerXTick)))
     out += line(a.px(v), r.y, a.px(v), r.y + r.height) +
            text(a.px(v), r.y + r.height + 16.0, number(v), "text-anchor=\"middle\"");
-  for (const double v : roundTicks(a.y.low, a.y.high, tickCount(r.height)))
+  for (const double v : roundTicks(a.y.low, a.y.high, static_cast<int>(r.height / kPixelsPerYTick)))
     out += line(r.x, a.py(v), r.x + r.width, a.py(v)) +
            text(r.x - 6.0, a.py(v) + 4.0, number(v), "text-anchor=\"end\"");
   return out;
@@ -117,8 +113,8 @@ std::string polyline(const PlotSeries& series, const Axes& axes)
 {
   std::ostringstream out;
   out.precision(7);
-  out << "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"" << series.colour
-      << "\" points=\"";
+  out << "<polyline fill=\"none\" stroke-width=\"" << series.width << "\" stroke=\""
+      << series.colour << "\" points=\"";
   for (const PlotPoint& point : series.points)
     out << axes.px(point.x) << ',' << axes.py(point.y) << ' ';
   out << "\"/>\n";
@@ -138,9 +134,11 @@ std::string labels(const PlotPanel& panel, const PlotRectangle& inner)
          text(inner.x - 52.0, middle, panel.y_label, turned.str());
 }
 
-/** Names at the upper right, above the axes, in the series' colours. */
+/** Names at the upper right, above the axes, in the series' colours; a single
+ * series is named by the title. */
 std::string legend(const PlotPanel& panel, const PlotRectangle& inner)
 {
+  if (panel.series.size() < 2) return {};
   std::string out;
   double x = inner.x + inner.width;
   for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series)

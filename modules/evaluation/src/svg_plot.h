@@ -20,6 +20,7 @@ struct PlotSeries
   std::string name;    //!< in the legend
   std::string colour;  //!< as CSS
   std::vector<PlotPoint> points;
+  double width = 1.5;  //!< of the line [px]
 };
 
 struct PlotPanel
