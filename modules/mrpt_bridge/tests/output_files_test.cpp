@@ -110,17 +110,17 @@ TEST(NumberText, SecondsAreExactToTheNanosecond)
   EXPECT_EQ(secondsText(std::numeric_limits<std::int64_t>::max()), "9223372036.854775807");
 }
 
-TEST(NumberText, ShortestTextReadsBackToTheSameNumber)
+TEST(NumberText, RoundTripTextReadsBackToTheSameNumber)
 {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> exponent(-300, 300);
   for (int i = 0; i < 1000; ++i)
   {
     const double value = (i % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, exponent(random));
-    EXPECT_EQ(std::stod(shortestText(value)), value);
+    EXPECT_EQ(std::stod(roundTripText(value)), value);
   }
-  EXPECT_EQ(shortestText(std::nan("")), "nan");
-  EXPECT_EQ(shortestText(-std::numeric_limits<double>::infinity()), "-inf");
+  EXPECT_EQ(roundTripText(std::nan("")), "nan");
+  EXPECT_EQ(roundTripText(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
 TEST(NumberText, FixedTextHasTheDecimalsAskedFor)

@@ -43,7 +43,7 @@ class CovarianceExporter : public Exporter
     std::string row = std::to_string(result.stamp_ns) + "," + poseText(estimate.T_world_body, ',');
     for (int i = 0; i < 6; ++i)
       for (int j = i; j < 6; ++j)
-        row += "," + shortestText(estimate.covariance(i, j));
+        row += "," + roundTripText(estimate.covariance(i, j));
     file_.write(row + "\n");
   }
 

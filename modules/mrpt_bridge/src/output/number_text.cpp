@@ -38,7 +38,7 @@ std::string fixedText(double value, int decimals)
   return {text.data(), end.ptr};
 }
 
-std::string shortestText(double value)
+std::string roundTripText(double value)
 {
   if (!std::isfinite(value)) return notFiniteText(value);
   std::array<char, 32> text{};

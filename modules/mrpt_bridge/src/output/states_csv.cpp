@@ -27,9 +27,9 @@ std::string stateRow(const ScanResult& result)
   std::string row = std::to_string(result.stamp_ns) + "," + poseText(x.pose(), ',');
   for (const Vec3& v : {x.v, x.gyro_bias, x.accel_bias, x.g})
     for (int i = 0; i < 3; ++i)
-      row += "," + shortestText(v[i]);
+      row += "," + roundTripText(v[i]);
   for (int i = 0; i < kStateDim; ++i)
-    row += "," + shortestText(std::sqrt(std::max(0.0, result.filter.P(i, i))));
+    row += "," + roundTripText(std::sqrt(std::max(0.0, result.filter.P(i, i))));
   return row + "\n";
 }
 

@@ -30,8 +30,8 @@ std::string counts(const ScanStatistics& s)
 
 std::string measures(const ScanStatistics& s)
 {
-  return "," + shortestText(s.residual_rms) + "," + shortestText(s.normalized_innovation) + "," +
-         shortestText(s.information_eigenvalues[0]);
+  return "," + roundTripText(s.residual_rms) + "," + roundTripText(s.normalized_innovation) + "," +
+         roundTripText(s.information_eigenvalues[0]);
 }
 
 std::string milliseconds(const StageTimings& t)

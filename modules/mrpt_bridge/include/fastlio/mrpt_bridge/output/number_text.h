@@ -17,6 +17,6 @@ namespace fastlio
 [[nodiscard]] std::string fixedText(double value, int decimals);
 
 /** The shortest text that reads back to the same double ("nan", "inf" when not finite). */
-[[nodiscard]] std::string shortestText(double value);
+[[nodiscard]] std::string roundTripText(double value);
 
 }  // namespace fastlio
