@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,8 +14,14 @@ namespace fastlio
 {
 namespace
 {
-/** Below this ratio of singular values (metres squared) the second direction is rounding noise. */
-constexpr double kRankTolerance = 1e-12;
+/** Spread below a micrometre, or this small beside that in the main direction, is rounding noise.
+ */
+constexpr double kRankTolerance = 1e-12;  // ratio of moments; moments [m^2]
+
+bool isSpread(double moment, double main_moment)
+{
+  return moment > kRankTolerance * std::max(1.0, main_moment);
+}
 
 /** Means and second moments of the positions about them. */
 struct PositionMoments
@@ -53,7 +60,7 @@ Similarity alignUmeyama(const PositionMoments& m, bool with_scale)
 {
   const Eigen::JacobiSVD<Mat3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vec3 d = svd.singularValues();
-  if (!(d[1] > kRankTolerance * d[0]))
+  if (!isSpread(d[1], d[0]))
     throw std::invalid_argument(
         "the positions lie on one line or in one point, which leaves the rotation open; align by "
         "the first pose ('first') or, if they move horizontally, with 'yaw'");
@@ -68,7 +75,7 @@ Similarity alignYaw(const PositionMoments& m)
 {
   const double sine = m.cross(1, 0) - m.cross(0, 1);
   const double cosine = m.cross(0, 0) + m.cross(1, 1);
-  if (!(std::hypot(sine, cosine) > kRankTolerance * m.cross.norm()))
+  if (!isSpread(std::hypot(sine, cosine), m.cross.norm()))
     throw std::invalid_argument(
         "the positions do not move horizontally, which leaves the yaw open; align by the first "
         "pose ('first')");

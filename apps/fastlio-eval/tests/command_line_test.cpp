@@ -1,0 +1,238 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Runs fastlio-eval as a user does: arguments in, exit status and text out.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <sys/wait.h>
+
+namespace
+{
+struct Outcome
+{
+  int status = -1;
+  std::string output;
+};
+
+/** Runs a shell command; output is what it prints to standard output. */
+Outcome runShell(const std::string& command)
+{
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("popen failed");
+  Outcome outcome;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+    outcome.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::string contentOf(const std::filesystem::path& file)
+{
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/** 100 m at 10 m/s; \a scale is that of the positions. */
+std::string tumLine(double scale)
+{
+  std::ostringstream text;
+  text << "# time x y z qx qy qz qw\n";
+  for (int i = 0; i <= 100; ++i)
+    text << 1700000000 + i / 10 << '.' << i % 10 << ' ' << scale * i << " 0 0 0 0 0 1\n";
+  return text.str();
+}
+
+std::string kittiLine()
+{
+  std::ostringstream text;
+  for (int i = 0; i <= 100; ++i)
+    text << "1 0 0 " << i << " 0 1 0 0 0 0 1 0\n";
+  return text.str();
+}
+
+/** Covariance of 1 m^2 and 1 rad^2 at each pose of tumLine(1.01). */
+std::string covarianceCsv()
+{
+  const std::array names{"rx", "ry", "rz", "px", "py", "pz"};
+  std::ostringstream header, values;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i; j < 6; ++j)
+    {
+      header << ",c_" << names[i] << '_' << names[j];
+      values << (i == j ? ",1" : ",0");
+    }
+  std::ostringstream text;
+  text << "# comment\nstamp_ns,x,y,z,qx,qy,qz,qw" << header.str() << '\n';
+  for (int i = 0; i <= 100; ++i)
+    text << 1700000000000000000 + i * 100000000LL << ',' << 1.01 * i << ",0,0,0,0,0,1"
+         << values.str() << '\n';
+  return text.str();
+}
+
+class FastlioEval : public ::testing::Test
+{
+ protected:
+  FastlioEval()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "fastlio_cli_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+    folder_ = name;
+    write("truth.tum", tumLine(1.0));
+    write("estimate.tum", tumLine(1.01));
+  }
+  ~FastlioEval() override
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  void write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  /** Runs the program in the folder; both output streams are captured. */
+  [[nodiscard]] Outcome run(const std::string& arguments) const
+  {
+    return runShell(
+        "cd '" + folder_.string() + "' && '" FASTLIO_EVAL_PROGRAM "' " + arguments + " 2>&1");
+  }
+
+  void expectOutcome(
+      const std::string& arguments, int status, std::initializer_list<const char*> parts) const
+  {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.status, status) << arguments << '\n' << outcome.output;
+    for (const char* part : parts)
+      EXPECT_NE(outcome.output.find(part), std::string::npos) << "'" << part << "' is missing in:\n"
+                                                              << outcome.output;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(FastlioEval, PrintsATable)
+{
+  expectOutcome(
+      "truth.tum estimate.tum --align first", 0,
+      {"101 of 101 used", "APE translation", "1.0000 m (1.0000 % of 100.00 m)"});
+  expectOutcome("-r truth.tum -e estimate.tum -a yaw", 0, {"alignment   yaw"});
+}
+
+TEST_F(FastlioEval, HelpAndVersion)
+{
+  expectOutcome("--help", 0, {"--max-ape", "Exit status", "--kitti-times", "covariance.csv"});
+  expectOutcome("--version", 0, {"fastlio-eval ", "."});
+}
+
+TEST_F(FastlioEval, JsonToStandardOutputAndToAFile)
+{
+  const Outcome outcome = run("truth.tum estimate.tum -a first --json -");
+  ASSERT_EQ(outcome.status, 0) << outcome.output;
+  const auto json = nlohmann::json::parse(outcome.output);
+  EXPECT_NEAR(json["end_to_end_drift"]["percent"].get<double>(), 1.0, 1e-9);
+
+  expectOutcome("truth.tum estimate.tum -a first --json r.json --plot p.svg", 0, {"APE rotation"});
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder_ / "r.json")), json);
+  EXPECT_EQ(contentOf(folder_ / "p.svg").rfind("<svg ", 0), 0U);
+}
+
+TEST_F(FastlioEval, KeptLimitsExitWithZero)
+{
+  expectOutcome(
+      "truth.tum estimate.tum -a first --max-ape 0.6 --max-ape-rotation 0.1 --max-rpe 0.11 "
+      "--max-rpe-rotation 0.1 --max-drift 1.1 --max-drift-percent 1.1 --max-segment-percent 1.1 "
+      "--min-coverage 99",
+      0, {"passed  max-ape", "passed  min-coverage"});
+}
+
+TEST_F(FastlioEval, BrokenLimitsExitWithTwoAndSayWhich)
+{
+  const std::string evaluate = "truth.tum estimate.tum -a first ";
+  expectOutcome(evaluate + "--max-drift 0.5", 2, {"--max-drift: 1 m, limit 0.5", "FAILED"});
+  expectOutcome(
+      evaluate + "--max-ape 0.1 --max-rpe 1 --max-drift-percent 0.5", 2,
+      {"--max-ape: 0.578792 m, limit 0.1", "--max-drift-percent: 1 %, limit 0.5",
+       "passed  max-rpe"});
+  write("half.tum", tumLine(1.0).substr(0, 2000));
+  expectOutcome("truth.tum half.tum -a first --min-coverage 90", 1, {"half.tum:", "columns"});
+}
+
+TEST_F(FastlioEval, AShortEstimateDoesNotPassForAGoodOne)
+{
+  const std::string text = tumLine(1.0);
+  write("short.tum", text.substr(0, text.find("1700000005.0")));
+  expectOutcome(
+      "truth.tum short.tum -a first --max-ape 0.1 --min-coverage 90", 2, {"min-coverage"});
+}
+
+TEST_F(FastlioEval, CovariancesAddNees)
+{
+  write("covariance.csv", covarianceCsv());
+  expectOutcome(
+      "truth.tum covariance.csv -a first --max-nees 6 --max-nees-position 3 --max-nees-rotation 3",
+      0, {"NEES", "pessimistic", "passed  max-nees "});
+  expectOutcome("truth.tum covariance.csv -a first --max-nees-position 0.1", 2, {"limit 0.1"});
+  expectOutcome("truth.tum estimate.tum -a first --max-nees 6", 1, {"covariance.csv"});
+}
+
+TEST_F(FastlioEval, KittiPosesNeedTimes)
+{
+  write("poses.txt", kittiLine());
+  expectOutcome("poses.txt poses.txt -a first --kitti-rate 10", 0, {"101 of 101", "100.00 m"});
+  expectOutcome("poses.txt poses.txt -a first", 1, {"poses.txt", "carry no time"});
+  expectOutcome("poses.txt poses.txt --kitti-times none.txt", 1, {"none.txt", "cannot be opened"});
+  expectOutcome("poses.txt poses.txt --kitti-times a --kitti-rate 10", 1, {"xclude"});
+}
+
+TEST_F(FastlioEval, WrongUsageExitsWithOne)
+{
+  expectOutcome("", 1, {"required"});
+  expectOutcome("truth.tum", 1, {"estimate"});
+  expectOutcome("truth.tum estimate.tum --nonsense", 1, {"--nonsense"});
+  expectOutcome("truth.tum estimate.tum --align up", 1, {"up", "se3"});
+  for (const char* limit : {"-1", "nan", "inf", "much"})
+    expectOutcome(
+        std::string("truth.tum estimate.tum --max-ape ") + limit, 1, {"a limit must be", limit});
+  expectOutcome("truth.tum estimate.tum -a first --max-gap 0", 1, {"gap"});
+  expectOutcome("truth.tum estimate.tum -a first --segment-lengths 5,-1", 1, {"segment"});
+}
+
+TEST_F(FastlioEval, UnusableInputExitsWithOneAndSaysWhere)
+{
+  expectOutcome("truth.tum none.tum", 1, {"none.tum", "cannot be opened"});
+  expectOutcome("truth.tum .", 1, {"is a directory"});
+  write("empty.tum", "");
+  expectOutcome("truth.tum empty.tum", 1, {"empty.tum", "no data"});
+  write("bad.tum", "1 0 0 0 0 0 0 1\n2 0 0 nan 0 0 0 1\n");
+  expectOutcome("truth.tum bad.tum", 1, {"bad.tum:2", "finite"});
+  write("early.tum", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  expectOutcome(
+      "truth.tum early.tum", 1,
+      {"1.000000000 to 2.000000000 s", "1700000000.000000000 to 1700000010.000000000 s"});
+  expectOutcome("truth.tum estimate.tum -a se3", 1, {"on one line", "yaw"});
+}
+
+TEST_F(FastlioEval, UnwritableOutputExitsWithOne)
+{
+  const std::string evaluate = "truth.tum estimate.tum -a first ";
+  expectOutcome(evaluate + "--json none/r.json", 1, {"none/r.json", "cannot be written"});
+  expectOutcome(evaluate + "--plot none/p.svg", 1, {"none/p.svg", "cannot be written"});
+  expectOutcome(evaluate + ">/dev/full", 1, {});
+}
+
+}  // namespace

@@ -1,0 +1,208 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "../src/svg_plot.h"
+#include "sample_trajectories.h"
+#include <fastlio/evaluation/report.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fastlio
+{
+namespace
+{
+using samples::expectThrows;
+
+/** 100 m along x at 10 m/s, estimated 1 % too long, with covariances. */
+EvaluationReport scaleErrorReport()
+{
+  Trajectory estimate = samples::line();
+  estimate.source = "a \"quoted\" <name>";
+  for (StampedPose& pose : estimate.poses)
+  {
+    pose.T_world_body.p *= 1.01;
+    estimate.covariances.push_back(Matrix6::Identity());
+  }
+  EvaluationOptions options;
+  options.alignment = Alignment::First;
+  return evaluate(estimate, samples::line(), options);
+}
+
+TEST(Gates, EachLimitIsComparedWithItsMeasure)
+{
+  GateLimits limits;
+  limits.max_ape = 10.0;
+  limits.max_rpe = 0.05;
+  limits.max_drift = 0.99;
+  limits.max_drift_percent = 1.01;
+  limits.max_nees = 100.0;
+  limits.min_coverage_percent = 100.0;
+  const auto gates = checkGates(scaleErrorReport(), limits);
+  ASSERT_EQ(gates.size(), 6U);
+  EXPECT_TRUE(gates[0].passed);
+  EXPECT_EQ(gates[1].name, "max-rpe");
+  EXPECT_FALSE(gates[1].passed);
+  EXPECT_NEAR(gates[1].measured, 0.1, 1e-9);
+  EXPECT_EQ(gates[2].name, "max-drift");
+  EXPECT_FALSE(gates[2].passed);
+  EXPECT_NEAR(gates[3].measured, 1.0, 1e-9);
+  EXPECT_TRUE(gates[3].passed);
+  EXPECT_TRUE(gates[4].passed);
+  EXPECT_TRUE(gates[5].passed);
+  EXPECT_TRUE(checkGates(scaleErrorReport(), {}).empty());
+}
+
+TEST(Gates, AnglesAreInDegreesAndSegmentsInPerCent)
+{
+  EvaluationReport report = scaleErrorReport();
+  report.ape.rotation.rmse = M_PI / 180.0;
+  report.rpe_second.rotation.rmse = M_PI / 90.0;
+  GateLimits limits;
+  limits.max_ape_rotation = 0.5;
+  limits.max_rpe_rotation = 3.0;
+  limits.max_segment_percent = 2.0;
+  const auto gates = checkGates(report, limits);
+  ASSERT_EQ(gates.size(), 3U);
+  EXPECT_NEAR(gates[0].measured, 1.0, 1e-12);
+  EXPECT_FALSE(gates[0].passed);
+  EXPECT_NEAR(gates[1].measured, 2.0, 1e-12);
+  EXPECT_NEAR(gates[2].measured, 1.0, 1e-9);
+}
+
+TEST(Gates, AMeasureThatIsNotANumberFails)
+{
+  EvaluationReport report = scaleErrorReport();
+  report.ape.translation.rmse = std::nan("");
+  GateLimits limits;
+  limits.max_ape = 1e9;
+  EXPECT_FALSE(checkGates(report, limits).at(0).passed);
+}
+
+TEST(Gates, WhatWasNotMeasuredCannotBeChecked)
+{
+  EvaluationReport report = scaleErrorReport();
+  report.nees.reset();
+  report.segment_average.reset();
+  report.rpe_second = {};
+  report.drift.path_length = 0.0;
+  const auto checking = [&report](std::optional<double> GateLimits::*limit)
+  {
+    GateLimits limits;
+    limits.*limit = 1.0;
+    return [&report, limits] { (void)checkGates(report, limits); };
+  };
+  expectThrows<std::invalid_argument>(checking(&GateLimits::max_nees), {"max-nees", "covariance"});
+  expectThrows<std::invalid_argument>(checking(&GateLimits::max_rpe), {"max-rpe", "shorter"});
+  expectThrows<std::invalid_argument>(
+      checking(&GateLimits::max_segment_percent), {"max-segment-percent", "segment"});
+  expectThrows<std::invalid_argument>(
+      checking(&GateLimits::max_drift_percent), {"max-drift-percent", "does not move"});
+}
+
+TEST(Report, JsonHoldsTheFigures)
+{
+  const EvaluationReport report = scaleErrorReport();
+  GateLimits limits;
+  limits.max_drift = 0.5;
+  const auto json = nlohmann::json::parse(toJson(report, checkGates(report, limits)));
+  EXPECT_EQ(json["estimate"], "a \"quoted\" <name>");
+  EXPECT_EQ(json["association"]["used"], 101);
+  EXPECT_NEAR(json["path_length_m"].get<double>(), 100.0, 1e-9);
+  EXPECT_NEAR(json["ape"]["translation_m"]["max"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(json["rpe_per_second"]["translation_m_per_s"]["rmse"].get<double>(), 0.1, 1e-9);
+  EXPECT_NEAR(json["rpe_per_metre"]["translation_percent"]["rmse"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(json["end_to_end_drift"]["percent"].get<double>(), 1.0, 1e-9);
+  EXPECT_EQ(json["segments"]["per_length"].size(), 5U);
+  EXPECT_EQ(json["nees"]["position"]["degrees_of_freedom"], 3);
+  EXPECT_EQ(json["alignment"]["type"], "first");
+  EXPECT_FALSE(json["gates"][0]["passed"].get<bool>());
+}
+
+TEST(Report, AbsentMeasuresAreNull)
+{
+  Trajectory two = samples::line(2);
+  two.source = "bytes \xff that are not UTF-8";
+  EvaluationOptions options;
+  options.alignment = Alignment::First;
+  const EvaluationReport report = evaluate(two, two, options);
+  const auto json = nlohmann::json::parse(toJson(report));
+  EXPECT_TRUE(json["nees"].is_null());
+  EXPECT_TRUE(json["segments"].is_null());
+  EXPECT_TRUE(json["rpe_per_second"]["translation_m_per_s"].is_null());
+  EXPECT_NE(toTable(report).find("shorter than the span"), std::string::npos);
+}
+
+TEST(Report, TableHasUnitsAndFitsTheTerminal)
+{
+  EvaluationReport report = scaleErrorReport();
+  GateLimits limits;
+  limits.max_drift = 0.5;
+  const std::string table = toTable(report, checkGates(report, limits));
+  for (const char* part :
+       {"APE translation            m         0.5788",
+        "RPE translation over 1 s   m/s       0.1000", "1.0000 m (1.0000 % of 100.00 m)",
+        "101 of 101", "FAILED  max-drift", "position"})
+    EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(Report, SvgDrawsBothPathsAndTheErrors)
+{
+  const std::string svg = toSvg(scaleErrorReport());
+  EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
+  std::size_t lines = 0;
+  for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 4U);
+  for (const char* part : {"reference", "x [m]", "time [s]", "[deg]", "</svg>"})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Report, SvgOfALongRunKeepsThePeakAndStaysSmall)
+{
+  const Trajectory truth = samples::curve(50'000, 5'000'000);
+  Trajectory estimate = truth;
+  estimate.poses[12'345].T_world_body.p.z() += 5.0;
+  EvaluationOptions options;
+  options.alignment = Alignment::None;
+  const std::string svg = toSvg(evaluate(estimate, truth, options));
+  EXPECT_LT(svg.size(), 400'000U);
+  EXPECT_NE(svg.find(">4<"), std::string::npos);  // a tick that only the peak reaches
+}
+
+TEST(Svg, TicksAreRoundNumbersInside)
+{
+  EXPECT_EQ(roundTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(roundTicks(-1.0, 1.0, 2), (std::vector<double>{-1, 0, 1}));
+  EXPECT_TRUE(roundTicks(1.0, 1.0, 5).empty());
+  EXPECT_TRUE(roundTicks(0.0, std::nan(""), 5).empty());
+}
+
+TEST(Svg, TextIsEscaped)
+{
+  EXPECT_EQ(escapeXml("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
+}
+
+TEST(AtomicFile, ReplacesAndLeavesNothingBehind)
+{
+  const samples::TemporaryFolder folder;
+  const auto file = folder.write("report.json", "old");
+  writeFileAtomically(file, "new");
+  std::ifstream in(file);
+  std::string text;
+  in >> text;
+  EXPECT_EQ(text, "new");
+  const auto entries = std::distance(
+      std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
+  EXPECT_EQ(entries, 1);
+  expectThrows<std::runtime_error>(
+      [&] { writeFileAtomically(folder.path() / "none" / "x", ""); },
+      {"none/x", "cannot be written"});
+}
+
+}  // namespace
+}  // namespace fastlio
