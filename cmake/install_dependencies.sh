@@ -5,8 +5,8 @@
 # Usage: cmake/install_dependencies.sh [build] [lint]      (default: build)
 set -eu
 
-build_packages="g++ cmake ninja-build pkg-config
-  libmrpt-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
+build_packages="g++ cmake ninja-build
+  libmrpt-maps-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev"
 lint_packages="clang-format clang-tidy"
 

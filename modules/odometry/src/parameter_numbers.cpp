@@ -52,21 +52,21 @@ std::string realText(const RealValue& value, double member)
   constexpr int kAllDigits = 17;
   for (int digits = 1; digits < kAllDigits; ++digits)
   {
-    const std::string text = numberText(member / value.si_per_unit, digits);
+    std::string text = numberText(member / value.si_per_unit, digits);
     const auto back = parsed<double>(text);
     if (back && *back * value.si_per_unit == member) return text;
   }
   return shortestText(member / value.si_per_unit);
 }
 
-Pose poseFromNumbers(const std::array<double, 6>& v)
+Pose poseFromNumbers(const std::array<double, 6>& numbers)
 {
   using Eigen::AngleAxisd;
-  const Mat3 R =
-      (AngleAxisd(v[3] / kDegPerRad, Vec3::UnitZ()) * AngleAxisd(v[4] / kDegPerRad, Vec3::UnitY()) *
-       AngleAxisd(v[5] / kDegPerRad, Vec3::UnitX()))
-          .toRotationMatrix();
-  return {R, {v[0], v[1], v[2]}};
+  const Mat3 R = (AngleAxisd(numbers[3] / kDegPerRad, Vec3::UnitZ()) *
+                  AngleAxisd(numbers[4] / kDegPerRad, Vec3::UnitY()) *
+                  AngleAxisd(numbers[5] / kDegPerRad, Vec3::UnitX()))
+                     .toRotationMatrix();
+  return {R, {numbers[0], numbers[1], numbers[2]}};
 }
 
 std::string poseText(const Pose& pose)

@@ -72,7 +72,7 @@ Parameters withRandomValue(const ParameterRow& row, Parameters p, Random& random
   if (const auto* choice = std::get_if<ChoiceValue>(&row.value))
     choice->write(p, random() % choice->names.size());
   if (const auto* regex = std::get_if<RegexValue>(&row.value))
-    regex->member.in(p) = "it's # a: 'label' \\d+ \"[a-z]*\" " + std::to_string(random() % 100);
+    regex->member.in(p) = R"(it's # a: 'label' \d+ "[a-z]*" )" + std::to_string(random() % 100);
   if (const auto* pose = std::get_if<PoseValue>(&row.value))
     pose->member.in(p) =
         Pose{Eigen::Quaterniond::UnitRandom().toRotationMatrix(), 10.0 * Vec3::Random()};

@@ -27,7 +27,9 @@ template <typename T>
 class ParameterMember
 {
  public:
-  template <typename Accessor>
+  template <
+      typename Accessor,
+      typename = std::enable_if_t<std::is_convertible_v<Accessor, T* (*)(Parameters&)>>>
   constexpr ParameterMember(Accessor accessor) : read_(accessor), write_(accessor)
   {
   }
