@@ -1,0 +1,143 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "command_line.h"
+
+#include <fastlio/simulation/scenario.h>
+#include <fastlio/simulation/settings_table.h>
+
+#include <array>
+#include <sstream>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kFooter = R"(Files in the output directory:
+  recording.rawlog  IMU (label 'imu') and LiDAR (label 'lidar'), in the order of their stamps
+  ground_truth.tum  true pose of the IMU at 200 Hz
+  config.yaml       parameters for fastlio-replay that match the simulated sensors
+  scenario.json     all settings, true biases, gravity and mounting
+
+Exit status:
+  0  written
+  1  wrong usage, an unusable setting, or a file that cannot be written)";
+
+/** An option of its own for a setting that is changed often. */
+struct Shorthand
+{
+  const char* option;
+  const char* key;
+};
+
+constexpr std::array<Shorthand, 14> kShorthands{{
+    {"--duration", "duration"},
+    {"--seed", "seed"},
+    {"--rest", "rest"},
+    {"--speed", "speed"},
+    {"--lidar", "lidar.kind"},
+    {"--scan-rate", "lidar.rate"},
+    {"--range-noise", "lidar.range_noise"},
+    {"--dropout", "lidar.dropout"},
+    {"--stride", "lidar.stride"},
+    {"--time-offset", "lidar.time_offset"},
+    {"--lidar-pose", "lidar.pose"},
+    {"--imu-rate", "imu.rate"},
+    {"--gyro-noise", "imu.gyro_noise"},
+    {"--accel-noise", "imu.accel_noise"},
+}};
+
+const SettingRow& rowOf(std::string_view key)
+{
+  for (const auto& row : settingsTable())
+    if (row.key == key) return row;
+  throw std::logic_error("No setting '" + std::string(key) + "' in the table.");
+}
+
+std::string describe(const SettingRow& row)
+{
+  const std::string unit = row.unit.empty() ? "" : " [" + std::string(row.unit) + "]";
+  return std::string(row.effect) + unit;
+}
+
+void addShorthand(CLI::App& app, SimCommand& command, const Shorthand& shorthand)
+{
+  const std::string key = shorthand.key;
+  app.add_option_function<std::string>(
+         shorthand.option,
+         [&command, key](const std::string& value) { command.overrides.emplace_back(key, value); },
+         describe(rowOf(key)))
+      ->type_name("VALUE")
+      ->group("Settings");
+}
+
+void addSet(CLI::App& app, SimCommand& command)
+{
+  const auto add = [&command](const std::vector<std::string>& assignments)
+  {
+    for (const auto& text : assignments)
+    {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos)
+        throw CLI::ValidationError("--set", "expected KEY=VALUE, saw '" + text + "'");
+      command.overrides.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+    }
+  };
+  app.add_option_function<std::vector<std::string>>(
+         "--set", add, "Any setting (see --list-settings); may be repeated")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Settings");
+}
+}  // namespace
+
+void addOptions(CLI::App& app, SimCommand& command)
+{
+  app.set_version_flag("--version", "fastlio-sim " MRPT_FASTLIO_VERSION);
+  app.footer(kFooter);
+  app.add_option("scenario,-s,--scenario", command.scenario, "What is simulated (see --list)")
+      ->type_name("NAME");
+  app.add_option(
+         "-o,--output-dir", command.output_dir,
+         "Directory for the files, created when absent [simulated_NAME]")
+      ->type_name("DIR");
+  app.add_flag("--list", command.list_scenarios, "List the scenarios");
+  app.add_flag(
+      "--list-settings", command.list_settings,
+      "List the settings with their values for the scenario");
+  app.add_flag("-q,--quiet", command.quiet, "Print errors only");
+  for (const auto& shorthand : kShorthands)
+    addShorthand(app, command, shorthand);
+  addSet(app, command);
+}
+
+SimulationSettings settingsOf(const SimCommand& command)
+{
+  SimulationSettings settings = defaultSettings(command.scenario);
+  for (const auto& [key, value] : command.overrides)
+    settings = withSetting(settings, key, value);
+  requireValid(settings);
+  return settings;
+}
+
+std::string scenarioList()
+{
+  std::ostringstream text;
+  for (const auto& scenario : scenarioCatalog())
+    text << "  " << scenario.name << std::string(12 - scenario.name.size(), ' ') << scenario.summary
+         << '\n';
+  return text.str();
+}
+
+std::string settingsList(const SimulationSettings& defaults)
+{
+  std::ostringstream text;
+  for (const auto& row : settingsTable())
+    text << row.key << " = " << settingText(row, defaults) << '\n'
+         << "    " << describe(row) << "; " << allowedValues(row) << '\n';
+  return text.str();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,32 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file observations.h Simulated data as the observations that MRPT's drivers would record. */
+#pragma once
+
+#include <fastlio/simulation/simulation.h>
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+namespace fastlio
+{
+/** Sensor labels of all simulated recordings. */
+constexpr const char* kImuLabel = "imu";
+constexpr const char* kLidarLabel = "lidar";
+
+/** Angular rate and specific force; the sensor pose is the identity, the vehicle frame being that
+ * of the IMU. */
+[[nodiscard]] mrpt::obs::CObservationIMU::Ptr toImuObservation(const ImuSample& sample);
+
+/** A sweep of a VLP-16 as raw packets: ranges in units of 2 mm, azimuths of 0.01 deg, times of 1 us
+ * past the hour; strongest return. Ranges beyond what a packet can hold (131 m) are no returns. */
+[[nodiscard]] mrpt::obs::CObservationVelodyneScan::Ptr toVelodyneScan(
+    const FiredSweep& fired, const SimulationSettings& settings);
+
+/** Sweep number index in the class that its sensor's recordings have: CObservationVelodyneScan for
+ * vlp16, CObservationPointCloud with CPointsMapXYZIRT for the others. */
+[[nodiscard]] mrpt::obs::CObservation::Ptr toLidarObservation(
+    const Simulation& simulation, std::size_t index);
+
+}  // namespace fastlio

@@ -1,0 +1,46 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file recording.h A simulated recording as files. */
+#pragma once
+
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/simulation/simulation.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace fastlio
+{
+/** Told after each sweep: how many are done, of how many. */
+using RecordingProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/** The files of a recording. */
+struct RecordingFiles
+{
+  std::string rawlog;        //!< recording.rawlog (gzip)
+  std::string ground_truth;  //!< ground_truth.tum: true pose of the IMU at 200 Hz
+  std::string config;        //!< config.yaml: the odometry's parameters that match
+  std::string scenario;      //!< scenario.json: all settings and what is true
+};
+
+/** Writes all files into a directory, which is created when absent. Each file appears under its
+ * name when it is complete. The same settings give the same bytes. \exception std::runtime_error a
+ * file cannot be written */
+RecordingFiles writeRecording(
+    const Simulation& simulation, const std::string& directory,
+    const RecordingProgress& progress = {});
+
+/** The odometry's parameters that match the simulated sensors: noise densities (a vibration counts
+ * as white noise of the same power), prior of the accelerometer bias, ranges, mounting, time
+ * offset, gravity. */
+[[nodiscard]] Parameters matchingParameters(const SimulationSettings& settings);
+
+/** True pose of the IMU at 200 Hz as TUM text: `time x y z qx qy qz qw`. */
+[[nodiscard]] std::string groundTruthText(const Simulation& simulation);
+
+/** All settings and what is true, as JSON. */
+[[nodiscard]] std::string scenarioJson(const Simulation& simulation);
+
+}  // namespace fastlio

@@ -1,0 +1,76 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file settings.h Everything about a simulated recording that a user may change. */
+#pragma once
+
+#include <fastlio/filter/imu.h>
+#include <fastlio/filter/pose.h>
+
+#include <cstdint>
+#include <string>
+
+namespace fastlio
+{
+/** Which sensor is simulated. */
+enum class LidarKind
+{
+  Vlp16,  //!< Velodyne VLP-16: raw packets in the recording
+  Os64,   //!< spinning, all lines of a column at once
+  Livox   //!< non-repetitive rosette
+};
+
+/** The LiDAR. */
+struct LidarSettings
+{
+  LidarKind kind = LidarKind::Vlp16;
+  double rate = 10.0;           //!< sweeps per second [Hz]
+  int lines = 64;               //!< os64: laser lines
+  int columns = 1024;           //!< os64: columns per revolution
+  double vertical_fov = 0.785;  //!< os64: angle between the outermost lines [rad]
+  double point_rate = 240e3;    //!< livox: shots per second [Hz]
+  int stride = 1;               //!< only every so many-th column (firing) is fired
+  double min_range = 1.0;       //!< nearer surfaces give no return [m]
+  double max_range = 100.0;     //!< farther surfaces give no return [m]
+  double range_noise = 0.02;    //!< standard deviation of a range [m]
+  double dropout = 0.01;        //!< share of returns that are lost
+  double time_offset = 0.0;     //!< added to the true stamps (LiDAR clock minus IMU clock) [s]
+  Pose T_imu_lidar;             //!< mounting
+};
+
+/** The inertial sensor. */
+struct ImuSettings
+{
+  double rate = 200.0;                     //!< [Hz]
+  ImuNoise noise{2e-4, 2e-3, 2e-5, 2e-4};  //!< continuous-time densities
+  Vec3 gyro_bias = Vec3::Zero();           //!< mean of the initial bias [rad/s]
+  Vec3 accel_bias = Vec3::Zero();          //!< mean of the initial bias [m/s^2]
+  double gyro_bias_std = 3e-3;             //!< its scatter over seeds [rad/s]
+  double accel_bias_std = 0.03;            //!< its scatter over seeds [m/s^2]
+  double stamp_jitter = 0.0;               //!< standard deviation of the stamps' error [s]
+  double gyro_limit = 34.9;                //!< saturation [rad/s]
+  double accel_limit = 157.0;              //!< saturation [m/s^2]
+  double dropout = 0.0;                    //!< share of samples that are lost, one by one
+  double gap_interval = 0.0;               //!< a gap every so often after the rest; 0: none [s]
+  double gap_length = 0.05;                //!< length of such a gap [s]
+  double vibration_gyro = 0.0;             //!< amplitude [rad/s]
+  double vibration_accel = 0.0;            //!< amplitude [m/s^2]
+  double vibration_frequency = 83.0;       //!< of the fundamental [Hz]
+  bool average = false;  //!< samples are means over the period that they end; else instantaneous
+};
+
+/** A simulated recording. Defaults per scenario: defaultSettings(). */
+struct SimulationSettings
+{
+  std::string scenario = "office";
+  double duration = 0.0;   //!< [s]; 0: as long as the scenario's path takes
+  std::uint64_t seed = 1;  //!< of all noise; world and path do not depend on it
+  std::int64_t start_ns = 1'700'000'000'000'000'000;  //!< stamp of the first IMU sample [ns]
+  double gravity = 9.81;                              //!< [m/s^2]
+  double rest = 2.5;                                  //!< time at rest at the start [s]
+  double speed = 1.0;                                 //!< factor on the motion's speed
+  LidarSettings lidar;
+  ImuSettings imu;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,19 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file angles.h Poses as six numbers. */
+#pragma once
+
+#include <fastlio/filter/pose.h>
+
+#include <array>
+
+namespace fastlio
+{
+/** x, y, z [m], yaw, pitch, roll [deg]; R = Rz(yaw) Ry(pitch) Rx(roll). */
+using SixNumbers = std::array<double, 6>;
+
+[[nodiscard]] Pose poseFromNumbers(const SixNumbers& numbers);
+[[nodiscard]] SixNumbers numbersFromPose(const Pose& pose);
+
+}  // namespace fastlio

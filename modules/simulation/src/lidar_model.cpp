@@ -1,0 +1,220 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/simulation/lidar_model.h>
+#include <fastlio/simulation/vlp16.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kTwoPi = 6.283185307179586477;
+constexpr double kRadPerDeg = kTwoPi / 360.0;
+constexpr double kNsPerSecond = 1e9;
+
+/** Direction of a spinning sensor's laser; the azimuth grows clockwise seen from above. */
+Vec3 spinningDirection(double azimuth, double elevation)
+{
+  const double c = std::cos(elevation);
+  return {c * std::cos(azimuth), -c * std::sin(azimuth), std::sin(elevation)};
+}
+
+std::int64_t roundedNs(double seconds)
+{
+  return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
+}
+
+/** Packets follow each other without a pause; a sweep is the packets that begin in one revolution.
+ */
+class Vlp16Model : public LidarModel
+{
+ public:
+  Vlp16Model(const LidarSettings& settings, std::int64_t first_shot_ns)
+      : rate_(settings.rate), zero_ns_(first_shot_ns)
+  {
+  }
+
+  [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
+  {
+    return zero_ns_ + static_cast<std::int64_t>(firstPacket(index)) * vlp16::kPacketNs;
+  }
+
+  [[nodiscard]] Sweep sweep(std::size_t index) const override
+  {
+    Sweep sweep;
+    sweep.stamp_ns = stampOf(index);
+    const std::size_t packets = firstPacket(index + 1) - firstPacket(index);
+    sweep.shots.reserve(packets * vlp16::kShotsPerPacket);
+    for (std::size_t k = 0; k < packets * vlp16::kShotsPerPacket; ++k)
+      sweep.shots.push_back(shot(sweep.stamp_ns, k));
+    return sweep;
+  }
+
+ private:
+  [[nodiscard]] std::size_t firstPacket(std::size_t index) const
+  {
+    const double packets_per_turn = kNsPerSecond / (rate_ * static_cast<double>(vlp16::kPacketNs));
+    return static_cast<std::size_t>(std::ceil(static_cast<double>(index) * packets_per_turn));
+  }
+
+  [[nodiscard]] Shot shot(std::int64_t stamp_ns, std::size_t k) const
+  {
+    const std::size_t firing = k / vlp16::kLasers;
+    const std::size_t laser = k % vlp16::kLasers;
+    const std::int64_t offset_ns = static_cast<std::int64_t>(firing) * vlp16::kFiringNs +
+                                   static_cast<std::int64_t>(laser) * vlp16::kLaserNs;
+    const double azimuth = vlp16::azimuthAt(stamp_ns + offset_ns - zero_ns_, rate_);
+    return {
+        spinningDirection(azimuth, vlp16::kElevationDeg[laser] * kRadPerDeg),
+        static_cast<std::int32_t>(offset_ns), static_cast<std::uint32_t>(firing),
+        vlp16::ringOf(laser)};
+  }
+
+  double rate_;
+  std::int64_t zero_ns_;
+};
+
+/** All lines of a column fire at once, columns are equally spaced in angle and time. */
+class SpinningModel : public LidarModel
+{
+ public:
+  SpinningModel(const LidarSettings& settings, std::int64_t first_shot_ns)
+      : settings_(settings), zero_ns_(first_shot_ns)
+  {
+  }
+
+  [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
+  {
+    return zero_ns_ + roundedNs(static_cast<double>(index) / settings_.rate);
+  }
+
+  [[nodiscard]] Sweep sweep(std::size_t index) const override
+  {
+    Sweep sweep;
+    sweep.stamp_ns = stampOf(index);
+    sweep.shots.reserve(static_cast<std::size_t>(settings_.columns * settings_.lines));
+    for (int column = 0; column < settings_.columns; ++column)
+    {
+      const double turn = static_cast<double>(column) / settings_.columns;
+      const auto offset_ns = static_cast<std::int32_t>(roundedNs(turn / settings_.rate));
+      for (int line = 0; line < settings_.lines; ++line)
+        sweep.shots.push_back(
+            {spinningDirection(kTwoPi * turn, elevation(line)), offset_ns,
+             static_cast<std::uint32_t>(column), static_cast<std::uint16_t>(line)});
+    }
+    return sweep;
+  }
+
+ private:
+  [[nodiscard]] double elevation(int line) const
+  {
+    if (settings_.lines == 1) return 0.0;
+    return settings_.vertical_fov * (static_cast<double>(line) / (settings_.lines - 1) - 0.5);
+  }
+
+  LidarSettings settings_;
+  std::int64_t zero_ns_;
+};
+
+/** Two prisms that turn in opposite directions at incommensurable speeds bend the beam along a
+ * rosette which never repeats; six lasers side by side take turns. */
+class RosetteModel : public LidarModel
+{
+ public:
+  RosetteModel(const LidarSettings& settings, std::int64_t first_shot_ns)
+      : settings_(settings), zero_ns_(first_shot_ns)
+  {
+  }
+
+  [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
+  {
+    return zero_ns_ + roundedNs(static_cast<double>(firstShot(index)) / settings_.point_rate);
+  }
+
+  [[nodiscard]] Sweep sweep(std::size_t index) const override
+  {
+    Sweep sweep;
+    sweep.stamp_ns = stampOf(index);
+    sweep.shots.reserve(firstShot(index + 1) - firstShot(index));
+    for (std::size_t k = firstShot(index); k < firstShot(index + 1); ++k)
+      sweep.shots.push_back(shot(k, sweep.stamp_ns, k - firstShot(index)));
+    return sweep;
+  }
+
+ private:
+  static constexpr std::size_t kLasers = 6;
+  static constexpr double kLaserSpacing = 0.2 * kRadPerDeg;
+  static constexpr double kDeflection = 17.5 * kRadPerDeg;  // of each prism
+  static constexpr double kFirstPrism = 77.313 * kTwoPi;    // [rad/s]
+  static constexpr double kSecondPrism = -46.171 * kTwoPi;
+
+  [[nodiscard]] std::size_t firstShot(std::size_t index) const
+  {
+    const double shots_per_sweep = settings_.point_rate / settings_.rate;
+    return static_cast<std::size_t>(std::llround(static_cast<double>(index) * shots_per_sweep));
+  }
+
+  [[nodiscard]] Shot shot(std::size_t k, std::int64_t sweep_ns, std::size_t in_sweep) const
+  {
+    const double t = static_cast<double>(k) / settings_.point_rate;
+    const std::size_t laser = k % kLasers;
+    const double left = kDeflection * (std::cos(kFirstPrism * t) + std::cos(kSecondPrism * t));
+    const double up = kDeflection * (std::sin(kFirstPrism * t) + std::sin(kSecondPrism * t)) +
+                      kLaserSpacing * (static_cast<double>(laser) - 0.5 * (kLasers - 1));
+    return {
+        spinningDirection(-left, up), static_cast<std::int32_t>(zero_ns_ + roundedNs(t) - sweep_ns),
+        static_cast<std::uint32_t>(in_sweep / kLasers), static_cast<std::uint16_t>(laser)};
+  }
+
+  LidarSettings settings_;
+  std::int64_t zero_ns_;
+};
+
+void requireUsable(const LidarSettings& s)
+{
+  const double packets_per_sweep = kNsPerSecond / (s.rate * static_cast<double>(vlp16::kPacketNs));
+  const bool usable = s.rate > 0.0 && s.lines > 0 && s.columns > 0 && s.stride > 0 &&
+                      (s.kind != LidarKind::Vlp16 || packets_per_sweep >= 1.0) &&
+                      (s.kind != LidarKind::Livox || s.point_rate >= s.rate);
+  if (usable) return;
+  throw std::invalid_argument(
+      "LiDAR model: " + std::to_string(s.rate) + " sweeps/s with " + std::to_string(s.lines) +
+      " lines, " + std::to_string(s.columns) + " columns, " + std::to_string(s.point_rate) +
+      " shots/s, stride " + std::to_string(s.stride) +
+      "; all must be positive, and a sweep must hold at least one packet or shot.");
+}
+}  // namespace
+
+double vlp16::azimuthAt(std::int64_t elapsed_ns, double rate)
+{
+  const double turns = static_cast<double>(elapsed_ns) / kNsPerSecond * rate;
+  return kTwoPi * (turns - std::floor(turns));
+}
+
+std::uint16_t vlp16::ringOf(std::size_t laser)
+{
+  // Lasers alternate between the lower and the upper half, both from below.
+  return static_cast<std::uint16_t>(laser % 2 == 0 ? laser / 2 : kLasers / 2 + laser / 2);
+}
+
+std::unique_ptr<const LidarModel> makeLidarModel(
+    const LidarSettings& settings, std::int64_t first_shot_ns)
+{
+  requireUsable(settings);
+  switch (settings.kind)
+  {
+    case LidarKind::Vlp16:
+      return std::make_unique<Vlp16Model>(settings, first_shot_ns);
+    case LidarKind::Os64:
+      return std::make_unique<SpinningModel>(settings, first_shot_ns);
+    case LidarKind::Livox:
+      return std::make_unique<RosetteModel>(settings, first_shot_ns);
+  }
+  throw std::invalid_argument("LiDAR model: unknown kind.");
+}
+
+}  // namespace fastlio

@@ -1,0 +1,148 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/xyzirt_access.h>
+#include <fastlio/simulation/observations.h>
+#include <fastlio/simulation/vlp16.h>
+
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::obs::CObservationIMU;
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationVelodyneScan;
+using RawPacket = CObservationVelodyneScan::TVelodyneRawPacket;
+
+constexpr double kTwoPi = 6.283185307179586477;
+constexpr std::int64_t kHourUs = 3'600'000'000;
+constexpr std::uint8_t kVlp16Id = 0x22;
+constexpr double kMaxRawRange = 65535.0;
+
+std::int64_t deliveredStamp(const FiredSweep& fired, const SimulationSettings& settings)
+{
+  return fired.sweep.stamp_ns +
+         static_cast<std::int64_t>(std::llround(settings.lidar.time_offset * 1e9));
+}
+
+/** Little-endian bytes of a data packet, in order. */
+class PacketBytes
+{
+ public:
+  template <typename T>
+  void append(T value)
+  {
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      bytes_[used_++] = static_cast<std::uint8_t>((value >> (8U * i)) & 0xFFU);
+  }
+
+  [[nodiscard]] RawPacket packet() const
+  {
+    static_assert(sizeof(RawPacket) == CObservationVelodyneScan::PACKET_SIZE);
+    RawPacket packet;
+    std::memcpy(&packet, bytes_.data(), bytes_.size());
+    return packet;
+  }
+
+ private:
+  std::array<std::uint8_t, CObservationVelodyneScan::PACKET_SIZE> bytes_{};
+  std::size_t used_ = 0;
+};
+
+std::uint16_t rawAzimuth(const Shot& first_of_block)
+{
+  // The first laser of a block points along the encoder's angle, clockwise from x.
+  const double angle =
+      std::atan2(-first_of_block.direction.y(), first_of_block.direction.x()) / kTwoPi;
+  const auto hundredths = std::llround((angle - std::floor(angle)) * 36000.0);
+  return static_cast<std::uint16_t>(hundredths % 36000);
+}
+
+std::uint16_t rawRange(double range)
+{
+  const double units = std::round(range / vlp16::kRangeUnit);
+  return units > kMaxRawRange ? std::uint16_t{0} : static_cast<std::uint16_t>(units);
+}
+
+/** The packet made of the sweep's shots from number first on. */
+RawPacket encodePacket(const FiredSweep& fired, std::size_t first, std::int64_t stamp_ns)
+{
+  constexpr std::size_t kShotsPerBlock = vlp16::kLasers * vlp16::kFiringsPerBlock;
+  PacketBytes bytes;
+  for (std::size_t i = first; i < first + vlp16::kShotsPerPacket; ++i)
+  {
+    if ((i - first) % kShotsPerBlock == 0)
+    {
+      bytes.append(CObservationVelodyneScan::UPPER_BANK);
+      bytes.append(rawAzimuth(fired.sweep.shots[i]));
+    }
+    bytes.append(rawRange(fired.echoes[i].range));
+    bytes.append(static_cast<std::uint8_t>(std::lround(fired.echoes[i].intensity)));
+  }
+  const std::int64_t stamp_us = (stamp_ns + fired.sweep.shots[first].offset_ns + 500) / 1000;
+  bytes.append(static_cast<std::uint32_t>(stamp_us % kHourUs));
+  bytes.append(CObservationVelodyneScan::RETMODE_STRONGEST);
+  bytes.append(kVlp16Id);
+  return bytes.packet();
+}
+
+CObservationPointCloud::Ptr toPointCloud(
+    const FiredSweep& fired, const SimulationSettings& settings)
+{
+  auto observation = CObservationPointCloud::Create();
+  observation->sensorLabel = kLidarLabel;
+  observation->timestamp = toMrptTime(deliveredStamp(fired, settings));
+  observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
+  observation->pointcloud = makeXyzirt(pointsOf(fired));
+  return observation;
+}
+}  // namespace
+
+CObservationIMU::Ptr toImuObservation(const ImuSample& sample)
+{
+  auto observation = CObservationIMU::Create();
+  observation->sensorLabel = kImuLabel;
+  observation->timestamp = toMrptTime(sample.stamp_ns);
+  observation->set(mrpt::obs::IMU_X_ACC, sample.accel.x());
+  observation->set(mrpt::obs::IMU_Y_ACC, sample.accel.y());
+  observation->set(mrpt::obs::IMU_Z_ACC, sample.accel.z());
+  observation->set(mrpt::obs::IMU_WX, sample.gyro.x());
+  observation->set(mrpt::obs::IMU_WY, sample.gyro.y());
+  observation->set(mrpt::obs::IMU_WZ, sample.gyro.z());
+  return observation;
+}
+
+CObservationVelodyneScan::Ptr toVelodyneScan(
+    const FiredSweep& fired, const SimulationSettings& settings)
+{
+  auto observation = CObservationVelodyneScan::Create();
+  const std::int64_t stamp_ns = deliveredStamp(fired, settings);
+  observation->sensorLabel = kLidarLabel;
+  observation->timestamp = toMrptTime(stamp_ns);
+  observation->originalReceivedTimestamp = observation->timestamp;
+  observation->has_satellite_timestamp = true;
+  observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
+  observation->minRange = settings.lidar.min_range;
+  // Noise may carry a return beyond the range of surfaces.
+  observation->maxRange = settings.lidar.max_range + 10.0 * settings.lidar.range_noise;
+  observation->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
+  for (std::size_t i = 0; i < fired.sweep.shots.size(); i += vlp16::kShotsPerPacket)
+    observation->scan_packets.push_back(encodePacket(fired, i, stamp_ns));
+  return observation;
+}
+
+mrpt::obs::CObservation::Ptr toLidarObservation(const Simulation& simulation, std::size_t index)
+{
+  const FiredSweep fired = simulation.fire(index);
+  if (simulation.settings().lidar.kind == LidarKind::Vlp16)
+    return toVelodyneScan(fired, simulation.settings());
+  return toPointCloud(fired, simulation.settings());
+}
+
+}  // namespace fastlio

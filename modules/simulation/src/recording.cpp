@@ -1,0 +1,174 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/mrpt_bridge/register_classes.h>
+#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/simulation/observations.h>
+#include <fastlio/simulation/recording.h>
+
+#include <Eigen/Geometry>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::int64_t kTruthPeriodNs = 5'000'000;
+constexpr std::size_t kSweepsInFlight = 8;
+
+/** The bytes of an object as a rawlog holds them. */
+std::string serialized(const mrpt::serialization::CSerializable& object)
+{
+  mrpt::io::CMemoryStream stream;
+  mrpt::serialization::archiveFrom(stream).WriteObject(object);
+  const std::uint64_t length = stream.getTotalBytesCount();
+  return {static_cast<const char*>(stream.getRawBufferData()), static_cast<std::size_t>(length)};
+}
+
+/** A sweep on its way to the file. */
+struct EncodedSweep
+{
+  std::int64_t stamp_ns = 0;
+  std::string bytes;
+};
+
+/** Puts observations into a gzip file in the order of their stamps. */
+class RawlogFile
+{
+ public:
+  RawlogFile(const std::string& path, const std::vector<ImuSample>& samples)
+      : path_(path), samples_(samples), file_(temporaryPathOf(path))
+  {
+    if (!file_.fileOpenCorrectly())
+      throw std::runtime_error(
+          "Cannot write '" + temporaryPathOf(path) + "'; check that the folder is writable.");
+  }
+
+  void write(const EncodedSweep& sweep)
+  {
+    writeImuUntil(sweep.stamp_ns);
+    write(sweep.bytes);
+  }
+
+  void finish()
+  {
+    writeImuUntil(std::numeric_limits<std::int64_t>::max());
+    file_.close();
+    renameIntoPlace(path_);
+  }
+
+ private:
+  void writeImuUntil(std::int64_t stamp_ns)
+  {
+    for (; next_ < samples_.size() && samples_[next_].stamp_ns <= stamp_ns; ++next_)
+      write(serialized(*toImuObservation(samples_[next_])));
+  }
+
+  void write(std::string_view bytes)
+  {
+    if (file_.Write(bytes.data(), bytes.size()) != bytes.size())
+      throw std::runtime_error(
+          "Cannot write to '" + temporaryPathOf(path_) + "'; check for free space on the disk.");
+  }
+
+  std::string path_;
+  const std::vector<ImuSample>& samples_;
+  mrpt::io::CFileGZOutputStream file_;
+  std::size_t next_ = 0;
+};
+
+EncodedSweep encodeSweep(const Simulation& simulation, std::size_t index)
+{
+  const auto observation = toLidarObservation(simulation, index);
+  return {toNanoseconds(observation->timestamp), serialized(*observation)};
+}
+
+void writeRawlog(
+    const Simulation& simulation, const std::string& path, const RecordingProgress& progress)
+{
+  registerBridgeClasses();
+  RawlogFile file(path, simulation.imu().samples);
+  const std::size_t total = simulation.scanCount();
+  std::size_t next = 0;
+  // Sweeps are fired and encoded in parallel, but compressed and written in order.
+  tbb::parallel_pipeline(
+      kSweepsInFlight, tbb::make_filter<void, std::size_t>(
+                           tbb::filter_mode::serial_in_order,
+                           [&](tbb::flow_control& control)
+                           {
+                             if (next == total) control.stop();
+                             return next++;
+                           }) &
+                           tbb::make_filter<std::size_t, EncodedSweep>(
+                               tbb::filter_mode::parallel,
+                               [&](std::size_t index) { return encodeSweep(simulation, index); }) &
+                           tbb::make_filter<EncodedSweep, void>(
+                               tbb::filter_mode::serial_in_order,
+                               [&, done = std::size_t{0}](const EncodedSweep& sweep) mutable
+                               {
+                                 file.write(sweep);
+                                 if (progress) progress(++done, total);
+                               }));
+  file.finish();
+}
+
+void writeText(const std::string& path, std::string_view text)
+{
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+std::string configText(const SimulationSettings& settings)
+{
+  const std::string header = "# Parameters that match the simulated recording '" +
+                             settings.scenario + "', seed " + std::to_string(settings.seed) + ".\n";
+  return toYaml(matchingParameters(settings), header);
+}
+}  // namespace
+
+std::string groundTruthText(const Simulation& simulation)
+{
+  const std::int64_t start_ns = simulation.settings().start_ns;
+  const auto count = static_cast<std::int64_t>(
+      simulation.settings().duration * 1e9 / static_cast<double>(kTruthPeriodNs) + 1e-6);
+  std::string text = "# time[s] x y z[m] qx qy qz qw: IMU in the world\n";
+  for (std::int64_t i = 0; i <= count; ++i)
+  {
+    const std::int64_t stamp_ns = start_ns + i * kTruthPeriodNs;
+    const Pose pose = simulation.truth(stamp_ns).T_world_imu;
+    Eigen::Quaterniond q(pose.R);
+    if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+    text += secondsText(stamp_ns);
+    for (const double v : {pose.p.x(), pose.p.y(), pose.p.z(), q.x(), q.y(), q.z(), q.w()})
+      text += ' ' + fixedText(v, 9);
+    text += '\n';
+  }
+  return text;
+}
+
+RecordingFiles writeRecording(
+    const Simulation& simulation, const std::string& directory, const RecordingProgress& progress)
+{
+  prepareOutputDirectory(directory);
+  const RecordingFiles files{
+      directory + "/recording.rawlog", directory + "/ground_truth.tum", directory + "/config.yaml",
+      directory + "/scenario.json"};
+  writeText(files.config, configText(simulation.settings()));
+  writeText(files.ground_truth, groundTruthText(simulation));
+  writeText(files.scenario, scenarioJson(simulation));
+  writeRawlog(simulation, files.rawlog, progress);
+  return files;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,164 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenario_table.h"
+#include <fastlio/odometry/nearest_name.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kRadPerDeg = 0.017453292519943295;
+
+/** Yaw, pitch and roll in degrees: R = Rz Ry Rx. */
+Pose mounting(const Vec3& p, double yaw, double pitch, double roll)
+{
+  return {
+      expSO3({0, 0, yaw * kRadPerDeg}) * expSO3({0, pitch * kRadPerDeg, 0}) *
+          expSO3({roll * kRadPerDeg, 0, 0}),
+      p};
+}
+
+void handHeld(SimulationSettings& s)
+{
+  s.lidar.T_imu_lidar = mounting({0.03, -0.01, 0.09}, 5.0, 8.0, -2.0);
+}
+
+void indoors(SimulationSettings& s)
+{
+  handHeld(s);
+  s.lidar.min_range = 0.5;
+}
+
+void bySolidState(SimulationSettings& s)
+{
+  s.lidar.kind = LidarKind::Livox;
+  s.lidar.T_imu_lidar = mounting({0.08, 0.02, -0.04}, 0.0, 25.0, 0.0);
+  s.imu.noise = {3e-4, 5e-3, 2e-5, 2e-4};
+  s.imu.vibration_gyro = 0.02;
+  s.imu.vibration_accel = 0.6;
+}
+
+void onCarRoof(SimulationSettings& s)
+{
+  s.lidar.kind = LidarKind::Os64;
+  s.lidar.T_imu_lidar = mounting({0.9, 0.1, 0.45}, -3.0, 1.0, 0.5);
+  s.lidar.min_range = 1.5;
+  s.imu.rate = 100.0;
+}
+
+void shaken(SimulationSettings& s)
+{
+  indoors(s);
+  s.lidar.kind = LidarKind::Os64;
+  s.imu.rate = 400.0;
+}
+
+void atSeaport(SimulationSettings& s)
+{
+  handHeld(s);
+  s.imu.rate = 100.0;
+}
+
+CarrierPath startOf(const CarrierPath& path)
+{
+  CarrierPath still;
+  still.R_carrier_imu = path.R_carrier_imu;
+  for (std::size_t i = 0; i < still.channels.size(); ++i)
+    still.channels[i].offset = path.channels[i].value(0.0);
+  return still;
+}
+
+Scene restScene()
+{
+  Scene scene = officeScene();
+  scene.path = startOf(scene.path);
+  return scene;
+}
+
+Scene crowdAtRest()
+{
+  Scene scene = crowdScene();
+  scene.path = startOf(scene.path);
+  return scene;
+}
+
+std::vector<ScenarioRow> makeTable()
+{
+  return {
+      {{"campus", "hand-held walk of 140 m between buildings and trees, back to the start; VLP-16"},
+       campusScene,
+       handHeld},
+      {{"office", "hand-held walk through rooms and a corridor, back to the start; VLP-16"},
+       officeScene,
+       indoors},
+      {{"uav", "multirotor at 6 m/s around buildings, tilting and vibrating; Livox"},
+       uavScene,
+       bySolidState},
+      {{"car", "car at 8.5 m/s around city blocks; 64 lines, IMU at 100 Hz"},
+       streetScene,
+       onCarRoof},
+      {{"shake", "shaken by hand in a room, above 500 deg/s; 64 lines, IMU at 400 Hz"},
+       shakeScene,
+       shaken,
+       20.0},
+      {{"spin", "turning at more than 1000 deg/s in a hall; VLP-16"}, spinScene, indoors, 25.0},
+      {{"stairs", "four flights of stairs up and down again, hand-held; VLP-16"},
+       stairsScene,
+       indoors},
+      {{"tunnel", "straight tunnel without any feature along its axis, hand-held; VLP-16"},
+       tunnelScene,
+       handHeld},
+      {{"open_area", "seaport-like wide area with few things to see; VLP-16, IMU at 100 Hz"},
+       openAreaScene,
+       atSeaport},
+      {{"crowd", "the campus walk among people and vans in motion; VLP-16"}, crowdScene, handHeld},
+      {{"rest", "stands still in the office; VLP-16"}, restScene, indoors, 30.0},
+      {{"rest_crowd", "stands still on the campus among people and vans in motion; VLP-16"},
+       crowdAtRest,
+       handHeld,
+       30.0},
+  };
+}
+}  // namespace
+
+const std::vector<ScenarioRow>& scenarioTable()
+{
+  static const std::vector<ScenarioRow> table = makeTable();
+  return table;
+}
+
+const ScenarioRow& findScenario(std::string_view name)
+{
+  std::vector<std::string_view> names;
+  for (const auto& row : scenarioTable())
+  {
+    if (row.info.name == name) return row;
+    names.push_back(row.info.name);
+  }
+  throw std::invalid_argument(
+      "There is no scenario '" + std::string(name) + "'. Did you mean '" +
+      std::string(nearestName(name, names)) + "'?");
+}
+
+std::vector<ScenarioInfo> scenarioCatalog()
+{
+  std::vector<ScenarioInfo> catalog;
+  for (const auto& row : scenarioTable())
+    catalog.push_back(row.info);
+  return catalog;
+}
+
+SimulationSettings defaultSettings(std::string_view scenario)
+{
+  const ScenarioRow& row = findScenario(scenario);
+  SimulationSettings settings;
+  settings.scenario = row.info.name;
+  row.adapt(settings);
+  return settings;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,85 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "angles.h"
+#include <fastlio/simulation/recording.h>
+#include <fastlio/simulation/settings_table.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fastlio
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+Json json(const Vec3& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
+
+Json json(const Pose& pose)
+{
+  const SixNumbers n = numbersFromPose(pose);
+  return {{"position_m", {n[0], n[1], n[2]}}, {"yaw_pitch_roll_deg", {n[3], n[4], n[5]}}};
+}
+
+Json json(const ImuBias& bias)
+{
+  return {{"gyro_rad_s", json(bias.gyro)}, {"accel_m_s2", json(bias.accel)}};
+}
+
+Json settingsJson(const SimulationSettings& settings)
+{
+  Json all = Json::object();
+  for (const auto& row : settingsTable())
+    all[std::string(row.key)] = settingText(row, settings);
+  return all;
+}
+
+double pathLength(const Simulation& simulation)
+{
+  constexpr double kStep = 0.01;
+  double length = 0.0;
+  for (double t = 0.5 * kStep; t < simulation.settings().duration; t += kStep)
+    length += kStep * simulation.motion().at(t).velocity.norm();
+  return length;
+}
+
+Json truthJson(const Simulation& simulation)
+{
+  const SimulationSettings& s = simulation.settings();
+  const auto& bias = simulation.imu().true_bias;
+  Json truth{
+      {"gravity_world_m_s2", {0.0, 0.0, -s.gravity}},
+      {"T_imu_lidar", json(s.lidar.T_imu_lidar)},
+      {"lidar_clock_minus_imu_clock_s", s.lidar.time_offset},
+      {"start_pose", json(simulation.motion().pose(0.0))},
+      {"end_pose", json(simulation.motion().pose(s.duration))},
+      {"path_length_m", pathLength(simulation)}};
+  if (bias.empty()) return truth;
+  truth["initial_bias"] = json(bias.front());
+  truth["final_bias"] = json(bias.back());
+  return truth;
+}
+}  // namespace
+
+std::string scenarioJson(const Simulation& simulation)
+{
+  const SimulationSettings& s = simulation.settings();
+  const Json document{
+      {"scenario", s.scenario},
+      {"start_ns", s.start_ns},
+      {"duration_s", s.duration},
+      {"frames",
+       "world: z up; vehicle = IMU; poses T_world_imu of the IMU, R = Rz(yaw) Ry(pitch) Rx(roll)"},
+      {"settings", settingsJson(s)},
+      {"truth", truthJson(simulation)},
+      {"counts",
+       {{"sweeps", simulation.scanCount()},
+        {"imu_samples", simulation.imu().samples.size()},
+        {"imu_samples_lost", simulation.imu().lost}}}};
+  return document.dump(2) + "\n";
+}
+
+}  // namespace fastlio

@@ -1,0 +1,192 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "random_stream.h"
+#include "scenario_table.h"
+#include <fastlio/simulation/settings_table.h>
+#include <fastlio/simulation/simulation.h>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kNsPerSecond = 1e9;
+constexpr double kFinalRest = 1.0;                 // after the stop [s]
+constexpr std::int64_t kFirstShotNs = 13'700'000;  // LiDAR and IMU do not start at the same time
+constexpr std::size_t kShotsPerTask = 2048;
+
+bool walksOneLoop(const SimulationSettings& s, const ScenarioRow& row, const CarrierPath& path)
+{
+  return s.duration <= 0.0 && row.duration <= 0.0 && path.loop_time > 0.0;
+}
+
+MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, const CarrierPath& path)
+{
+  MotionTiming timing;
+  timing.rest = s.rest;
+  timing.rate = s.speed;
+  if (walksOneLoop(s, row, path)) timing.stop_at = path.loop_time;
+  return timing;
+}
+
+SimulationSettings completed(
+    SimulationSettings s, const ScenarioRow& row, const MotionTiming& timing)
+{
+  if (s.duration > 0.0) return s;
+  s.duration = row.duration > 0.0 ? row.duration : timing.stopTime() + kFinalRest;
+  return s;
+}
+
+std::size_t completeSweeps(const LidarModel& lidar, std::int64_t end_ns)
+{
+  std::size_t count = 0;
+  while (lidar.stampOf(count + 1) <= end_ns)
+    ++count;
+  return count;
+}
+
+std::int64_t nanoseconds(double seconds)
+{
+  return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
+}
+
+/** Noise-free echoes of some shots; shots of a column that fire together share the pose. */
+struct Caster
+{
+  const Motion& motion;
+  const World& world;
+  const LidarSettings& lidar;
+  double sweep_time;  // [s] since the start
+
+  void cast(const Sweep& sweep, std::size_t first, std::size_t last, std::vector<Echo>& out) const
+  {
+    std::int64_t posed_at = std::numeric_limits<std::int64_t>::min();
+    Pose T_world_lidar;
+    double t = 0.0;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const Shot& shot = sweep.shots[i];
+      if (shot.column % static_cast<std::uint32_t>(lidar.stride) != 0) continue;
+      if (shot.offset_ns != posed_at)
+      {
+        posed_at = shot.offset_ns;
+        t = sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond;
+        T_world_lidar = motion.pose(t) * lidar.T_imu_lidar;
+      }
+      out[i] = echo({T_world_lidar.p, T_world_lidar.R * shot.direction}, t);
+    }
+  }
+
+  [[nodiscard]] Echo echo(const Ray& ray, double t) const
+  {
+    const auto hit = world.cast(ray, t, lidar.max_range);
+    if (!hit || hit->range < lidar.min_range) return {};
+    const double facing = -hit->normal.dot(ray.direction);
+    return {hit->range, static_cast<float>(255.0 * hit->reflectivity * facing)};
+  }
+};
+
+void addRangeNoise(std::vector<Echo>& echoes, const SimulationSettings& s, std::size_t index)
+{
+  RandomStream noise(s.seed, NoiseSource::Range, index);
+  RandomStream dropout(s.seed, NoiseSource::RangeDropout, index);
+  for (auto& echo : echoes)
+  {
+    if (echo.range <= 0.0) continue;
+    // Both are drawn for every echo, so that neither setting changes the other's numbers.
+    const double error = s.lidar.range_noise * noise.normal();
+    const bool lost = dropout.uniform() < s.lidar.dropout;
+    echo = lost ? Echo{} : Echo{std::max(echo.range + error, 0.0), echo.intensity};
+  }
+}
+}  // namespace
+
+/** What the constructor makes before the members. */
+struct Simulation::Parts
+{
+  SimulationSettings settings;
+  Motion motion;
+  World world;
+
+  static Parts make(const SimulationSettings& settings)
+  {
+    requireValid(settings);
+    const ScenarioRow& row = findScenario(settings.scenario);
+    Scene scene = row.scene();
+    const MotionTiming timing = timingFor(settings, row, scene.path);
+    return {
+        completed(settings, row, timing), Motion(std::move(scene.path), timing),
+        World(std::move(scene.world))};
+  }
+};
+
+Simulation::Simulation(const SimulationSettings& settings) : Simulation(Parts::make(settings)) {}
+
+Simulation::Simulation(Parts parts)
+    : settings_(std::move(parts.settings)),
+      motion_(std::move(parts.motion)),
+      world_(std::move(parts.world)),
+      imu_(simulateImu(motion_, settings_)),
+      lidar_(makeLidarModel(settings_.lidar, settings_.start_ns + kFirstShotNs)),
+      scan_count_(completeSweeps(*lidar_, settings_.start_ns + nanoseconds(settings_.duration)))
+{
+}
+
+FiredSweep Simulation::fire(std::size_t index) const
+{
+  FiredSweep fired;
+  fired.sweep = lidar_->sweep(index);
+  const std::size_t n = fired.sweep.shots.size();
+  fired.echoes.resize(n);
+  const Caster caster{motion_, world_, settings_.lidar, secondsSinceStart(fired.sweep.stamp_ns)};
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, n, kShotsPerTask), [&](const auto& range)
+      { caster.cast(fired.sweep, range.begin(), range.end(), fired.echoes); });
+  addRangeNoise(fired.echoes, settings_, index);
+  return fired;
+}
+
+LidarScan Simulation::scan(std::size_t index) const
+{
+  const FiredSweep fired = fire(index);
+  LidarScan scan;
+  scan.stamp_ns = fired.sweep.stamp_ns + nanoseconds(settings_.lidar.time_offset);
+  scan.points = pointsOf(fired);
+  scan.T_imu_lidar = settings_.lidar.T_imu_lidar;
+  scan.dropped_invalid = fired.sweep.shots.size() - scan.points.size();
+  return scan;
+}
+
+Kinematics Simulation::truth(std::int64_t stamp_ns) const
+{
+  return motion_.at(secondsSinceStart(stamp_ns));
+}
+
+double Simulation::secondsSinceStart(std::int64_t stamp_ns) const
+{
+  return static_cast<double>(stamp_ns - settings_.start_ns) / kNsPerSecond;
+}
+
+PointColumns pointsOf(const FiredSweep& fired)
+{
+  PointColumns points;
+  points.reserve(fired.echoes.size());
+  for (std::size_t i = 0; i < fired.echoes.size(); ++i)
+  {
+    const Echo& echo = fired.echoes[i];
+    if (echo.range <= 0.0) continue;
+    const Shot& shot = fired.sweep.shots[i];
+    const Eigen::Vector3f p = (echo.range * shot.direction).cast<float>();
+    points.push_back(p.x(), p.y(), p.z(), echo.intensity, shot.offset_ns, shot.ring);
+  }
+  return points;
+}
+
+}  // namespace fastlio
