@@ -39,17 +39,22 @@ ParameterRows measurementRows()
 ParameterRows mapRows()
 {
   return {
-      {"map.type", "", textChoice([](auto& p) { return &p.map.type; }, {"knn", "planes"}),
-       "knn: exact nearest points and a plane through them, as in the paper; planes: voxels that "
-       "hold a ready plane, faster"},
+      {"map.type", "",
+       enumeration([](auto& p) { return &p.map.type; }, {"planes", "knn", "kdtree"}),
+       "planes: voxels at several scales that hold a ready plane, one lookup each; knn: a plane "
+       "through the exact nearest points, as in the paper; kdtree: the same through nanoflann, "
+       "rebuilt for each scan, slow: the reference"},
       {"map.radius", "m", RealValue{[](auto& p) { return &p.map.radius; }, 1.0, 100000.0},
        "points farther from the sensor than this may leave the map: bounds its memory"},
       {"map.min_spacing", "m", RealValue{[](auto& p) { return &p.map.min_spacing; }, 0.001, 10.0},
-       "map type knn: points nearer than this to one in the map are not added"},
+       "map types knn and kdtree: points nearer than this to one in the map are not added"},
       {"map.voxel_size", "m", RealValue{[](auto& p) { return &p.map.voxel_size; }, 0.01, 100.0},
        "map type planes: edge of the finest voxels"},
       {"map.levels", "", IntegerValue{[](auto& p) { return &p.map.levels; }, 1, 10},
        "map type planes: number of scales, each twice as coarse as the one before"},
+      {"map.min_incidence", "", RealValue{[](auto& p) { return &p.map.min_incidence; }, 0.0, 1.0},
+       "map type planes: a plane whose normal has a smaller cosine to its mean beam is not used: "
+       "grazing beams make bad planes"},
   };
 }
 

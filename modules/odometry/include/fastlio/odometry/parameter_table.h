@@ -8,7 +8,6 @@
 
 #include <fastlio/odometry/parameters.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -107,20 +106,6 @@ ChoiceValue enumeration(Accessor accessor, std::vector<std::string_view> names)
       [accessor](const Parameters& p) { return static_cast<std::size_t>(*accessor(p)); },
       [accessor](Parameters& p, std::size_t index)
       { *accessor(p) = static_cast<std::decay_t<decltype(*accessor(p))>>(index); }};
-}
-
-/** A member of type std::string that holds one of the names. */
-template <typename Accessor>
-ChoiceValue textChoice(Accessor accessor, const std::vector<std::string_view>& names)
-{
-  return {
-      names,
-      [accessor, names](const Parameters& p)
-      {
-        const auto name = std::find(names.begin(), names.end(), *accessor(p));
-        return static_cast<std::size_t>(name - names.begin());
-      },
-      [accessor, names](Parameters& p, std::size_t index) { *accessor(p) = names.at(index); }};
 }
 
 /** A condition between parameters. */
