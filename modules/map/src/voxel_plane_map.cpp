@@ -124,8 +124,7 @@ void VoxelPlaneMap::match(
   }
 }
 
-void VoxelPlaneMap::insertPoint(
-    Level& level, const Eigen::Vector3f& p, const Eigen::Vector3f& beam)
+void VoxelPlaneMap::insertPoint(Level& level, const Eigen::Vector3f& p, const Eigen::Vector3f& beam)
 {
   const std::uint64_t key = voxelKey(p.x(), p.y(), p.z(), level.inverse_size);
   const auto [it, added] =

@@ -24,7 +24,7 @@ struct VoxelPlaneOptions
   double point_noise = 0.02;   //!< least standard deviation of a point across its plane [m]
   double max_thickness = 0.1;  //!< largest standard deviation across a plane [m]
   int min_points = 6;          //!< fewer points give no plane
-  double min_incidence = 0.05;  //!< least cosine between normal and mean beam
+  double min_incidence = 0.1;  //!< least cosine between normal and mean beam
 };
 
 /** Sums over the points of one voxel and the plane fitted to them. */

@@ -1,7 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file odometry.h The LiDAR-inertial odometry: IMU samples and scans in, one ScanResult per scan out.
+/** \file odometry.h The LiDAR-inertial odometry: IMU samples and scans in, one ScanResult per scan
+ * out.
  */
 #pragma once
 
@@ -47,8 +48,8 @@ class Odometry
   /** Processes the oldest scan that is covered by IMU data. */
   [[nodiscard]] std::optional<ScanResult> next();
 
-  /** After the last observation: also processes scans whose end the IMU data do not reach, as long as
-   * the gap is below imu.max_gap. */
+  /** After the last observation: also processes scans whose end the IMU data do not reach, as long
+   * as the gap is below imu.max_gap. */
   [[nodiscard]] std::optional<ScanResult> flush();
 
   [[nodiscard]] const SurfaceMap& map() const;

@@ -1,14 +1,17 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file parameters.h Every number that a user may change, with its default. Names equal the YAML keys
- * (group.key); unit, range and effect stand in the table of parameter_table.cpp. */
+/** \file parameters.h Every number that a user may change, with its default. Names equal the YAML
+ * keys (group.key); unit, range and effect stand in the table of parameter_table.cpp. */
 #pragma once
 
 #include <fastlio/filter/imu.h>
+#include <fastlio/filter/pose.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/odometry/imu_buffer.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace fastlio
@@ -21,6 +24,11 @@ struct InitializationParameters
   double max_accel_std = 1.0;      //!< above: the platform does not rest [m/s^2]
   double max_gyro_mean = 0.2;      //!< above: the platform does not rest [rad/s] (YAML: deg/s)
   double gravity = 9.81;           //!< |g| [m/s^2]
+  double gravity_std = 0.02;       //!< how well |g| is known [m/s^2]
+  double max_gravity_error = 1.0;  //!< largest |mean specific force| - |g| taken as rest [m/s^2]
+  double gyro_bias_std = 1e-5;     //!< added to the uncertainty of the averaged bias [rad/s]
+  double accel_bias_std = 0.1;     //!< prior of the accelerometer bias, zero mean [m/s^2]
+  double velocity_std = 1e-3;      //!< uncertainty of rest [m/s]
   bool align_with_gravity = true;  //!< world z axis up; false: world = first IMU frame (paper)
 };
 
@@ -28,40 +36,68 @@ struct InitializationParameters
 struct ImuParameters
 {
   ImuNoise noise;
-  double max_gap = 0.5;       //!< longer gaps between samples are reported as a fault [s]
+  ImuHold hold = ImuHold::Midpoint;  //!< how samples are held between their stamps
+  double max_gap = 0.5;              //!< longer gaps between samples are reported as a fault [s]
 };
 
 /** Group `lidar`. */
 struct LidarParameters
 {
-  double min_range = 0.5;     //!< nearer points are dropped [m]
-  double max_range = 150.0;   //!< farther points are dropped [m]
-  double time_offset = 0.0;   //!< added to the LiDAR stamps [s]
-  bool deskew = true;         //!< motion compensation (eq. 9-10)
+  double min_range = 0.5;    //!< nearer points are dropped [m]
+  double max_range = 150.0;  //!< farther points are dropped [m]
+  double time_offset = 0.0;  //!< added to the LiDAR stamps [s]
+  bool deskew = true;        //!< motion compensation (eq. 9-10)
 };
 
 /** Group `reduction`. */
 struct ReductionParameters
 {
-  double voxel_size = 0.5;    //!< grid that keeps one point per voxel for the update [m]
-  int max_points = 0;         //!< at most so many points in the update; 0 = no limit
+  double voxel_size = 0.5;  //!< grid that keeps one point per voxel for the update [m]
+  int max_points = 0;       //!< at most so many points in the update; 0 = no limit
 };
 
 /** Group `measurement`. */
 struct MeasurementParameters
 {
-  double range_noise = 0.02;        //!< standard deviation of a range [m]
+  double range_noise = 0.02;             //!< standard deviation of a range [m]
+  double max_normalized_residual = 4.0;  //!< gate, in standard deviations of residual and prior
+  int min_effective_points = 20;         //!< fewer matches: the scan is not used
+  int association_iterations = 2;        //!< iterations that search the map anew
+};
+
+/** Which map the scans are matched with. */
+enum class MapType
+{
+  Planes,  //!< voxels at several scales, each with a ready plane: one lookup per scale
+  Knn,     //!< exact nearest points and a plane through them (paper), own incremental index
+  KdTree   //!< the same through nanoflann, rebuilt for each scan: the reference, slow
 };
 
 /** Group `map`. */
 struct MapParameters
 {
-  double radius = 150.0;      //!< points farther from the sensor than this may be dropped [m]
+  MapType type = MapType::Planes;
+  double radius = 150.0;       //!< points farther from the sensor than this may be dropped [m]
+  double min_spacing = 0.4;    //!< knn: nearer points are not added [m]
+  double voxel_size = 0.4;     //!< planes: edge of the finest voxels [m]
+  int levels = 3;              //!< planes: number of scales, each twice as coarse
+  double min_incidence = 0.1;  //!< planes: least cosine between normal and mean beam
+};
+
+/** Group `input`: which sensors of a recording are used, and where they are mounted. Not used by
+ * Odometry itself but by whoever feeds it. */
+struct InputParameters
+{
+  std::string lidar_sensor_label;       //!< regular expression; empty: found automatically
+  std::string imu_sensor_label;         //!< regular expression; empty: found automatically
+  std::optional<Pose> T_vehicle_imu;    //!< IMU in the vehicle frame, instead of the recording's
+  std::optional<Pose> T_vehicle_lidar;  //!< LiDAR in the vehicle frame, instead of the recording's
 };
 
 /** Everything that configures an Odometry. */
 struct Parameters
 {
+  InputParameters input;
   InitializationParameters initialization;
   ImuParameters imu;
   LidarParameters lidar;
@@ -70,7 +106,7 @@ struct Parameters
   MapParameters map;
   IterationLimits update;
   GainForm gain = GainForm::Information;
-  int threads = 0;            //!< worker threads; 0 = all cores
+  int threads = 0;  //!< worker threads; 0 = all cores
 };
 
 }  // namespace fastlio

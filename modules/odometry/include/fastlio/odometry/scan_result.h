@@ -1,7 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scan_result.h What the odometry says about each scan: state, covariance and the evidence. */
+/** \file scan_result.h What the odometry says about each scan: state, covariance and the evidence.
+ */
 #pragma once
 
 #include <fastlio/filter/state.h>
@@ -45,7 +46,7 @@ struct ScanStatistics
   std::size_t map_points = 0;        //!< points in the map after the scan
   int iterations = 0;
   bool converged = false;
-  double residual_rms = 0.0;         //!< of the effective points, last iteration [m]
+  double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
 };
@@ -56,8 +57,8 @@ struct ScanResult
   std::int64_t stamp_ns = 0;  //!< the scan's end t_k, to which the state refers
   std::int64_t begin_ns = 0;  //!< the scan's first point
   ScanStatus status = ScanStatus::Initializing;
-  std::string message;        //!< why, when the status is not Tracking
-  FilterState filter;         //!< state and covariance, IMU body in the world frame
+  std::string message;  //!< why, when the status is not Tracking
+  FilterState filter;   //!< state and covariance, IMU body in the world frame
   ScanStatistics statistics;
   StageTimings milliseconds;
 };

@@ -1,0 +1,49 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file point_to_plane.h Residuals and Jacobians of points on planes (eq. 12-14) and their sums.
+ */
+#pragma once
+
+#include <fastlio/filter/update.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/deskew.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace fastlio
+{
+/** p_G = T_GI p_I for all points (eq. 12), reused storage. */
+void transformToWorld(const BodyPoints& body, const Pose& T_world_imu, WorldPoints& world);
+
+/** One scalar measurement: residual z = u . p_G + d, its row h of H and its variance. */
+struct PlaneMeasurement
+{
+  Vector6 h;              //!< d z / d (dtheta, dp): ([p_I x R^T u]^T, u^T)
+  double z = 0.0;         //!< [m]
+  double variance = 0.0;  //!< [m^2]
+};
+
+/** Eq. 14 for one point, body frame p_imu, at the attitude and position of an iterate. */
+[[nodiscard]] PlaneMeasurement planeMeasurement(
+    const Pose& T_world_imu, const Vec3& p_imu, const Vec3& beam_imu, const PlaneMatch& plane,
+    double range_variance);
+
+/** What decides on a match: the noise model, the gate and how far the prediction may be off. */
+struct ResidualModel
+{
+  double range_variance = 4e-4;          //!< [m^2]
+  double gate = 4.0;                     //!< in standard deviations
+  double prior_position_variance = 0.0;  //!< of the prediction [m^2]
+  double prior_attitude_variance = 0.0;  //!< of the prediction [rad^2]
+};
+
+/** Sums over the consistent matches of a scan, in the points' order. Fills \a stacked when given.
+ */
+[[nodiscard]] InformationSums accumulate(
+    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, StackedMeasurements* stacked);
+
+}  // namespace fastlio

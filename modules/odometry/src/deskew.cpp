@@ -1,0 +1,127 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/odometry/deskew.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using Mat3f = Eigen::Matrix3f;
+using Vec3f = Eigen::Vector3f;
+
+// A first-order step of this angle leaves an error of angle^2/8 of the range: below 0.1 mm at 10 m.
+constexpr double kMaxStepAngle = 0.01;
+
+/** p_I_end = (M + dt N) p_L + (b + dt c) around the middle of a short step. */
+struct MotionStep
+{
+  std::int64_t begin_ns = 0, middle_ns = 0;
+  Mat3f M, N;
+  Vec3f b, c;
+};
+
+MotionStep stepAt(
+    const MotionKnot& knot, std::int64_t begin_ns, std::int64_t middle_ns, const Pose& T_imu_lidar)
+{
+  const double dt = static_cast<double>(middle_ns - knot.stamp_ns) * 1e-9;
+  const Mat3 R = knot.R * expSO3(knot.w * dt);
+  const Mat3 R_rate = R * skew(knot.w);
+  MotionStep step;
+  step.begin_ns = begin_ns;
+  step.middle_ns = middle_ns;
+  step.M = (R * T_imu_lidar.R).cast<float>();
+  step.N = (R_rate * T_imu_lidar.R).cast<float>();
+  step.b = (R * T_imu_lidar.p + knot.p + knot.v * dt).cast<float>();
+  step.c = (R_rate * T_imu_lidar.p + knot.v).cast<float>();
+  return step;
+}
+
+/** Splits the knots' intervals so that no step turns by more than kMaxStepAngle. */
+std::vector<MotionStep> motionSteps(const std::vector<MotionKnot>& knots, const Pose& T_imu_lidar)
+{
+  std::vector<MotionStep> steps;
+  steps.reserve(2 * knots.size());
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+  {
+    const std::int64_t length_ns = knots[i + 1].stamp_ns - knots[i].stamp_ns;
+    const double angle = knots[i].w.norm() * static_cast<double>(length_ns) * 1e-9;
+    const auto parts = static_cast<std::int64_t>(std::clamp(angle / kMaxStepAngle, 0.0, 1e3)) + 1;
+    for (std::int64_t k = 0; k < parts; ++k)
+    {
+      const std::int64_t begin_ns = knots[i].stamp_ns + k * length_ns / parts;
+      steps.push_back(stepAt(knots[i], begin_ns, begin_ns + length_ns / (2 * parts), T_imu_lidar));
+    }
+  }
+  return steps;
+}
+
+/** Walks to the step that holds a stamp; cheap when the stamps come nearly in order. */
+std::size_t walkToStep(
+    const std::vector<MotionStep>& steps, std::size_t from, std::int64_t stamp_ns)
+{
+  while (from + 1 < steps.size() && steps[from + 1].begin_ns <= stamp_ns)
+    ++from;
+  while (from > 0 && steps[from].begin_ns > stamp_ns)
+    --from;
+  return from;
+}
+
+void store(BodyPoints& body, std::size_t i, const Vec3f& p, const Vec3f& beam)
+{
+  const float inverse_range = 1.0F / beam.norm();
+  body.x[i] = p.x();
+  body.y[i] = p.y();
+  body.z[i] = p.z();
+  body.ux[i] = beam.x() * inverse_range;
+  body.uy[i] = beam.y() * inverse_range;
+  body.uz[i] = beam.z() * inverse_range;
+}
+}  // namespace
+
+void BodyPoints::resize(std::size_t n)
+{
+  for (auto* column : {&x, &y, &z, &ux, &uy, &uz})
+    column->resize(n);
+}
+
+void deskew(
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices,
+    const std::vector<MotionKnot>& knots, BodyPoints& body)
+{
+  const std::vector<MotionStep> steps = motionSteps(knots, scan.T_imu_lidar);
+  if (steps.empty()) return transformToBody(scan, indices, body);
+  body.resize(indices.size());
+  const PointColumns& points = scan.points;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    const std::uint32_t j = indices[i];
+    const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[j];
+    at = walkToStep(steps, at, stamp_ns);
+    const MotionStep& step = steps[at];
+    const float dt = static_cast<float>(stamp_ns - step.middle_ns) * 1e-9F;
+    const Vec3f p(points.x[j], points.y[j], points.z[j]);
+    const Vec3f beam = step.M * p + dt * (step.N * p);
+    store(body, i, beam + step.b + dt * step.c, beam);
+  }
+}
+
+void transformToBody(
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body)
+{
+  body.resize(indices.size());
+  const Mat3f R = scan.T_imu_lidar.R.cast<float>();
+  const Vec3f t = scan.T_imu_lidar.p.cast<float>();
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    const std::uint32_t j = indices[i];
+    const Vec3f beam = R * Vec3f(scan.points.x[j], scan.points.y[j], scan.points.z[j]);
+    store(body, i, beam + t, beam);
+  }
+}
+
+}  // namespace fastlio

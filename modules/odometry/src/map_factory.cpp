@@ -1,0 +1,47 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "map_factory.h"
+
+#include <fastlio/map/knn_surface_map.h>
+#include <fastlio/map/voxel_plane_map.h>
+
+namespace fastlio
+{
+namespace
+{
+std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters, NeighborEngine engine)
+{
+  KnnSurfaceMapOptions options;
+  options.min_spacing = parameters.map.min_spacing;
+  options.point_noise = parameters.measurement.range_noise;
+  options.engine = engine;
+  return std::make_unique<KnnSurfaceMap>(options);
+}
+
+std::unique_ptr<SurfaceMap> makePlaneMap(const Parameters& parameters)
+{
+  VoxelPlaneOptions options;
+  options.voxel_size = parameters.map.voxel_size;
+  options.levels = parameters.map.levels;
+  options.min_incidence = parameters.map.min_incidence;
+  options.point_noise = parameters.measurement.range_noise;
+  return std::make_unique<VoxelPlaneMap>(options);
+}
+}  // namespace
+
+std::unique_ptr<SurfaceMap> makeSurfaceMap(const Parameters& parameters)
+{
+  switch (parameters.map.type)
+  {
+    case MapType::Knn:
+      return makeKnnMap(parameters, NeighborEngine::Incremental);
+    case MapType::KdTree:
+      return makeKnnMap(parameters, NeighborEngine::KdTree);
+    case MapType::Planes:
+      break;
+  }
+  return makePlaneMap(parameters);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,16 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_factory.h The map that the parameters ask for. */
+#pragma once
+
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <memory>
+
+namespace fastlio
+{
+[[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(const Parameters& parameters);
+
+}  // namespace fastlio

@@ -1,0 +1,171 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "initialization.h"
+#include "scan_pipeline.h"
+#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/odometry.h>
+
+#include <deque>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kNsToS = 1e-9;
+constexpr double kSToNs = 1e9;
+
+ScanResult waitingResult(const LidarScan& scan, const ScanSpan& span, const std::string& why)
+{
+  ScanResult waiting;
+  waiting.begin_ns = span.begin_ns;
+  waiting.stamp_ns = span.end_ns;
+  waiting.statistics.points_in = scan.points.size();
+  waiting.message = why;
+  return waiting;
+}
+}  // namespace
+
+/** Queues, the order of events, and who processes what. */
+class Odometry::Impl
+{
+ public:
+  explicit Impl(const Parameters& parameters) : parameters_(parameters), pipeline_(parameters) {}
+
+  void addImu(const ImuSample& sample);
+  void addScan(LidarScan scan);
+  std::optional<ScanResult> next(bool at_end);
+
+  const Parameters parameters_;
+  InputStatistics statistics_;
+  ScanPipeline pipeline_;
+
+ private:
+  [[nodiscard]] std::optional<ScanResult> waitForStart(bool at_end);
+  [[nodiscard]] bool usable(const ScanSpan& span);
+  [[nodiscard]] LidarScan popScan();
+
+  ImuBuffer imu_;
+  std::deque<LidarScan> scans_;
+};
+
+void Odometry::Impl::addImu(const ImuSample& sample)
+{
+  ++statistics_.imu_in;
+  switch (imu_.add(sample))
+  {
+    case ImuBuffer::Verdict::Accepted:
+      break;
+    case ImuBuffer::Verdict::NotFinite:
+      ++statistics_.imu_not_finite;
+      break;
+    case ImuBuffer::Verdict::OutOfOrder:
+      ++statistics_.imu_out_of_order;
+      break;
+    case ImuBuffer::Verdict::Duplicate:
+      ++statistics_.imu_duplicate;
+      break;
+  }
+}
+
+void Odometry::Impl::addScan(LidarScan scan)
+{
+  ++statistics_.scans_in;
+  if (scan.points.size() == 0)
+  {
+    ++statistics_.scans_empty;
+    return;
+  }
+  scan.stamp_ns += static_cast<std::int64_t>(parameters_.lidar.time_offset * kSToNs);
+  scans_.push_back(std::move(scan));
+}
+
+LidarScan Odometry::Impl::popScan()
+{
+  LidarScan scan = std::move(scans_.front());
+  scans_.pop_front();
+  return scan;
+}
+
+std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
+{
+  while (!scans_.empty() && !pipeline_.started())
+  {
+    const ScanSpan span = spanOf(scans_.front());
+    const auto start = tryStaticStart(imu_, parameters_.initialization, span.begin_ns);
+    if (start.state) pipeline_.start(*start.state, start.stamp_ns);
+    const bool passed_by = start.rejected && span.end_ns < imu_.oldestStamp();
+    const bool never = !start.state && !start.rejected && at_end;
+    if (passed_by || never) return waitingResult(popScan(), span, start.message);
+    if (!start.state && !start.rejected) break;
+  }
+  return std::nullopt;
+}
+
+bool Odometry::Impl::usable(const ScanSpan& span)
+{
+  const double missing_s = static_cast<double>(span.end_ns - imu_.newestStamp()) * kNsToS;
+  if (missing_s > parameters_.imu.max_gap || span.end_ns <= pipeline_.stamp())
+  {
+    ++(missing_s > 0.0 ? statistics_.scans_without_imu : statistics_.scans_out_of_order);
+    return false;
+  }
+  return true;
+}
+
+std::optional<ScanResult> Odometry::Impl::next(bool at_end)
+{
+  if (imu_.empty()) return std::nullopt;
+  if (!pipeline_.started())
+  {
+    if (auto waiting = waitForStart(at_end)) return waiting;
+  }
+  while (pipeline_.started() && !scans_.empty())
+  {
+    const ScanSpan span = spanOf(scans_.front());
+    if (span.end_ns > imu_.newestStamp() && !at_end) break;
+    const LidarScan scan = popScan();
+    if (!usable(span)) continue;
+    ScanResult result = pipeline_.process(scan, span, imu_);
+    imu_.forgetBefore(span.end_ns);
+    return result;
+  }
+  return std::nullopt;
+}
+
+Odometry::Odometry(const Parameters& parameters) : impl_(std::make_unique<Impl>(parameters)) {}
+Odometry::~Odometry() = default;
+Odometry::Odometry(Odometry&&) noexcept = default;
+Odometry& Odometry::operator=(Odometry&&) noexcept = default;
+
+void Odometry::addImu(const ImuSample& sample)
+{
+  impl_->addImu(sample);
+}
+void Odometry::addScan(LidarScan scan)
+{
+  impl_->addScan(std::move(scan));
+}
+std::optional<ScanResult> Odometry::next()
+{
+  return impl_->next(false);
+}
+std::optional<ScanResult> Odometry::flush()
+{
+  return impl_->next(true);
+}
+const SurfaceMap& Odometry::map() const
+{
+  return impl_->pipeline_.map();
+}
+const Parameters& Odometry::parameters() const
+{
+  return impl_->parameters_;
+}
+const InputStatistics& Odometry::inputStatistics() const
+{
+  return impl_->statistics_;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/odometry/point_to_plane.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace fastlio
+{
+void transformToWorld(const BodyPoints& body, const Pose& T_world_imu, WorldPoints& world)
+{
+  world.resize(body.size());
+  const Mat3& R = T_world_imu.R;
+  const Vec3& t = T_world_imu.p;
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    const double x = body.x[i], y = body.y[i], z = body.z[i];
+    world.x[i] = static_cast<float>(R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x());
+    world.y[i] = static_cast<float>(R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y());
+    world.z[i] = static_cast<float>(R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z());
+  }
+}
+
+PlaneMeasurement planeMeasurement(
+    const Pose& T_world_imu, const Vec3& p_imu, const Vec3& beam_imu, const PlaneMatch& plane,
+    double range_variance)
+{
+  const Vec3 u(plane.nx, plane.ny, plane.nz);
+  const Vec3 u_imu = T_world_imu.R.transpose() * u;
+  PlaneMeasurement m;
+  m.h << p_imu.cross(u_imu), u;
+  m.z = u_imu.dot(p_imu) + u.dot(T_world_imu.p) + plane.d;
+  const double cos_incidence = u_imu.dot(beam_imu);
+  m.variance = range_variance * cos_incidence * cos_incidence + plane.variance;
+  return m;
+}
+
+InformationSums accumulate(
+    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, StackedMeasurements* stacked)
+{
+  InformationSums sums;
+  const double gate2 = model.gate * model.gate;
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    if (!matches[i].valid()) continue;
+    const PlaneMeasurement m = planeMeasurement(
+        T_world_imu, {body.x[i], body.y[i], body.z[i]}, {body.ux[i], body.uy[i], body.uz[i]},
+        matches[i], model.range_variance);
+    const double prior_variance =
+        model.prior_position_variance + model.prior_attitude_variance * m.h.head<3>().squaredNorm();
+    if (m.z * m.z > gate2 * (m.variance + prior_variance)) continue;
+    const double weight = 1.0 / m.variance;
+    sums.HtRinvH.noalias() += weight * m.h * m.h.transpose();
+    sums.HtRinvz += weight * m.z * m.h;
+    sums.weighted_squares += weight * m.z * m.z;
+    sums.squares += m.z * m.z;
+    ++sums.count;
+    if (stacked == nullptr) continue;
+    stacked->h.push_back(m.h);
+    stacked->z.push_back(m.z);
+    stacked->variance.push_back(m.variance);
+  }
+  return sums;
+}
+
+}  // namespace fastlio

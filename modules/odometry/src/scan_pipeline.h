@@ -1,0 +1,64 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
+#pragma once
+
+#include <fastlio/filter/backward_propagation.h>
+#include <fastlio/filter/propagation.h>
+#include <fastlio/lidar/scan_reduction.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/deskew.h>
+#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** Filter, map and the storage that scans share. */
+class ScanPipeline
+{
+ public:
+  explicit ScanPipeline(const Parameters& parameters);
+
+  void start(const FilterState& state, std::int64_t stamp_ns);
+  [[nodiscard]] bool started() const { return state_ns_ != 0; }
+  /** Instant of the state [ns]. */
+  [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
+  [[nodiscard]] const SurfaceMap& map() const { return *map_; }
+
+  /** One scan, from prediction to map growth (section III of the paper). */
+  [[nodiscard]] ScanResult process(
+      const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu);
+
+ private:
+  [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
+  void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
+  [[nodiscard]] MeasurementEvaluation evaluate(
+      const NavState& iterate, const FilterState& predicted, int iteration);
+  [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
+  void decideStatus(const UpdateResult& update, ScanResult& result);
+  void growMap(const Vec3& p_imu_lidar);
+
+  Parameters parameters_;
+  std::unique_ptr<SurfaceMap> map_;
+  FilterState filter_;
+  std::int64_t state_ns_ = 0;
+  int scans_without_update_ = 0;
+
+  // Reused between scans.
+  ScanReducer reducer_;
+  ScanSelection selection_;
+  std::vector<ImuSample> inputs_;
+  std::vector<MotionKnot> knots_;
+  BodyPoints body_;
+  WorldPoints world_;
+  std::vector<PlaneMatch> matches_;
+  StageTimings timings_;
+};
+
+}  // namespace fastlio
