@@ -59,7 +59,7 @@ Similarity withTranslation(const PositionMoments& m, const Mat3& R, double scale
 Similarity alignUmeyama(const PositionMoments& m, bool with_scale)
 {
   const Eigen::JacobiSVD<Mat3> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3 d = svd.singularValues();
+  const Vec3& d = svd.singularValues();
   if (!isSpread(d[1], d[0]))
     throw std::invalid_argument(
         "the positions lie on one line or in one point, which leaves the rotation open; align by "

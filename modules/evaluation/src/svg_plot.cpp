@@ -76,7 +76,7 @@ Axes axesOf(const PlotPanel& panel, const PlotRectangle& inner)
 std::string text(double x, double y, const std::string& content, const std::string& attributes)
 {
   std::ostringstream out;
-  out << "<text x=\"" << x << "\" y=\"" << y << "\" " << attributes << ">" << escapeXml(content)
+  out << "<text x='" << x << "' y='" << y << "' " << attributes << ">" << escapeXml(content)
       << "</text>\n";
   return out.str();
 }
@@ -84,8 +84,8 @@ std::string text(double x, double y, const std::string& content, const std::stri
 std::string line(double x1, double y1, double x2, double y2)
 {
   std::ostringstream out;
-  out << "<line x1=\"" << x1 << "\" y1=\"" << y1 << "\" x2=\"" << x2 << "\" y2=\"" << y2
-      << "\" stroke=\"#dddddd\"/>\n";
+  out << "<line x1='" << x1 << "' y1='" << y1 << "' x2='" << x2 << "' y2='" << y2
+      << "' stroke='#dddddd'/>\n";
   return out.str();
 }
 
@@ -102,10 +102,10 @@ std::string grid(const Axes& a)
   std::string out;
   for (const double v : roundTicks(a.x.low, a.x.high, static_cast<int>(r.width / kPixelsPerXTick)))
     out += line(a.px(v), r.y, a.px(v), r.y + r.height) +
-           text(a.px(v), r.y + r.height + 16.0, number(v), "text-anchor=\"middle\"");
+           text(a.px(v), r.y + r.height + 16.0, number(v), "text-anchor='middle'");
   for (const double v : roundTicks(a.y.low, a.y.high, static_cast<int>(r.height / kPixelsPerYTick)))
     out += line(r.x, a.py(v), r.x + r.width, a.py(v)) +
-           text(r.x - 6.0, a.py(v) + 4.0, number(v), "text-anchor=\"end\"");
+           text(r.x - 6.0, a.py(v) + 4.0, number(v), "text-anchor='end'");
   return out;
 }
 
@@ -113,11 +113,11 @@ std::string polyline(const PlotSeries& series, const Axes& axes)
 {
   std::ostringstream out;
   out.precision(7);
-  out << "<polyline fill=\"none\" stroke-width=\"" << series.width << "\" stroke=\""
-      << series.colour << "\" points=\"";
+  out << "<polyline fill='none' stroke-width='" << series.width << "' stroke='" << series.colour
+      << "' points='";
   for (const PlotPoint& point : series.points)
     out << axes.px(point.x) << ',' << axes.py(point.y) << ' ';
-  out << "\"/>\n";
+  out << "'/>\n";
   return out.str();
 }
 
@@ -125,12 +125,12 @@ std::string labels(const PlotPanel& panel, const PlotRectangle& inner)
 {
   const double middle = inner.y + 0.5 * inner.height;
   std::ostringstream turned;
-  turned << "text-anchor=\"middle\" transform=\"rotate(-90 " << inner.x - 52.0 << " " << middle
-         << ")\"";
-  return text(inner.x, inner.y - 12.0, panel.title, "font-weight=\"bold\"") +
+  turned << "text-anchor='middle' transform='rotate(-90 " << inner.x - 52.0 << " " << middle
+         << ")'";
+  return text(inner.x, inner.y - 12.0, panel.title, "font-weight='bold'") +
          text(
              inner.x + 0.5 * inner.width, inner.y + inner.height + 36.0, panel.x_label,
-             "text-anchor=\"middle\"") +
+             "text-anchor='middle'") +
          text(inner.x - 52.0, middle, panel.y_label, turned.str());
 }
 
@@ -143,8 +143,7 @@ std::string legend(const PlotPanel& panel, const PlotRectangle& inner)
   double x = inner.x + inner.width;
   for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series)
   {
-    out += text(
-        x, inner.y - 12.0, series->name, "text-anchor=\"end\" fill=\"" + series->colour + "\"");
+    out += text(x, inner.y - 12.0, series->name, "text-anchor='end' fill='" + series->colour + "'");
     x -= 8.0 * static_cast<double>(series->name.size()) + 16.0;
   }
   return out;
@@ -153,8 +152,8 @@ std::string legend(const PlotPanel& panel, const PlotRectangle& inner)
 std::string frame(const PlotRectangle& r)
 {
   std::ostringstream out;
-  out << "<rect x=\"" << r.x << "\" y=\"" << r.y << "\" width=\"" << r.width << "\" height=\""
-      << r.height << "\" fill=\"none\" stroke=\"#888888\"/>\n";
+  out << "<rect x='" << r.x << "' y='" << r.y << "' width='" << r.width << "' height='" << r.height
+      << "' fill='none' stroke='#888888'/>\n";
   return out.str();
 }
 
@@ -211,10 +210,10 @@ std::string escapeXml(const std::string& text)
 std::string svgDocument(double width, double height, const std::string& elements)
 {
   std::ostringstream out;
-  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << ' ' << height
-      << "\" width=\"" << width << "\" height=\"" << height
-      << "\" font-family=\"sans-serif\" font-size=\"12\">\n"
-      << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+  out << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " << width << ' ' << height
+      << "' width='" << width << "' height='" << height
+      << "' font-family='sans-serif' font-size='12'>\n"
+      << "<rect width='100%' height='100%' fill='white'/>\n"
       << elements << "</svg>\n";
   return out.str();
 }

@@ -61,6 +61,25 @@ TEST(ChiSquare, QuantilesOfTheTables)
   EXPECT_NEAR(chiSquareQuantile(0.975, 100), 129.5612, 1e-4);
 }
 
+TEST(ChiSquare, ClosedFormOfTwoDegrees)
+{
+  for (const double p : {1e-6, 0.01, 0.5, 0.95, 0.999999})
+    EXPECT_NEAR(chiSquareQuantile(p, 2), -2.0 * std::log1p(-p), 1e-9 * (1.0 - std::log1p(-p)));
+}
+
+/** Two methods meet at 20000 degrees: no step there, and the spacing of the bounds grows as it
+ * should. */
+TEST(ChiSquare, ManyDegrees)
+{
+  for (const double p : {0.025, 0.5, 0.975})
+  {
+    const double below = chiSquareQuantile(p, 20'000);
+    const double above = chiSquareQuantile(p, 20'000.001);
+    EXPECT_NEAR(above - below, 0.001, 1e-6 * below);
+  }
+  EXPECT_NEAR(chiSquareQuantile(0.975, 1e6), 1e6 + 1.959964 * std::sqrt(2e6), 5.0);
+}
+
 TEST(ChiSquare, OutsideOfItsRangesIsAnError)
 {
   for (const double p : {0.0, 1.0, -0.1, std::nan("")})
