@@ -50,6 +50,14 @@ void requireConsistent(const StackedMeasurements& m)
       " variances; fill all three per measurement");
 }
 
+void requireIterations(const IterationLimits& limits)
+{
+  if (limits.max_iterations >= 1) return;
+  throw std::invalid_argument(
+      "iteratedUpdate: max_iterations is " + std::to_string(limits.max_iterations) +
+      " but must be at least 1");
+}
+
 /** H (m x 6), z and R of the stacked measurements. */
 struct StackedMatrices
 {
@@ -193,12 +201,7 @@ UpdateResult iteratedUpdate(
     const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
     GainForm gain)
 {
-  if (limits.max_iterations < 1)
-  {
-    throw std::invalid_argument(
-        "iteratedUpdate: max_iterations is " + std::to_string(limits.max_iterations) +
-        " but must be at least 1");
-  }
+  requireIterations(limits);
   UpdateResult result;
   result.posterior = prior;
   NavState iterate = prior.x;

@@ -66,16 +66,21 @@ std::vector<MotionKnot> knotsOf(const Scan& scan)
   return knots;
 }
 
-/** The smooth motion used where the exact pose is needed: constant body rate and constant body
- * acceleration (gravity off), from rest. */
+/** State after t seconds at constant body rate and body acceleration from rest, gravity off:
+ * R = Exp(w t), v = A(w t) t a (the integral of R a), p the integral of v by Simpson's rule. */
 NavState exactMotion(const Vec3& w, const Vec3& a, double t)
 {
-  // Fine Euler steps of the process model itself; their error falls with the step.
-  constexpr int kSteps = 20000;
+  constexpr int kIntervals = 100;
+  const auto velocity = [&](double s) { return Vec3(leftJacobianSO3(s * w) * a * s); };
+  const double h = t / kIntervals;
   NavState x;
   x.g.setZero();
-  for (int i = 0; i < kSteps; ++i)
-    x = propagateMean(x, w, a, t / kSteps);
+  x.R = expSO3(t * w);
+  x.v = velocity(t);
+  for (int i = 0; i < kIntervals; ++i)
+  {
+    x.p += h / 6.0 * (velocity(i * h) + 4.0 * velocity((i + 0.5) * h) + velocity((i + 1) * h));
+  }
   return x;
 }
 

@@ -8,6 +8,7 @@
 #include "random_problems.h"
 #include <fastlio/filter/update.h>
 
+#include <utility>
 #include <vector>
 
 namespace fastlio::test
@@ -91,5 +92,30 @@ inline MeasurementModel planeModel(std::vector<PlaneMatch> matches, double sigma
     const InformationSums sums = sumsOf(m);
     return MeasurementEvaluation{sums, std::move(m)};
   };
+}
+
+constexpr double kSigma = 0.01;  //!< standard deviation of the plane residuals [m]
+
+/** A prior whose pose is off by about sigma (m and rad) from a true state. */
+struct Problem
+{
+  NavState truth;
+  FilterState prior;
+};
+
+inline Problem problemOff(Random& random, double sigma)
+{
+  Problem p;
+  p.truth = random.state();
+  StateVector dx = StateVector::Zero();
+  dx.head<6>() = sigma * random.stateVector(1.0).head<6>();
+  p.prior.x = boxplus(p.truth, dx);
+  p.prior.P = random.covariance(sigma, 4.0);
+  return p;
+}
+
+inline IterationLimits tightLimits(int max_iterations = 30)
+{
+  return {max_iterations, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
 }
 }  // namespace fastlio::test

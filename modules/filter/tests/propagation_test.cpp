@@ -161,11 +161,11 @@ TEST(Propagation, noiseGrowsWithTimeWhateverTheSampleRate)
   }
 }
 
-TEST(Propagation, covarianceStaysSymmetricAndPositiveOverAMinute)
+TEST(Propagation, covarianceStaysSymmetricAndPositiveWithoutUpdates)
 {
   test::Random random(16);
   FilterState s{NavState{}, StateMatrix::Zero()};
-  for (int i = 0; i < 12000; ++i)
+  for (int i = 0; i < 2000; ++i)
   {
     const Vec3 accel = Vec3(0.0, 0.0, 9.81) + random.vector(1.0);
     s = propagate(s, random.vector(1.0), accel, 0.005, ImuNoise{});
