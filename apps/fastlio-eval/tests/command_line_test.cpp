@@ -3,6 +3,8 @@
 
 // Runs fastlio-eval as a user does: arguments in, exit status and text out.
 
+#include "sample_trajectories.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -88,28 +90,21 @@ class FastlioEval : public ::testing::Test
  protected:
   FastlioEval()
   {
-    std::string name = (std::filesystem::temp_directory_path() / "fastlio_cli_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-    folder_ = name;
     write("truth.tum", tumLine(1.0));
     write("estimate.tum", tumLine(1.01));
-  }
-  ~FastlioEval() override
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
   }
 
   void write(const std::string& name, const std::string& text) const
   {
-    std::ofstream(folder_ / name) << text;
+    (void)folder_.write(name, text);
   }
 
   /** Runs the program in the folder; both output streams are captured. */
   [[nodiscard]] Outcome run(const std::string& arguments) const
   {
     return runShell(
-        "cd '" + folder_.string() + "' && '" FASTLIO_EVAL_PROGRAM "' " + arguments + " 2>&1");
+        "cd '" + folder_.path().string() + "' && '" FASTLIO_EVAL_PROGRAM "' " + arguments +
+        " 2>&1");
   }
 
   void expectOutcome(
@@ -122,7 +117,7 @@ class FastlioEval : public ::testing::Test
                                                               << outcome.output;
   }
 
-  std::filesystem::path folder_;
+  fastlio::samples::TemporaryFolder folder_;
 };
 
 TEST_F(FastlioEval, PrintsATable)
@@ -147,8 +142,8 @@ TEST_F(FastlioEval, JsonToStandardOutputAndToAFile)
   EXPECT_NEAR(json["end_to_end_drift"]["percent"].get<double>(), 1.0, 1e-9);
 
   expectOutcome("truth.tum estimate.tum -a first --json r.json --plot p.svg", 0, {"APE rotation"});
-  EXPECT_EQ(nlohmann::json::parse(contentOf(folder_ / "r.json")), json);
-  EXPECT_EQ(contentOf(folder_ / "p.svg").rfind("<svg ", 0), 0U);
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder_.path() / "r.json")), json);
+  EXPECT_EQ(contentOf(folder_.path() / "p.svg").rfind("<svg ", 0), 0U);
 }
 
 TEST_F(FastlioEval, KeptLimitsExitWithZero)

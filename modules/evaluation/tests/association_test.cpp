@@ -77,7 +77,7 @@ TEST(Association, CovariancesStayWithTheirPoses)
 {
   Trajectory estimate = samples::curve(20);
   for (int i = 0; i < 20; ++i)
-    estimate.covariances.push_back((i + 1) * Matrix6::Identity());
+    estimate.covariances.emplace_back((i + 1) * Matrix6::Identity());
   Trajectory reference = samples::curve(20);
   reference.poses.erase(reference.poses.begin(), reference.poses.begin() + 5);
   const AssociatedTrajectories t = associate(estimate, reference, {});

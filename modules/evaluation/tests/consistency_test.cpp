@@ -39,7 +39,7 @@ Trajectory drawn(const Trajectory& truth, const Matrix6d& P, double claimed, uns
     const Vector6d e = L * unit;  // truth minus estimate
     pose.T_world_body.R = pose.T_world_body.R * expSO3(-Vec3(e.head<3>()));
     pose.T_world_body.p -= e.tail<3>();
-    estimate.covariances.push_back(claimed * P);
+    estimate.covariances.emplace_back(claimed * P);
   }
   return estimate;
 }

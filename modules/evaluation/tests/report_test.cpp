@@ -21,7 +21,7 @@ EvaluationReport scaleErrorReport()
   for (StampedPose& pose : estimate.poses)
   {
     pose.T_world_body.p *= 1.01;
-    estimate.covariances.push_back(Matrix6::Identity());
+    estimate.covariances.emplace_back(Matrix6::Identity());
   }
   EvaluationOptions options;
   options.alignment = Alignment::First;
