@@ -14,7 +14,7 @@ namespace fastlio
 namespace
 {
 /** Index cells of this many spacings search fastest on surfaces. */
-constexpr double kCellPerSpacing = 2.5;
+constexpr double kCellPerSpacing = 3.0;
 /** Cells when every point is kept [m]. */
 constexpr double kCellWithoutSpacing = 0.5;
 
@@ -172,7 +172,7 @@ void KnnSurfaceMap::prepareEngine()
   if (options_.engine == NeighborEngine::KdTree && map_.size() > 0) map_.kdTreeEnsureIndexBuilt3D();
 }
 
-void KnnSurfaceMap::insert(const WorldPoints& points)
+void KnnSurfaceMap::insert(const WorldPoints& points, const Vec3& /*sensor_origin*/)
 {
   map_.insertPoints(points.x.data(), points.y.data(), points.z.data(), points.size());
   prepareEngine();

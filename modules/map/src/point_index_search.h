@@ -96,8 +96,16 @@ void PointIndex::searchCell(const Cell& cell, const Point3& query, Collector& co
     {
       d[i] = squaredDistance({chunk.x[i], chunk.y[i], chunk.z[i]}, query);
     }
+    // Most places are too far away; sorting them out without branches costs least.
+    const float bound = collector.bound();
+    std::uint32_t candidates = 0;
     for (std::uint32_t i = 0; i < kChunkSize; ++i)
     {
+      candidates |= static_cast<std::uint32_t>(d[i] <= bound) << i;
+    }
+    for (; candidates != 0; candidates &= candidates - 1)
+    {
+      const auto i = static_cast<std::uint32_t>(__builtin_ctz(candidates));
       if (!(d[i] <= collector.bound())) continue;
       collector.offer({chunk.x[i], chunk.y[i], chunk.z[i], d[i], chunk.point[i]});
     }

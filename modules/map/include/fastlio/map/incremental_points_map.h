@@ -47,7 +47,7 @@ class CIncrementalPointsMap : public mrpt::maps::CSimplePointsMap
   /** Section `creationOpts` of a map definition. */
   struct TCreationOptions : public mrpt::config::CLoadableOptions
   {
-    double cell_size = 1.0;    //!< edge of the index cells [m]; 2 to 3 spacings search fastest
+    double cell_size = 1.0;    //!< edge of the index cells [m]; 3 spacings search fastest
     double min_spacing = 0.0;  //!< least distance between points added by insertPoints() [m]
 
     void loadFromConfigFile(

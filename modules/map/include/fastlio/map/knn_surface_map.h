@@ -62,7 +62,8 @@ class KnnSurfaceMap : public SurfaceMap
   void match(
       const WorldPoints& points, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
-  void insert(const WorldPoints& points) override;
+  /** The origin is not needed: neighbours, not sides, make the planes. */
+  void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
   [[nodiscard]] std::size_t pointCount() const override { return map_.size(); }
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;

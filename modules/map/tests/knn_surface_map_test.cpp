@@ -1,0 +1,241 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "map_test_tools.h"
+#include <fastlio/map/knn_surface_map.h>
+#include <fastlio/map/plane_fit.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <thread>
+
+using namespace fastlio;
+using namespace fastlio::test;
+
+namespace
+{
+WorldPoints worldPoints(const Cloud& cloud)
+{
+  WorldPoints points;
+  points.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    points.x[i] = cloud.points[i].x;
+    points.y[i] = cloud.points[i].y;
+    points.z[i] = cloud.points[i].z;
+  }
+  return points;
+}
+
+std::vector<PlaneMatch> matchAll(const SurfaceMap& map, const WorldPoints& points)
+{
+  std::vector<PlaneMatch> matches(points.size());
+  map.match(points, 0, points.size(), matches);
+  return matches;
+}
+
+double residual(const PlaneMatch& m, const Xyz& p)
+{
+  return double(m.nx) * p.x + double(m.ny) * p.y + double(m.nz) * p.z + m.d;
+}
+
+KnnSurfaceMap mapOf(const Cloud& cloud, const KnnSurfaceMapOptions& options = {})
+{
+  KnnSurfaceMap map(options);
+  map.insert(worldPoints(cloud), Vec3::Zero());
+  return map;
+}
+}  // namespace
+
+TEST(KnnSurfaceMap, FindsTheWallsOfARoom)
+{
+  const KnnSurfaceMap map = mapOf(roomCloud(1, 60000));
+  const Cloud queries{{-20, 3, 0.5F}, {20.05F, -4, -1}, {5, 12, 0}, {5, -11.9F, 0}, {1, 2, -3}};
+  const Eigen::Vector3d normals[] = {
+      Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
+      Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
+  const double offsets[] = {0, 0.05, 0, 0.1, 0};
+  const auto matches = matchAll(map, worldPoints(queries));
+  for (std::size_t i = 0; i < queries.size(); ++i)
+  {
+    const PlaneMatch& m = matches[i];
+    ASSERT_TRUE(m.valid()) << i;
+    EXPECT_NEAR(Eigen::Vector3d(m.nx, m.ny, m.nz).norm(), 1.0, 1e-6);
+    EXPECT_GT(std::abs(Eigen::Vector3d(m.nx, m.ny, m.nz).dot(normals[i])), 0.995) << i;
+    EXPECT_NEAR(std::abs(residual(m, queries.points[i])), offsets[i], 0.03) << i;
+    EXPECT_GT(m.variance, 0.0F);
+    EXPECT_LT(m.variance, 0.02F * 0.02F);
+  }
+}
+
+TEST(KnnSurfaceMap, MatchesOnlyWhereThereIsAPlane)
+{
+  const Cloud queries{{0, 0, 0}, {100, 0, 0}, {0, 0, std::numeric_limits<float>::quiet_NaN()}};
+  // Empty map, too few points, points around a corner, points on a line, too far away.
+  EXPECT_FALSE(matchAll(KnnSurfaceMap(), worldPoints(queries))[0].valid());
+  const Cloud four{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  EXPECT_FALSE(matchAll(mapOf(four), worldPoints(queries))[0].valid());
+  const Cloud rough{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5F, 0.5F, 0.9F}};
+  EXPECT_FALSE(matchAll(mapOf(rough), worldPoints(queries))[0].valid());
+  const Cloud line{{0, 0, 0}, {0.5F, 0, 0}, {1, 0, 0}, {1.5F, 0, 0}, {-0.5F, 0, 0}};
+  EXPECT_FALSE(matchAll(mapOf(line), worldPoints(queries))[0].valid());
+  const Cloud flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5F, 0.5F, 0.01F}};
+  const auto matches = matchAll(mapOf(flat), worldPoints(queries));
+  EXPECT_TRUE(matches[0].valid());
+  EXPECT_FALSE(matches[1].valid());
+  EXPECT_FALSE(matches[2].valid());
+}
+
+TEST(KnnSurfaceMap, VarianceGrowsWithTheDistanceFromTheNeighbors)
+{
+  const Cloud strip{{0, 0, 0}, {0.5F, 0.05F, 0}, {1, -0.05F, 0}, {1.5F, 0.05F, 0}, {2, 0, 0}};
+  const KnnSurfaceMap map = mapOf(strip);
+  const Cloud queries{{1, 0, 0}, {1, 0.3F, 0}, {1, 1, 0}};
+  const auto matches = matchAll(map, worldPoints(queries));
+  ASSERT_TRUE(matches[0].valid() && matches[1].valid() && matches[2].valid());
+  EXPECT_LT(5 * matches[0].variance, matches[1].variance);
+  EXPECT_LT(5 * matches[1].variance, matches[2].variance);
+}
+
+// The variance is a promise: residuals of points on the true surface, divided by it, have unit mean
+// square when the map's noise is what the options say.
+TEST(KnnSurfaceMap, VarianceIsThatOfTheOffset)
+{
+  KnnSurfaceMapOptions options;
+  options.point_noise = 0.01;
+  const KnnSurfaceMap map = mapOf(roomCloud(2, 200000), options);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<float> u(-1, 1);
+  Cloud queries;
+  for (int i = 0; i < 4000; ++i)
+    queries.add({17 * u(rng), 9 * u(rng), -3});
+  const auto matches = matchAll(map, worldPoints(queries));
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+  {
+    if (!matches[i].valid()) continue;
+    const double z = residual(matches[i], queries.points[i]);
+    sum += z * z / matches[i].variance;
+    ++count;
+  }
+  EXPECT_GT(count, queries.size() * 9 / 10);
+  EXPECT_NEAR(sum / double(count), 1.0, 0.15);
+}
+
+TEST(KnnSurfaceMap, BothEnginesGiveTheSamePlanes)
+{
+  KnnSurfaceMapOptions options;
+  options.min_spacing = 0.3;
+  KnnSurfaceMap incremental(options);
+  options.engine = NeighborEngine::KdTree;
+  KnnSurfaceMap reference(options);
+  EXPECT_FALSE(matchAll(reference, worldPoints(Cloud{{0, 0, 0}}))[0].valid());
+  for (unsigned step = 0; step < 6; ++step)
+  {
+    const float shift = 8.0F * static_cast<float>(step);
+    Cloud scan = roomCloud(step, 20000);
+    for (Xyz& p : scan.points)
+      p.x += shift;
+    incremental.insert(worldPoints(scan), Vec3::Zero());
+    reference.insert(worldPoints(scan), Vec3::Zero());
+    incremental.removeOutside({shift, 0, 0}, 25.0);
+    reference.removeOutside({shift, 0, 0}, 25.0);
+    ASSERT_EQ(incremental.pointCount(), reference.pointCount());
+    Cloud queries = randomCloud(10 + step, 1500, 20.0F);
+    for (const Xyz& p : roomCloud(20 + step, 1500).points)
+      queries.add({p.x + shift, p.y, p.z});
+    const auto a = matchAll(incremental, worldPoints(queries));
+    const auto b = matchAll(reference, worldPoints(queries));
+    std::size_t valid = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+    {
+      ASSERT_EQ(a[i].valid(), b[i].valid()) << i;
+      if (!a[i].valid()) continue;
+      ++valid;
+      ASSERT_NEAR(residual(a[i], queries.points[i]), residual(b[i], queries.points[i]), 1e-5);
+      ASSERT_NEAR(a[i].variance, b[i].variance, 1e-4F * a[i].variance);
+    }
+    EXPECT_GT(valid, 700U);
+  }
+}
+
+TEST(KnnSurfaceMap, RangesAreMatchedInParallel)
+{
+  for (const NeighborEngine engine : {NeighborEngine::Incremental, NeighborEngine::KdTree})
+  {
+    KnnSurfaceMapOptions options;
+    options.engine = engine;
+    const KnnSurfaceMap map = mapOf(roomCloud(4, 20000), options);
+    const WorldPoints queries = worldPoints(roomCloud(5, 4000));
+    const auto expected = matchAll(map, queries);
+    std::vector<PlaneMatch> matches(queries.size());
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < 4; ++t)
+    {
+      threads.emplace_back([&, t] { map.match(queries, 1000 * t, 1000 * (t + 1), matches); });
+    }
+    for (std::thread& thread : threads)
+      thread.join();
+    for (std::size_t i = 0; i < queries.size(); ++i)
+    {
+      ASSERT_EQ(matches[i].d, expected[i].d);
+      ASSERT_EQ(matches[i].variance, expected[i].variance);
+    }
+  }
+}
+
+TEST(KnnSurfaceMap, RemovalWaitsUntilTheCentreMoved)
+{
+  KnnSurfaceMapOptions options;
+  options.min_spacing = 0;
+  options.removal_step = 0.1;
+  KnnSurfaceMap map(options);
+  map.insert(worldPoints(randomCloud(6, 5000, 10.0F)), Vec3::Zero());
+  map.removeOutside({0, 0, 0}, 5.0);
+  const std::size_t kept = map.pointCount();
+  EXPECT_LT(kept, 5000U);
+  map.removeOutside({0.4, 0, 0}, 5.0);
+  EXPECT_EQ(map.pointCount(), kept);
+  map.removeOutside({0.6, 0, 0}, 5.0);
+  EXPECT_LT(map.pointCount(), kept);
+}
+
+TEST(KnnSurfaceMap, HandsOutACopyOfItsPoints)
+{
+  KnnSurfaceMap map = mapOf(roomCloud(7, 5000));
+  const auto points = map.toPointsMap();
+  ASSERT_EQ(points->size(), map.pointCount());
+  map.removeOutside({1000, 0, 0}, 1.0);
+  EXPECT_EQ(map.pointCount(), 0U);
+  EXPECT_GT(points->size(), 0U);
+}
+
+TEST(KnnSurfaceMap, RefusesSenselessOptionsAndRanges)
+{
+  const auto expectRefused = [](auto change)
+  {
+    KnnSurfaceMapOptions options;
+    change(options);
+    EXPECT_THROW(KnnSurfaceMap{options}, std::invalid_argument);
+  };
+  expectRefused([](auto& o) { o.neighbors = 2; });
+  expectRefused([](auto& o) { o.neighbors = kMaxNeighbors + 1; });
+  expectRefused([](auto& o) { o.max_neighbor_distance = 0; });
+  expectRefused([](auto& o) { o.max_plane_distance = -0.1; });
+  expectRefused([](auto& o) { o.min_spacing = -1; });
+  expectRefused([](auto& o) { o.cell_size = std::numeric_limits<double>::quiet_NaN(); });
+  expectRefused([](auto& o) { o.point_noise = 0; });
+  expectRefused([](auto& o) { o.point_noise_weight = 0; });
+  expectRefused([](auto& o) { o.removal_step = -1; });
+
+  const KnnSurfaceMap map;
+  std::vector<PlaneMatch> matches(2);
+  const WorldPoints points = worldPoints(Cloud{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  EXPECT_THROW(map.match(points, 0, 3, matches), std::invalid_argument);
+  EXPECT_THROW(map.match(points, 2, 1, matches), std::invalid_argument);
+  EXPECT_NO_THROW(map.match(points, 1, 1, matches));
+}

@@ -1,0 +1,266 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The map as any MRPT map: archives, files, copies, factories, visualisation.
+
+#include "map_test_tools.h"
+#include <fastlio/map/register_classes.h>
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/opengl/CPointCloud.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/system/filesystem.h>
+
+#include <cstring>
+
+using namespace fastlio;
+using namespace fastlio::test;
+using mrpt::serialization::archiveFrom;
+
+namespace
+{
+/** A map whose every option differs from its default. */
+CIncrementalPointsMap unusualMap()
+{
+  CIncrementalPointsMap map(options(0.7, 0.2));
+  insertAll(map, roomCloud(1, 5000));
+  map.genericMapParams.enableObservationInsertion = false;
+  map.insertionOptions.minDistBetweenLaserPoints = 0.123F;
+  map.insertionOptions.isPlanarMap = true;
+  map.insertionOptions.horizontalTolerance = 0.3F;
+  map.likelihoodOptions.sigma_dist = 0.5;
+  map.likelihoodOptions.decimation = 3;
+  map.renderOptions.point_size = 4.0F;
+  return map;
+}
+
+void expectSamePoints(const mrpt::maps::CPointsMap& a, const mrpt::maps::CPointsMap& b)
+{
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    const Xyz p = pointOf(a, i), q = pointOf(b, i);
+    ASSERT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z) << i;
+  }
+}
+
+void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& b)
+{
+  expectSamePoints(a, b);
+  EXPECT_EQ(a.creationOptions().cell_size, b.creationOptions().cell_size);
+  EXPECT_EQ(a.creationOptions().min_spacing, b.creationOptions().min_spacing);
+  EXPECT_EQ(
+      a.genericMapParams.enableObservationInsertion, b.genericMapParams.enableObservationInsertion);
+  EXPECT_EQ(
+      a.insertionOptions.minDistBetweenLaserPoints, b.insertionOptions.minDistBetweenLaserPoints);
+  EXPECT_EQ(a.insertionOptions.isPlanarMap, b.insertionOptions.isPlanarMap);
+  EXPECT_EQ(a.insertionOptions.horizontalTolerance, b.insertionOptions.horizontalTolerance);
+  EXPECT_EQ(a.likelihoodOptions.sigma_dist, b.likelihoodOptions.sigma_dist);
+  EXPECT_EQ(a.likelihoodOptions.decimation, b.likelihoodOptions.decimation);
+  EXPECT_EQ(a.renderOptions.point_size, b.renderOptions.point_size);
+  for (const Xyz& q : randomCloud(2, 50, 20.0F).points)
+  {
+    const auto expected = a.nearest(q.x, q.y, q.z, 5);
+    const auto found = b.nearest(q.x, q.y, q.z, 5);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      ASSERT_EQ(found[i].point_index, expected[i].point_index);
+    }
+  }
+}
+
+/** A file that is gone when the test ends. */
+class TemporaryFile
+{
+ public:
+  TemporaryFile() : name_(mrpt::system::getTempFileName()) {}
+  ~TemporaryFile() { mrpt::system::deleteFile(name_); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+}  // namespace
+
+TEST(MapIo, ArchiveRoundTripThroughTheClassFactory)
+{
+  registerMapClasses();
+  const CIncrementalPointsMap map = unusualMap();
+  const TemporaryFile file;
+  {
+    mrpt::io::CFileGZOutputStream stream(file.name());
+    auto archive = archiveFrom(stream);
+    archive << map;
+  }
+  mrpt::io::CFileGZInputStream stream(file.name());
+  auto archive = archiveFrom(stream);
+  const auto object = archive.ReadObject();
+  const auto loaded = std::dynamic_pointer_cast<CIncrementalPointsMap>(object);
+  ASSERT_TRUE(loaded);
+  expectSameMap(map, *loaded);
+  loaded->ensureIndex();
+  expectSameMap(map, *loaded);
+}
+
+TEST(MapIo, EmptyMapRoundTrip)
+{
+  mrpt::io::CMemoryStream stream;
+  auto archive = archiveFrom(stream);
+  archive << CIncrementalPointsMap(options(0.7, 0.2));
+  stream.Seek(0);
+  CIncrementalPointsMap loaded;
+  insertAll(loaded, roomCloud(1, 10));
+  archive >> loaded;
+  EXPECT_TRUE(loaded.empty());
+  EXPECT_EQ(loaded.creationOptions().cell_size, 0.7);
+}
+
+TEST(MapIo, CorruptArchivesThrowAndDoNotExhaustMemory)
+{
+  mrpt::io::CMemoryStream whole;
+  auto archive = archiveFrom(whole);
+  archive << unusualMap();
+  const auto size = static_cast<std::size_t>(whole.getTotalBytesCount());
+  const auto* bytes = static_cast<const std::uint8_t*>(whole.getRawBufferData());
+  const std::vector<std::uint8_t> original(bytes, bytes + size);
+  const auto load = [](const std::vector<std::uint8_t>& content)
+  {
+    mrpt::io::CMemoryStream stream(content.data(), content.size());
+    auto in = archiveFrom(stream);
+    CIncrementalPointsMap map;
+    in >> map;
+  };
+  EXPECT_NO_THROW(load(original));
+  for (const std::size_t length : {size / 100, size / 4, size / 2, size - 20})
+  {
+    EXPECT_ANY_THROW(load({original.begin(), original.begin() + std::ptrdiff_t(length)})) << length;
+  }
+  // Header: flag, class name, version; then two doubles; then the number of points.
+  const std::size_t options_at = 1 + std::strlen("fastlio::CIncrementalPointsMap") + 1;
+  std::vector<std::uint8_t> huge = original;
+  for (std::size_t i = 0; i < 4; ++i)
+    huge[options_at + 16 + i] = 0xFF;
+  EXPECT_ANY_THROW(load(huge));
+  std::vector<std::uint8_t> no_cells = original;
+  for (std::size_t i = 0; i < 8; ++i)
+    no_cells[options_at + i] = 0;
+  EXPECT_ANY_THROW(load(no_cells));
+  std::vector<std::uint8_t> future = original;
+  future[options_at - 1] = 99;
+  EXPECT_ANY_THROW(load(future));
+}
+
+TEST(MapIo, CopiesAreIndependent)
+{
+  const CIncrementalPointsMap map = unusualMap();
+  CIncrementalPointsMap copy(map), assigned;
+  assigned = map;
+  const auto cloned = std::dynamic_pointer_cast<CIncrementalPointsMap>(map.duplicateGetSmartPtr());
+  ASSERT_TRUE(cloned);
+  expectSameMap(map, copy);
+  expectSameMap(map, assigned);
+  expectSameMap(map, *cloned);
+  copy.removeOutside(0, 0, 0, 1.0);
+  assigned.clear();
+  EXPECT_EQ(assigned.size(), 0U);
+  expectSameMap(map, *cloned);
+  assigned = *&assigned;
+  EXPECT_EQ(assigned.size(), 0U);
+}
+
+TEST(MapIo, ConvertsFromAndToSimplePointsMaps)
+{
+  CIncrementalPointsMap map = unusualMap();
+  const mrpt::maps::CSimplePointsMap simple(static_cast<const mrpt::maps::CPointsMap&>(map));
+  expectSamePoints(map, simple);
+  const CIncrementalPointsMap back(static_cast<const mrpt::maps::CPointsMap&>(simple));
+  expectSamePoints(map, back);
+  EXPECT_EQ(map.getAsSimplePointsMap(), &map);
+}
+
+TEST(MapIo, PlyAndTextFilesHoldTheLivePointsOnly)
+{
+  CIncrementalPointsMap map = unusualMap();
+  map.removeOutside(5, 5, 0, 8.0);
+  ASSERT_GT(map.size(), 100U);
+  const TemporaryFile ply, text;
+  ASSERT_TRUE(map.saveToPlyFile(ply.name(), true));
+  CIncrementalPointsMap loaded(options(0.7, 0.2));
+  insertAll(loaded, roomCloud(3, 100));
+  ASSERT_TRUE(loaded.loadFromPlyFile(ply.name()));
+  expectSamePoints(map, loaded);
+  ASSERT_EQ(loaded.nearest(5, 5, 0, 5).size(), 5U);
+  ASSERT_EQ(loaded.nearest(5, 5, 0, 1)[0].point_index, map.nearest(5, 5, 0, 1)[0].point_index);
+  ASSERT_TRUE(map.save3D_to_text_file(text.name()));
+  mrpt::maps::CSimplePointsMap from_text;
+  ASSERT_TRUE(from_text.load3D_from_text_file(text.name()));
+  EXPECT_EQ(from_text.size(), map.size());
+}
+
+TEST(MapIo, VisualisationShowsThePoints)
+{
+  const CIncrementalPointsMap map = unusualMap();
+  mrpt::opengl::CSetOfObjects scene;
+  map.getVisualizationInto(scene);
+  std::size_t shown = 0;
+  if (const auto cloud = scene.getByClass<mrpt::opengl::CPointCloud>()) shown += cloud->size();
+  if (const auto cloud = scene.getByClass<mrpt::opengl::CPointCloudColoured>())
+  {
+    shown += cloud->size();
+  }
+  EXPECT_EQ(shown, map.size());
+  EXPECT_NE(map.asString().find(std::to_string(map.size())), std::string::npos);
+}
+
+TEST(MapIo, IsMadeFromAMapDefinition)
+{
+  for (const std::string name : {"fastlio::CIncrementalPointsMap", "incrementalPointsMap"})
+  {
+    mrpt::config::CConfigFileMemory config;
+    config.write("Maps", name + "_count", 1);
+    config.write("Maps_" + name + "_00_creationOpts", "cell_size", 0.9);
+    config.write("Maps_" + name + "_00_creationOpts", "min_spacing", 0.25);
+    config.write("Maps_" + name + "_00_insertOpts", "minDistBetweenLaserPoints", 0.07);
+    config.write("Maps_" + name + "_00_likelihoodOpts", "decimation", 4);
+    mrpt::maps::TSetOfMetricMapInitializers definitions;
+    definitions.loadFromConfigFile(config, "Maps");
+    ASSERT_EQ(definitions.size(), 1U);
+    mrpt::maps::CMultiMetricMap maps;
+    maps.setListOfMaps(definitions);
+    const auto map = maps.mapByClass<CIncrementalPointsMap>();
+    ASSERT_TRUE(map) << name;
+    EXPECT_EQ(map->creationOptions().cell_size, 0.9);
+    EXPECT_EQ(map->creationOptions().min_spacing, 0.25);
+    EXPECT_NEAR(map->insertionOptions.minDistBetweenLaserPoints, 0.07, 1e-6);
+    EXPECT_EQ(map->likelihoodOptions.decimation, 4U);
+  }
+}
+
+TEST(MapIo, SenselessMapDefinitionSaysWhatIsWrong)
+{
+  mrpt::config::CConfigFileMemory config;
+  config.write("Maps", "incrementalPointsMap_count", 1);
+  config.write("Maps_incrementalPointsMap_00_creationOpts", "cell_size", -1.0);
+  mrpt::maps::TSetOfMetricMapInitializers definitions;
+  definitions.loadFromConfigFile(config, "Maps");
+  mrpt::maps::CMultiMetricMap maps;
+  try
+  {
+    maps.setListOfMaps(definitions);
+    FAIL() << "a negative cell size went through";
+  }
+  catch (const std::exception& e)
+  {
+    EXPECT_NE(std::string(e.what()).find("cell_size"), std::string::npos) << e.what();
+  }
+}
