@@ -1,0 +1,135 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "command_line.h"
+
+#include <fastlio/mrpt_bridge/output/run_summary.h>
+
+#include <CLI/CLI.hpp>
+#include <mrpt/version.h>
+
+#include <map>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kDescription =
+    "LiDAR-inertial odometry (FAST-LIO) on recorded data: reads MRPT rawlogs with a 3D LiDAR and "
+    "an\n"
+    "IMU, writes the trajectory, states with covariances, the map, timings and a summary.";
+
+constexpr const char* kFooter =
+    "Exit status:\n"
+    "    0  ok\n"
+    "    1  wrong command line or configuration; nothing was run\n"
+    "    2  input unreadable or without usable LiDAR and IMU; nothing was computed\n"
+    "    3  input truncated or corrupt; results of what could be read are written\n"
+    "    4  the odometry diverged or never initialised; results are written\n"
+    "    5  an output file could not be written; the others are complete\n"
+    "  130  interrupted (Ctrl-C or SIGTERM); results up to there are written\n"
+    "When several apply, the order is 130, 5, 3, 4.\n\n"
+    "Example:\n"
+    "  fastlio-replay -c params/velodyne_vlp16.yaml --input-rawlog walk.rawlog --output-dir out";
+
+const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
+{
+  using namespace mrpt::system;
+  static const std::map<std::string, VerbosityLevel> names = {
+      {"ERROR", LVL_ERROR}, {"WARN", LVL_WARN}, {"INFO", LVL_INFO}, {"DEBUG", LVL_DEBUG}};
+  return names;
+}
+
+void addInputOptions(CLI::App& app, ReplayArguments& arguments)
+{
+  app.add_option(
+         "-c,--config", arguments.config_file,
+         "Parameters (YAML); without it, the defaults for the sensor that is found")
+      ->type_name("FILE.yaml");
+  app.add_option(
+         "--input-rawlog", arguments.input_files,
+         "Recording; repeat for the parts of a split one, in order")
+      ->required()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE");
+  app.add_option(
+         "--lidar-sensor-label", arguments.lidar_sensor_label,
+         "LiDAR to use: regular expression for the whole sensor label; default: found "
+         "automatically")
+      ->type_name("REGEX");
+  app.add_option("--imu-sensor-label", arguments.imu_sensor_label, "IMU to use, likewise")
+      ->type_name("REGEX");
+  app.add_option(
+         "--skip-first-n", arguments.skip_first_n,
+         "Leave out everything before the LiDAR scan with this number (from 0); the platform must "
+         "rest "
+         "there")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("N");
+  app.add_option(
+         "--only-first-n", arguments.only_first_n,
+         "Stop after this many LiDAR scans (after the skipped ones); 0: all")
+      ->check(CLI::NonNegativeNumber.description(""))
+      ->type_name("N");
+}
+
+void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
+{
+  app.add_option(
+         "--output-dir", arguments.output_directory,
+         "Folder for all output files (see docs/outputs.md); created when absent")
+      ->type_name("DIR");
+  app.add_option(
+         "--output-tum-path", arguments.output_tum_path,
+         "Write the trajectory (TUM format) to this file, with or without --output-dir")
+      ->type_name("FILE");
+  app.add_option("--frame", arguments.frame, "Body whose pose is written: vehicle or imu")
+      ->check(CLI::IsMember({"vehicle", "imu"}))
+      ->capture_default_str();
+}
+
+void addRunOptions(CLI::App& app, ReplayArguments& arguments)
+{
+  app.add_option(
+         "--threads", arguments.threads,
+         "Threads of computation; 0: all cores; default: as configured. Results do not depend on "
+         "it")
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
+  app.add_option("-v,--verbosity", arguments.verbosity, "ERROR, WARN, INFO (default) or DEBUG")
+      ->transform(CLI::CheckedTransformer(verbosityNames(), CLI::ignore_case).description(""))
+      ->type_name("LEVEL");
+  app.set_version_flag(
+      "--version", std::string("fastlio-replay ") + FASTLIO_VERSION + " (" +
+                       mrpt::system::MRPT_getVersion() + ")");
+}
+
+void requireOutput(const ReplayArguments& arguments)
+{
+  if (arguments.output_directory.empty() && arguments.output_tum_path.empty())
+    throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
+}
+}  // namespace
+
+std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const* argv)
+{
+  CLI::App app(kDescription, "fastlio-replay");
+  app.footer(kFooter);
+  ReplayArguments arguments;
+  addInputOptions(app, arguments);
+  addOutputOptions(app, arguments);
+  addRunOptions(app, arguments);
+  try
+  {
+    app.parse(argc, argv);
+    requireOutput(arguments);
+  }
+  catch (const CLI::ParseError& e)
+  {
+    return app.exit(e) == 0 ? 0 : static_cast<int>(ExitStatus::Usage);
+  }
+  return arguments;
+}
+
+}  // namespace fastlio

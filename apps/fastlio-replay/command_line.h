@@ -1,0 +1,38 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file command_line.h What the user asks of fastlio-replay. */
+#pragma once
+
+#include <mrpt/system/COutputLogger.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fastlio
+{
+/** The command line as given. */
+struct ReplayArguments
+{
+  std::string config_file;                        //!< empty: defaults for the sensor that is found
+  std::vector<std::string> input_files;           //!< rawlogs, in order
+  std::string output_directory;                   //!< empty: none
+  std::string output_tum_path;                    //!< empty: none
+  std::optional<std::string> lidar_sensor_label;  //!< overrides input.lidar_sensor_label
+  std::optional<std::string> imu_sensor_label;    //!< overrides input.imu_sensor_label
+  std::size_t skip_first_n = 0;                   //!< scans that are left out at the start
+  std::size_t only_first_n = 0;                   //!< scans that are used after those; 0: all
+  std::string frame = "vehicle";                  //!< or "imu"
+  std::optional<int> threads;                     //!< overrides the parameter `threads`
+  mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;
+};
+
+/** The arguments, or the exit status when there is nothing (more) to do: help and version have been
+ * printed then, or what is wrong with the command line. */
+[[nodiscard]] std::variant<ReplayArguments, int> parseCommandLine(
+    int argc, const char* const* argv);
+
+}  // namespace fastlio

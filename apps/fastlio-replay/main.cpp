@@ -1,0 +1,60 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file main.cpp fastlio-replay: a recording in, trajectory and map out. */
+
+#include "command_line.h"
+#include "interruption.h"
+#include "replay_run.h"
+#include "run_report.h"
+#include "run_setup.h"
+
+#include <iostream>
+
+namespace
+{
+using namespace fastlio;
+
+int report(const RunSummary& summary, mrpt::system::COutputLogger& logger)
+{
+  const ExitStatus status = exitStatusOf(summary);
+  const auto level = status == ExitStatus::Ok ? mrpt::system::LVL_WARN : mrpt::system::LVL_ERROR;
+  for (const auto& sentence : troubleSentences(summary))
+    logger.logStr(level, sentence);
+  if (logger.getMinLoggingLevel() <= mrpt::system::LVL_WARN) std::cout << reportText(summary);
+  return static_cast<int>(status);
+}
+
+int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
+{
+  RunSetup setup = setUpRun(arguments);
+  logger.logStr(mrpt::system::LVL_INFO, describe(setup.selection));
+  logger.logStr(mrpt::system::LVL_INFO, "parameters: " + setup.configuration);
+  ReplayRun run(std::move(setup), logger);
+  catchInterruptions();
+  return report(run.execute(), logger);
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const auto parsed = parseCommandLine(argc, argv);
+  if (const auto* status = std::get_if<int>(&parsed)) return *status;
+  const auto& arguments = std::get<ReplayArguments>(parsed);
+  mrpt::system::COutputLogger logger("fastlio-replay");
+  logger.setMinLoggingLevel(arguments.verbosity);
+  try
+  {
+    return replay(arguments, logger);
+  }
+  catch (const SetupError& e)
+  {
+    logger.logStr(mrpt::system::LVL_ERROR, e.what());
+    return static_cast<int>(e.status());
+  }
+  catch (const std::exception& e)
+  {
+    logger.logStr(mrpt::system::LVL_ERROR, e.what());
+    return static_cast<int>(ExitStatus::Usage);
+  }
+}

@@ -1,0 +1,179 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "replay_run.h"
+
+#include "interruption.h"
+#include "run_counts.h"
+#include <fastlio/map/surface_map.h>
+#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/mrpt_bridge/output/standard_exporters.h>
+
+#include <mrpt/system/CTicTac.h>
+
+#include <filesystem>
+
+namespace fastlio
+{
+namespace
+{
+using namespace mrpt::system;
+
+std::vector<InputFile> inputFiles(const std::vector<std::string>& paths)
+{
+  std::vector<InputFile> files;
+  for (const auto& path : paths)
+  {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    files.push_back({path, error ? 0 : bytes});
+  }
+  return files;
+}
+
+double shareOf(const ReadProgress& progress)
+{
+  if (progress.bytes_total == 0) return 0.0;
+  return static_cast<double>(progress.bytes_read) / static_cast<double>(progress.bytes_total);
+}
+
+std::vector<std::string> sentences(const std::vector<ReadProblem>& problems)
+{
+  std::vector<std::string> texts;
+  for (const auto& problem : problems)
+  {
+    const bool repeated = problem.occurrences > 1;
+    texts.push_back(
+        problem.message +
+        (repeated ? " (" + std::to_string(problem.occurrences) + " times)" : std::string()));
+  }
+  return texts;
+}
+}  // namespace
+
+ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
+    : setup_(std::move(setup)),
+      logger_(logger),
+      odometry_(setup_.parameters),
+      exporters_(makeStandardExporters(
+          {setup_.arguments.output_directory, setup_.arguments.output_tum_path, setup_.frame})),
+      progress_(logger)
+{
+}
+
+RunSummary ReplayRun::execute()
+{
+  const CTicTac stopwatch;
+  DecodeAheadSource source(
+      RawlogSource(setup_.arguments.input_files),
+      ObservationBridge(setup_.selection, setup_.bridge));
+  try
+  {
+    consume(source);
+  }
+  catch (const std::exception& e)
+  {
+    failure_ = std::string("the run ended early: ") + e.what();
+  }
+  source.stop();
+  progress_.clear();
+  RunSummary summary = summarize(source);
+  summary.wall_seconds = stopwatch.Tac();
+  return exporters_.finish(std::move(summary), *odometry_.map().toPointsMap());
+}
+
+void ReplayRun::consume(DecodeAheadSource& source)
+{
+  while (!interrupted())
+  {
+    auto input = source.next();
+    if (!input || !feed(std::move(*input))) break;
+    drain();
+    progress_.update({input_share_, statistics_.duration()});
+  }
+  drain();
+  if (interrupted()) return;
+  while (const auto result = odometry_.flush())
+    take(*result);
+}
+
+bool ReplayRun::feed(DecodedInput input)
+{
+  input_share_ = shareOf(input.progress);
+  if (auto* scan = std::get_if<LidarScan>(&input.data)) return feedScan(std::move(*scan));
+  const bool skipping = scans_seen_ < setup_.arguments.skip_first_n;
+  if (!skipping) odometry_.addImu(std::get<ImuSample>(input.data));
+  return true;
+}
+
+bool ReplayRun::feedScan(LidarScan scan)
+{
+  const auto& arguments = setup_.arguments;
+  const std::size_t index = scans_seen_++;
+  if (index < arguments.skip_first_n) return true;
+  const std::size_t used_before = index - arguments.skip_first_n;
+  if (arguments.only_first_n > 0 && used_before >= arguments.only_first_n) return false;
+  odometry_.addScan(std::move(scan));
+  return true;
+}
+
+void ReplayRun::drain()
+{
+  while (const auto result = odometry_.next())
+    take(*result);
+}
+
+void ReplayRun::take(const ScanResult& result)
+{
+  statistics_.add(result);
+  exporters_.onScan(result);
+  reportChange(result);
+  reportExporters();
+}
+
+/** Tells when scans start to fare differently; every scan at DEBUG. */
+void ReplayRun::reportChange(const ScanResult& result)
+{
+  const bool changed = !last_status_ || *last_status_ != result.status;
+  last_status_ = result.status;
+  const bool bad =
+      result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged;
+  const auto level = !changed ? LVL_DEBUG : bad ? LVL_WARN : LVL_INFO;
+  if (level < logger_.getMinLoggingLevel()) return;
+  progress_.clear();
+  std::string text = "scan " + std::to_string(statistics_.scans() - 1) + " at " +
+                     secondsText(result.stamp_ns) + ": " + toString(result.status);
+  if (!result.message.empty()) text += ": " + result.message;
+  logger_.logStr(level, text);
+}
+
+void ReplayRun::reportExporters()
+{
+  for (; exporter_problems_told_ < exporters_.problems().size(); ++exporter_problems_told_)
+  {
+    progress_.clear();
+    logger_.logStr(LVL_ERROR, exporters_.problems()[exporter_problems_told_]);
+  }
+}
+
+RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
+{
+  RunSummary summary;
+  summary.program = "fastlio-replay";
+  summary.version = FASTLIO_VERSION;
+  summary.inputs = inputFiles(setup_.arguments.input_files);
+  summary.configuration = setup_.configuration;
+  summary.frame = setup_.frame.name;
+  summary.sensors = {describe(setup_.selection.lidar), describe(setup_.selection.imu)};
+  summary.parameters = odometry_.parameters();
+  summary.input_counts = inputCounts(source.statistics(), odometry_.inputStatistics());
+  summary.input_counts.push_back(
+      {"scans_skipped", std::min(scans_seen_, setup_.arguments.skip_first_n)});
+  summary.statistics = statistics_;
+  summary.interrupted = interrupted();
+  summary.input_problems = sentences(source.problems());
+  summary.failure = failure_;
+  return summary;
+}
+
+}  // namespace fastlio

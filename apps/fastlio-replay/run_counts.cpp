@@ -1,0 +1,56 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "run_counts.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace fastlio
+{
+namespace
+{
+/** Counts that are no loss. */
+constexpr std::array<std::string_view, 5> kFine = {
+    "imu_samples", "scans", "points", "other_sensors", "scans_skipped"};
+}  // namespace
+
+std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputStatistics& odometry)
+{
+  return {
+      {"imu_samples", bridge.imu_converted},
+      {"imu_without_acceleration", bridge.imu_no_acceleration},
+      {"imu_without_angular_rate", bridge.imu_no_angular_rate},
+      {"imu_not_finite", bridge.imu_not_finite + odometry.imu_not_finite},
+      {"imu_without_stamp", bridge.imu_no_stamp},
+      {"imu_out_of_order", odometry.imu_out_of_order},
+      {"imu_duplicate", odometry.imu_duplicate},
+      {"scans", bridge.scans_converted},
+      {"scans_without_point_times", bridge.scans_without_point_times},
+      {"scans_with_unusable_point_times", bridge.scans_unusable_point_times},
+      {"scans_without_stamp", bridge.scans_no_stamp},
+      {"scans_unreadable", bridge.scans_unreadable},
+      {"scans_empty", odometry.scans_empty},
+      {"scans_out_of_order", odometry.scans_out_of_order},
+      {"scans_without_imu", odometry.scans_without_imu},
+      {"points", bridge.points_converted},
+      {"points_without_return", bridge.points_no_return},
+      {"points_out_of_range", bridge.points_out_of_range},
+      {"points_invalid", bridge.points_invalid},
+      {"points_duplicate", bridge.points_duplicate},
+      {"packet_blocks_corrupt", bridge.packet_blocks_corrupt},
+      {"packet_times_corrupt", bridge.packet_times_corrupt},
+      {"other_sensors", bridge.other_sensors}};
+}
+
+std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)
+{
+  std::vector<NamedCount> lost;
+  for (const auto& count : counts)
+    if (count.count > 0 && std::find(kFine.begin(), kFine.end(), count.name) == kFine.end())
+      lost.push_back(count);
+  return lost;
+}
+
+}  // namespace fastlio

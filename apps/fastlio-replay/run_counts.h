@@ -1,0 +1,22 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file run_counts.h Everything that was read or dropped, as named numbers. */
+#pragma once
+
+#include <fastlio/mrpt_bridge/observation_bridge.h>
+#include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/odometry/odometry.h>
+
+#include <vector>
+
+namespace fastlio
+{
+/** Counts of the bridge, then those of the odometry's input. */
+[[nodiscard]] std::vector<NamedCount> inputCounts(
+    const BridgeStatistics& bridge, const InputStatistics& odometry);
+
+/** Those of inputCounts() that tell of losses, without zeros. */
+[[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
+
+}  // namespace fastlio

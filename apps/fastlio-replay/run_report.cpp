@@ -1,0 +1,127 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "run_report.h"
+
+#include "run_counts.h"
+#include <fastlio/mrpt_bridge/output/number_text.h>
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kLabelWidth = 14;
+
+std::string padded(std::string text, std::size_t width)
+{
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+std::string line(const std::string& label, const std::string& text)
+{
+  return padded(label, kLabelWidth) + text + "\n";
+}
+
+std::string sizeText(std::uintmax_t bytes)
+{
+  const auto size = static_cast<double>(bytes);
+  if (bytes < 10'000) return std::to_string(bytes) + " B";
+  if (bytes < 10'000'000) return fixedText(size * 1e-3, 1) + " kB";
+  return fixedText(size * 1e-6, 1) + " MB";
+}
+
+std::string scansText(const RunStatistics& statistics)
+{
+  std::string text = std::to_string(statistics.scans());
+  const char* separator = ": ";
+  for (std::size_t i = 0; i < kScanStatusCount; ++i)
+  {
+    const auto status = static_cast<ScanStatus>(i);
+    if (statistics.count(status) == 0) continue;
+    text += separator + std::to_string(statistics.count(status)) + " " + toString(status);
+    separator = ", ";
+  }
+  return text;
+}
+
+std::string countsText(const std::vector<NamedCount>& counts)
+{
+  std::string text;
+  for (const auto& count : counts)
+    text += (text.empty() ? "" : ", ") + std::to_string(count.count) + " " + count.name;
+  return text;
+}
+
+std::string scanTimesText(const ScanTimeSummary& ms)
+{
+  return fixedText(ms.median, 2) + " ms median, " + fixedText(ms.p99, 2) + " ms p99, " +
+         fixedText(ms.max, 2) + " ms max";
+}
+
+std::string speedText(const RunSummary& run)
+{
+  return fixedText(realTimeFactor(run), 1) + " x real time (" +
+         fixedText(run.statistics.duration(), 1) + " s of recording in " +
+         fixedText(run.wall_seconds, 2) + " s, of which " +
+         fixedText(run.statistics.computeSeconds(), 2) + " s odometry)";
+}
+
+std::string filesText(const std::vector<OutputFile>& files)
+{
+  std::size_t width = 0;
+  for (const auto& file : files)
+    width = std::max(width, file.path.size());
+  std::string text;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    text +=
+        line(i == 0 ? "Files" : "", padded(files[i].path, width + 2) + sizeText(files[i].bytes));
+  return text;
+}
+
+std::string whyOdometryFailed(const RunStatistics& statistics)
+{
+  if (statistics.scans() == 0)
+    return "no scan could be processed: no IMU samples cover a scan; check that both sensors "
+           "recorded at the same time and that their clocks agree";
+  const auto trouble = statistics.firstTrouble();
+  const std::string cause = trouble ? ": " + trouble->message : std::string();
+  if (statistics.poses() == 0) return "the odometry never initialised" + cause;
+  return "the odometry diverged; the first trouble was at scan " +
+         std::to_string(trouble ? trouble->scan_index : 0) + cause;
+}
+}  // namespace
+
+std::vector<std::string> troubleSentences(const RunSummary& summary)
+{
+  std::vector<std::string> sentences = summary.input_problems;
+  const auto& output = summary.output_problems;
+  sentences.insert(sentences.end(), output.begin(), output.end());
+  if (!summary.failure.empty()) sentences.push_back(summary.failure);
+  const auto& statistics = summary.statistics;
+  if (statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0)
+    sentences.push_back(whyOdometryFailed(statistics));
+  if (summary.interrupted)
+    sentences.emplace_back("interrupted; the results up to there are written");
+  return sentences;
+}
+
+std::string reportText(const RunSummary& summary)
+{
+  const auto& statistics = summary.statistics;
+  const auto lost = losses(summary.input_counts);
+  const ExitStatus status = exitStatusOf(summary);
+  std::string text = line("Scans", scansText(statistics));
+  text += line("Path", fixedText(statistics.pathLength(), 2) + " m");
+  text += line("Per scan", scanTimesText(statistics.scanTimes()));
+  text += line("Speed", speedText(summary));
+  if (!lost.empty()) text += line("Dropped", countsText(lost));
+  text += filesText(summary.outputs);
+  return text + line(
+                    "Status", std::string(toString(status)) + " (exit status " +
+                                  std::to_string(static_cast<int>(status)) + ")");
+}
+
+}  // namespace fastlio

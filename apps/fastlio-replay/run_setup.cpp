@@ -1,0 +1,132 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "run_setup.h"
+
+#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/odometry/parameter_yaml.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+Parameters loadConfiguration(const ReplayArguments& arguments)
+{
+  Parameters parameters;
+  try
+  {
+    if (!arguments.config_file.empty()) parameters = loadParametersFromFile(arguments.config_file);
+  }
+  catch (const std::exception& e)
+  {
+    throw SetupError(ExitStatus::Usage, e.what());
+  }
+  if (arguments.threads) parameters.threads = *arguments.threads;
+  auto& input = parameters.input;
+  input.lidar_sensor_label = arguments.lidar_sensor_label.value_or(input.lidar_sensor_label);
+  input.imu_sensor_label = arguments.imu_sensor_label.value_or(input.imu_sensor_label);
+  return parameters;
+}
+
+/** The trajectory file is not written twice under the same name. */
+ReplayArguments withoutDoubleTrajectory(ReplayArguments arguments)
+{
+  if (arguments.output_directory.empty() || arguments.output_tum_path.empty()) return arguments;
+  const auto own = fs::weakly_canonical(fs::path(arguments.output_directory) / "trajectory.tum");
+  if (fs::weakly_canonical(arguments.output_tum_path) == own) arguments.output_tum_path.clear();
+  return arguments;
+}
+
+void prepareOutputs(const ReplayArguments& arguments)
+{
+  try
+  {
+    if (!arguments.output_directory.empty()) prepareOutputDirectory(arguments.output_directory);
+    if (arguments.output_tum_path.empty()) return;
+    const auto parent = fs::absolute(arguments.output_tum_path).parent_path().string();
+    prepareOutputDirectory(parent);
+    if (fs::is_directory(arguments.output_tum_path))
+      throw std::runtime_error(
+          "--output-tum-path '" + arguments.output_tum_path + "' is a folder; give a file name");
+  }
+  catch (const std::exception& e)
+  {
+    throw SetupError(ExitStatus::Usage, e.what());
+  }
+}
+
+void requireReadable(const std::vector<std::string>& files)
+{
+  for (const auto& file : files)
+  {
+    if (!fs::exists(file))
+      throw SetupError(
+          ExitStatus::InputUnusable,
+          "input file '" + file + "' does not exist; check the path given to --input-rawlog");
+    if (fs::is_directory(file) || !std::ifstream(file, std::ios::binary))
+      throw SetupError(
+          ExitStatus::InputUnusable,
+          "input file '" + file +
+              "' cannot be read; --input-rawlog takes a rawlog file that you "
+              "may read");
+  }
+}
+
+SensorSelection findSensors(const ReplayArguments& arguments, const InputParameters& input)
+{
+  const SensorPatterns patterns{input.lidar_sensor_label, input.imu_sensor_label};
+  try
+  {
+    return selectSensors(surveySensors(arguments.input_files, patterns), patterns);
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw SetupError(ExitStatus::Usage, e.what());
+  }
+  catch (const std::exception& e)
+  {
+    throw SetupError(ExitStatus::InputUnusable, e.what());
+  }
+}
+
+/** Extrinsics of the configuration over those of the recording. */
+BridgeOptions bridgeOptionsOf(const InputParameters& input, const SensorSelection& selection)
+{
+  BridgeOptions options;
+  options.T_vehicle_imu = input.T_vehicle_imu;
+  const Pose T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
+  if (input.T_vehicle_lidar) options.T_imu_lidar = T_vehicle_imu.inverse() * *input.T_vehicle_lidar;
+  return options;
+}
+
+OutputFrame outputFrameOf(
+    const std::string& name, const InputParameters& input, const SensorSelection& selection)
+{
+  if (name == "imu") return {name, Pose{}};
+  const Pose T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
+  return {name, T_vehicle_imu.inverse()};
+}
+}  // namespace
+
+RunSetup setUpRun(const ReplayArguments& arguments)
+{
+  RunSetup setup;
+  setup.arguments = withoutDoubleTrajectory(arguments);
+  setup.parameters = loadConfiguration(arguments);
+  prepareOutputs(setup.arguments);
+  requireReadable(arguments.input_files);
+  const InputParameters& input = setup.parameters.input;
+  setup.selection = findSensors(arguments, input);
+  setup.configuration =
+      arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
+  setup.bridge = bridgeOptionsOf(input, setup.selection);
+  setup.frame = outputFrameOf(arguments.frame, input, setup.selection);
+  return setup;
+}
+
+}  // namespace fastlio

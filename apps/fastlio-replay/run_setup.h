@@ -1,0 +1,49 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file run_setup.h From the command line to everything that a run needs, checked. */
+#pragma once
+
+#include "command_line.h"
+#include <fastlio/mrpt_bridge/observation_bridge.h>
+#include <fastlio/mrpt_bridge/output/pose_output.h>
+#include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/mrpt_bridge/sensor_selection.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace fastlio
+{
+/** Why a run cannot start, and the exit status that tells it. */
+class SetupError : public std::runtime_error
+{
+ public:
+  SetupError(ExitStatus status, const std::string& message)
+      : std::runtime_error(message), status_(status)
+  {
+  }
+
+  [[nodiscard]] ExitStatus status() const { return status_; }
+
+ private:
+  ExitStatus status_;
+};
+
+/** A run that can start. */
+struct RunSetup
+{
+  ReplayArguments arguments;
+  Parameters parameters;
+  std::string configuration;  //!< where the parameters come from, for people
+  SensorSelection selection;
+  BridgeOptions bridge;
+  OutputFrame frame;
+};
+
+/** Loads the parameters, makes the output places, looks for the sensors, in this order.
+ * \exception SetupError with the exit status to end with */
+[[nodiscard]] RunSetup setUpRun(const ReplayArguments& arguments);
+
+}  // namespace fastlio

@@ -1,0 +1,73 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "process.h"
+
+#include <csignal>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fastlio::testing
+{
+namespace
+{
+std::string contentOf(const std::string& path)
+{
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/** In the child: never returns. */
+[[noreturn]] void become(const std::vector<std::string>& command, const std::string& log)
+{
+  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+  std::vector<char*> arguments;
+  for (const auto& text : command)
+    arguments.push_back(const_cast<char*>(text.c_str()));
+  arguments.push_back(nullptr);
+  execv(arguments.front(), arguments.data());
+  _exit(127);
+}
+}  // namespace
+
+Process::Process(const std::vector<std::string>& command, std::string log) : log_(std::move(log))
+{
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error("cannot start " + command.front());
+  if (pid_ == 0) become(command, log_);
+}
+
+Process::~Process()
+{
+  if (pid_ <= 0) return;
+  kill(pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+}
+
+void Process::signal(int number) const
+{
+  kill(pid_, number);
+}
+
+ProcessResult Process::wait(std::chrono::seconds limit)
+{
+  const auto end = std::chrono::steady_clock::now() + limit;
+  int status = 0;
+  while (waitpid(pid_, &status, WNOHANG) == 0)
+  {
+    if (std::chrono::steady_clock::now() > end) return {-1, "time limit\n" + contentOf(log_)};
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  pid_ = -1;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(log_)};
+}
+
+}  // namespace fastlio::testing

@@ -1,0 +1,195 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "replay_test_support.h"
+
+#include <nlohmann/json.hpp>
+
+namespace fastlio::testing
+{
+namespace
+{
+using Json = nlohmann::json;
+using CommandLine = ReplayTest;
+using Configuration = ReplayTest;
+using BadInput = ReplayTest;
+
+TEST_F(CommandLine, HelpTellsOptionsAndExitStatus)
+{
+  const auto result = replay({"--help"});
+  EXPECT_EQ(result.exit_status, 0);
+  for (const auto* text :
+       {"--config", "--input-rawlog", "--output-dir", "--output-tum-path", "--lidar-sensor-label",
+        "--imu-sensor-label", "--skip-first-n", "--only-first-n", "--frame", "--threads",
+        "--verbosity", "--version", "130  interrupted"})
+    EXPECT_NE(result.output.find(text), std::string::npos) << text;
+}
+
+TEST_F(CommandLine, VersionIsPrinted)
+{
+  expectEnd(replay({"--version"}), 0, "fastlio-replay ");
+}
+
+TEST_F(CommandLine, MistakesAreExplained)
+{
+  expectEnd(replay({}), 1, "--input-rawlog");
+  expectEnd(replay({"--input-rawlog", "x"}), 1, "--output-dir");
+  expectEnd(replayFile("x", {"--no-such-option"}), 1, "--no-such-option");
+  expectEnd(replayFile("x", {"--frame", "camera"}), 1, "vehicle");
+  expectEnd(replayFile("x", {"--threads", "many"}), 1, "--threads");
+  expectEnd(replayFile("x", {"-v", "LOUD"}), 1, "LOUD");
+  expectEnd(replayFile("x", {"--skip-first-n", "-3"}), 1, "--skip-first-n");
+}
+
+TEST_F(Configuration, MissingFileIsNamed)
+{
+  expectEnd(replayFile(record("a.rawlog", {}), {"-c", file("no.yaml")}), 1, file("no.yaml"));
+}
+
+TEST_F(Configuration, UnknownKeyNamesTheNearest)
+{
+  const std::string config = write("c.yaml", "lidar:\n  max_rnge: 50\n");
+  expectEnd(replayFile(record("a.rawlog", {}), {"-c", config}), 1, "max_range");
+  EXPECT_FALSE(std::filesystem::exists(file("out/summary.json")));
+}
+
+TEST_F(Configuration, WrongTypeIsTold)
+{
+  const std::string config = write("c.yaml", "lidar:\n  max_range: far\n");
+  expectEnd(replayFile(record("a.rawlog", {}), {"-c", config}), 1, "far");
+}
+
+TEST_F(Configuration, UnwritableOutputIsFoundBeforeTheRun)
+{
+  const std::string blocker = write("blocker", "a file");
+  const auto result =
+      replay({"--input-rawlog", record("a.rawlog", {}), "--output-dir", blocker + "/out"});
+  expectEnd(result, 1, blocker);
+  EXPECT_EQ(result.output.find("tracking"), std::string::npos);
+}
+
+TEST_F(BadInput, MissingFile)
+{
+  expectEnd(replayFile(file("no.rawlog")), 2, file("no.rawlog"));
+}
+
+TEST_F(BadInput, Folder)
+{
+  expectEnd(replayFile(file("")), 2, "cannot be read");
+}
+
+TEST_F(BadInput, NotARawlog)
+{
+  expectEnd(replayFile(write("a.rawlog", std::string(5000, 'x'))), 2, "a.rawlog");
+  expectEnd(replayFile(write("empty.rawlog", "")), 2, "empty.rawlog");
+}
+
+TEST_F(BadInput, TruncatedKeepsWhatCouldBeRead)
+{
+  BoxRecording recording;
+  recording.seconds = 8.0;
+  const std::string whole = contentOf(record("whole.rawlog", recording));
+  const std::string cut = write("cut.rawlog", whole.substr(0, whole.size() * 3 / 4));
+  expectEnd(replayFile(cut), 3, "cut.rawlog");
+  expectAllFiles();
+  EXPECT_GE(linesOf(file("out/trajectory.tum")), 30U);
+  const Json summary = Json::parse(contentOf(file("out/summary.json")));
+  EXPECT_EQ(summary["exit_status"], 3);
+  EXPECT_FALSE(summary["input"]["problems"].empty());
+}
+
+TEST_F(BadInput, CorruptInTheMiddleKeepsWhatCouldBeRead)
+{
+  BoxRecording recording;
+  recording.seconds = 8.0;
+  std::string content = contentOf(record("whole.rawlog", recording));
+  for (std::size_t i = content.size() * 3 / 4; i < content.size() * 3 / 4 + 2000; ++i)
+    content[i] = static_cast<char>(i * 31);
+  expectEnd(replayFile(write("corrupt.rawlog", content)), 3, "corrupt.rawlog");
+  expectAllFiles();
+  EXPECT_GE(linesOf(file("out/trajectory.tum")), 30U);
+}
+
+TEST_F(BadInput, MissingSecondPartKeepsNothingWaiting)
+{
+  const std::string first = record("a.rawlog", {});
+  const auto result = replay(
+      {"--input-rawlog", first, "--input-rawlog", file("b.rawlog"), "--output-dir", file("out")});
+  expectEnd(result, 2, file("b.rawlog"));
+}
+
+TEST_F(BadInput, NoImu)
+{
+  BoxRecording recording;
+  recording.with_imu = false;
+  expectEnd(replayFile(record("a.rawlog", recording)), 2, "IMU");
+}
+
+TEST_F(BadInput, NoLidar)
+{
+  BoxRecording recording;
+  recording.with_lidar = false;
+  expectEnd(replayFile(record("a.rawlog", recording)), 2, "LiDAR");
+}
+
+TEST_F(BadInput, ImuWithoutAcceleration)
+{
+  BoxRecording recording;
+  recording.with_accelerometer = false;
+  expectEnd(replayFile(record("a.rawlog", recording)), 2, "accel");
+}
+
+TEST_F(BadInput, LabelThatNothingMatches)
+{
+  const auto result =
+      replayFile(record("a.rawlog", {}), {"--lidar-sensor-label", "velodyne_front"});
+  expectEnd(result, 2, "'lidar'");
+}
+
+TEST_F(BadInput, LabelThatIsNoRegularExpression)
+{
+  expectEnd(replayFile(record("a.rawlog", {}), {"--imu-sensor-label", "imu["}), 1, "imu[");
+}
+
+TEST_F(BadInput, PlatformThatNeverRests)
+{
+  BoxRecording recording;
+  recording.shake_amplitude = 2.0;
+  expectEnd(replayFile(record("a.rawlog", recording)), 4, "never initialised");
+  expectAllFiles();
+}
+
+TEST_F(BadInput, EmptyScansAndInvalidPointsAreCounted)
+{
+  BoxRecording recording;
+  recording.rotten_points = true;
+  expectEnd(replayFile(record("a.rawlog", recording)), 0, "scans_empty");
+  const Json summary = Json::parse(contentOf(file("out/summary.json")));
+  EXPECT_EQ(summary["input"]["counts"]["scans_empty"], 4);
+  EXPECT_GT(summary["input"]["counts"]["points_invalid"], 5000);
+  EXPECT_EQ(summary["scans"]["diverged"], 0);
+}
+
+TEST_F(BadInput, LidarThatStartsLater)
+{
+  BoxRecording recording;
+  recording.seconds = 8.0;
+  recording.lidar_starts = 5.0;
+  expectEnd(replayFile(record("a.rawlog", recording)), 0, "exit status 0");
+  EXPECT_GE(linesOf(file("out/trajectory.tum")), 28U);
+}
+
+TEST_F(BadInput, StampsThatJumpBackAreDroppedAndCounted)
+{
+  BoxRecording recording;
+  recording.seconds = 6.0;
+  recording.stamps_jump_back = true;
+  expectEnd(replayFile(record("a.rawlog", recording)), 0, "imu_out_of_order");
+  const Json summary = Json::parse(contentOf(file("out/summary.json")));
+  EXPECT_GE(summary["input"]["counts"]["imu_out_of_order"], 8);
+  EXPECT_GE(summary["input"]["counts"]["scans_out_of_order"], 3);
+  EXPECT_EQ(summary["scans"]["diverged"], 0);
+}
+
+}  // namespace
+}  // namespace fastlio::testing
