@@ -99,7 +99,7 @@ void writeRawlog(
   registerBridgeClasses();
   RawlogFile file(path, simulation.imu().samples);
   const std::size_t total = simulation.scanCount();
-  std::size_t next = 0;
+  std::size_t next = 0, done = 0;
   // Sweeps are fired and encoded in parallel, but compressed and written in order.
   tbb::parallel_pipeline(
       kSweepsInFlight, tbb::make_filter<void, std::size_t>(
@@ -114,7 +114,7 @@ void writeRawlog(
                                [&](std::size_t index) { return encodeSweep(simulation, index); }) &
                            tbb::make_filter<EncodedSweep, void>(
                                tbb::filter_mode::serial_in_order,
-                               [&, done = std::size_t{0}](const EncodedSweep& sweep) mutable
+                               [&](const EncodedSweep& sweep)
                                {
                                  file.write(sweep);
                                  if (progress) progress(++done, total);
