@@ -9,6 +9,14 @@ if(MRPT_FASTLIO_WERROR)
 endif()
 if(MRPT_FASTLIO_NATIVE)
   target_compile_options(fastlio_compiler_options INTERFACE -march=native)
+  # Eigen's heap layout follows the widest vectors unless told otherwise, and MRPT's libraries, built for
+  # the baseline of x86-64, share Eigen's inline functions with ours: they must agree on 16 bytes.
+  target_compile_definitions(fastlio_compiler_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+  # GCC 12 warns inside of its own AVX-512 header (GCC bug 105593).
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(fastlio_compiler_options INTERFACE -Wno-maybe-uninitialized
+      -Wno-uninitialized)
+  endif()
 endif()
 if(MRPT_FASTLIO_SANITIZE)
   target_compile_options(fastlio_compiler_options INTERFACE
