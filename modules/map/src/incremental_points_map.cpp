@@ -28,6 +28,18 @@ std::unique_ptr<PointIndex> makeIndex(const CIncrementalPointsMap::TCreationOpti
   }
   return std::make_unique<PointIndex>(options.cell_size);
 }
+
+/** Written out with values, as MRPT's points are packed and must not be referred to where they are
+ * not aligned by chance. */
+void extend(mrpt::math::TBoundingBoxf& box, const Point3& p)
+{
+  box.min = {
+      std::min<float>(box.min.x, p.x), std::min<float>(box.min.y, p.y),
+      std::min<float>(box.min.z, p.z)};
+  box.max = {
+      std::max<float>(box.max.x, p.x), std::max<float>(box.max.y, p.y),
+      std::max<float>(box.max.z, p.z)};
+}
 }  // namespace
 
 CIncrementalPointsMap::CIncrementalPointsMap() : CIncrementalPointsMap(TCreationOptions{}) {}
@@ -135,9 +147,8 @@ void CIncrementalPointsMap::growSync(std::size_t first_new)
   double farthest_sqr = static_cast<double>(sync_.largest_distance) * sync_.largest_distance;
   for (std::size_t i = first_new; i < size(); ++i)
   {
-    const mrpt::math::TPoint3Df p{m_x[i], m_y[i], m_z[i]};
-    sync_.box.updateWithPoint(p);
-    farthest_sqr = std::max<double>(farthest_sqr, p.sqrNorm());
+    extend(sync_.box, {m_x[i], m_y[i], m_z[i]});
+    farthest_sqr = std::max<double>(farthest_sqr, squaredDistance({m_x[i], m_y[i], m_z[i]}, {}));
   }
   sync_.largest_distance = static_cast<float>(std::sqrt(farthest_sqr));
   sync_.size = size();

@@ -156,10 +156,10 @@ class CIncrementalPointsMap : public mrpt::maps::CSimplePointsMap
   /** What the inherited caches said when the index was last right: any marked change differs. */
   struct SyncPoint
   {
-    bool valid = false;
-    mrpt::math::TBoundingBoxf box;
+    mrpt::math::TBoundingBoxf box;  // packed: aligned only because it comes first
     float largest_distance = 0;
     std::size_t size = 0;
+    bool valid = false;
   };
 
   void rebuildIndex() const;
