@@ -3,194 +3,240 @@
 
 #include <fastlio/map/voxel_plane_map.h>
 
-#include <Eigen/Eigenvalues>
-
-#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kAxisBias = 1 << 20;
+constexpr int kAxisBits = 21;
+constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
+constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
+// A sweep over all blocks is spread over so many calls of removeOutside().
+constexpr std::size_t kSweepCalls = 16;
+// Slots of a block: 64 finest, then 8 middle, then 1 coarse voxel.
+constexpr std::uint8_t kMiddleSlot = 64, kCoarseSlot = 72;
 
-std::uint64_t axisIndex(float c, float inverse_size)
+std::uint64_t packKey(std::int64_t x, std::int64_t y, std::int64_t z)
 {
-  return static_cast<std::uint64_t>(
-      static_cast<std::int64_t>(std::floor(c * inverse_size)) + kAxisBias);
+  const auto axis = [](std::int64_t i)
+  { return static_cast<std::uint64_t>(i + kAxisBias) & kAxisMask; };
+  return (axis(x) << (2 * kAxisBits)) | (axis(y) << kAxisBits) | axis(z);
 }
 
-std::uint64_t voxelKey(float x, float y, float z, float inverse_size)
+Eigen::Vector3f unpackKey(std::uint64_t key)
 {
-  return (axisIndex(x, inverse_size) << 42U) | (axisIndex(y, inverse_size) << 21U) |
-         axisIndex(z, inverse_size);
+  const auto axis = [&](int shift)
+  { return static_cast<float>(static_cast<std::int64_t>((key >> shift) & kAxisMask) - kAxisBias); };
+  return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
 }
 
-Eigen::Vector3f voxelCenter(std::uint64_t key, float size)
+/** Row-major position of a voxel among n x n x n. */
+std::uint8_t rowMajor(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t n)
 {
-  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21U) - 1U;
-  const auto axis = [&](unsigned shift)
-  {
-    const auto i = static_cast<std::int64_t>((key >> shift) & kMask) - kAxisBias;
-    return (static_cast<float>(i) + 0.5F) * size;
-  };
-  return {axis(42), axis(21), axis(0)};
+  return static_cast<std::uint8_t>((x * n + y) * n + z);
 }
 
-/** Fits the plane of a voxel's sums. */
-void fit(PlaneVoxel& voxel, float size, const VoxelPlaneOptions& options)
+void requirePositive(double value, const char* name)
 {
-  voxel.fitted_count = voxel.count;
-  voxel.variance = -1;
-  if (voxel.count < static_cast<float>(options.min_points)) return;
-  const double n = voxel.count;
-  const Vec3 mean = Vec3(voxel.sum[0], voxel.sum[1], voxel.sum[2]) / n;
-  Mat3 scatter;
-  const auto& s = voxel.products;
-  scatter << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-  scatter = scatter / n - mean * mean.transpose();
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(scatter);
-  const Vec3 lambda = eigen.eigenvalues();
-  const double noise2 = options.point_noise * options.point_noise;
-  const double thickness = std::max(lambda[0], 0.0) * n / (n - 3.0);
-  if (thickness > options.max_thickness * options.max_thickness) return;
-  // A line of points, or a patch as thick as wide, fixes no normal.
-  if (lambda[1] < 16.0 * std::max(thickness, noise2)) return;
-  const Vec3 normal = eigen.eigenvectors().col(0);
-  // One laser line on a bent surface spans a plane of its own that contains the beams.
-  const Vec3 beam(voxel.beams[0], voxel.beams[1], voxel.beams[2]);
-  if (std::abs(normal.dot(beam)) < options.min_incidence * n) return;
-  const Vec3 centroid = mean + voxelCenter(voxel.key, size).cast<double>();
-  voxel.nx = static_cast<float>(normal.x());
-  voxel.ny = static_cast<float>(normal.y());
-  voxel.nz = static_cast<float>(normal.z());
-  voxel.d = static_cast<float>(-normal.dot(centroid));
-  voxel.qx = static_cast<float>(centroid.x());
-  voxel.qy = static_cast<float>(centroid.y());
-  voxel.qz = static_cast<float>(centroid.z());
-  const Vec3 e1 = eigen.eigenvectors().col(1), e2 = eigen.eigenvectors().col(2);
-  const Mat3 M = (e1 * e1.transpose() / lambda[1] + e2 * e2.transpose() / lambda[2]) / n;
-  voxel.leverage = {static_cast<float>(M(0, 0)), static_cast<float>(M(0, 1)),
-                    static_cast<float>(M(0, 2)), static_cast<float>(M(1, 1)),
-                    static_cast<float>(M(1, 2)), static_cast<float>(M(2, 2))};
-  voxel.inverse_count = static_cast<float>(1.0 / n);
-  voxel.variance = static_cast<float>(std::max(thickness, noise2));
-}
-
-/** Variance of the plane's offset at a point: of a regression's prediction. */
-float predictionVariance(const PlaneVoxel& v, float x, float y, float z, float noise2)
-{
-  const float dx = x - v.qx, dy = y - v.qy, dz = z - v.qz;
-  const auto& m = v.leverage;
-  const float leverage = dx * (m[0] * dx + 2 * (m[1] * dy + m[2] * dz)) +
-                         dy * (m[3] * dy + 2 * m[4] * dz) + dz * m[5] * dz;
-  return v.variance * (v.inverse_count + leverage) + (v.variance - noise2);
+  if (!(value > 0.0))
+    throw std::invalid_argument(
+        std::string("VoxelPlaneMap: ") + name + " must be positive, got " + std::to_string(value));
 }
 }  // namespace
 
 VoxelPlaneMap::VoxelPlaneMap(const VoxelPlaneOptions& options) : options_(options)
 {
-  levels_.resize(static_cast<std::size_t>(options.levels));
-  double size = options.voxel_size;
-  for (Level& level : levels_)
+  requirePositive(options.voxel_size, "voxel_size");
+  requirePositive(options.rules.point_noise, "rules.point_noise");
+  requirePositive(options.rules.max_thickness, "rules.max_thickness");
+  inverse_size_ = static_cast<float>(1.0 / options.voxel_size);
+  noise_variance_ = options.rules.point_noise * options.rules.point_noise;
+}
+
+VoxelPlaneMap::Address VoxelPlaneMap::addressOf(float x, float y, float z) const
+{
+  // floor() and arithmetic shifts keep negative coordinates in voxels of their own.
+  const auto ix = static_cast<std::int64_t>(std::floor(x * inverse_size_));
+  const auto iy = static_cast<std::int64_t>(std::floor(y * inverse_size_));
+  const auto iz = static_cast<std::int64_t>(std::floor(z * inverse_size_));
+  Address a;
+  a.block_key = packKey(ix >> 2, iy >> 2, iz >> 2);
+  a.slots[0] = rowMajor(ix & 3, iy & 3, iz & 3, 4);
+  a.slots[1] = static_cast<std::uint8_t>(
+      kMiddleSlot + rowMajor((ix >> 1) & 1, (iy >> 1) & 1, (iz >> 1) & 1, 2));
+  a.slots[2] = kCoarseSlot;
+  return a;
+}
+
+Eigen::Vector3f VoxelPlaneMap::centerOf(std::uint64_t block_key, std::uint8_t slot) const
+{
+  const auto size = static_cast<float>(options_.voxel_size);
+  const Eigen::Vector3f corner = unpackKey(block_key) * (4 * size);
+  if (slot >= kCoarseSlot) return corner + Eigen::Vector3f::Constant(2 * size);
+  const int n = slot >= kMiddleSlot ? 2 : 4;
+  const int i = slot >= kMiddleSlot ? slot - kMiddleSlot : slot;
+  const Eigen::Vector3i cell(i / (n * n), (i / n) % n, i % n);
+  const float edge = 4 * size / static_cast<float>(n);
+  return corner + (cell.cast<float>() + Eigen::Vector3f::Constant(0.5F)) * edge;
+}
+
+PlaneVoxel& VoxelPlaneMap::voxelAt(std::uint32_t index) const
+{
+  return (*pool_[index / kPoolChunk])[index % kPoolChunk];
+}
+
+PlaneMatch VoxelPlaneMap::bestPlane(
+    const Block& block, const Address& address, float x, float y, float z) const
+{
+  PlaneMatch best;
+  for (const std::uint8_t slot : address.slots)
   {
-    level.size = static_cast<float>(size);
-    level.inverse_size = static_cast<float>(1.0 / size);
-    size *= 2.0;
+    const std::uint32_t index = block.voxels[slot];
+    if (index == kNone) continue;
+    const VoxelPlane& plane = voxelAt(index).plane();
+    if (!plane.valid()) continue;
+    const float variance = plane.offsetVariance(x, y, z, noise_variance_);
+    if (best.valid() && variance >= best.variance) continue;
+    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, index, plane.born};
   }
+  return best;
 }
 
 void VoxelPlaneMap::match(
     const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches) const
 {
-  const auto noise2 = static_cast<float>(options_.point_noise * options_.point_noise);
+  std::uint64_t last_key = 0;
+  const Block* block = nullptr;
   for (std::size_t i = first; i < last; ++i)
   {
-    PlaneMatch best;
     const float x = points.x[i], y = points.y[i], z = points.z[i];
-    for (const Level& level : levels_)
+    const Address address = addressOf(x, y, z);
+    // Neighbours in the scan mostly share the block.
+    if (i == first || address.block_key != last_key)
     {
-      const auto it = level.index.find(voxelKey(x, y, z, level.inverse_size));
-      if (it == level.index.end()) continue;
-      const PlaneVoxel& v = level.voxels[it->second];
-      if (v.variance < 0) continue;
-      const float variance = predictionVariance(v, x, y, z, noise2);
-      if (best.valid() && variance >= best.variance) continue;
-      best = {v.nx, v.ny, v.nz, v.d, variance};
+      const auto it = index_.find(address.block_key);
+      block = it == index_.end() ? nullptr : &blocks_[it->second];
+      last_key = address.block_key;
     }
-    matches[i] = best;
+    matches[i] = block == nullptr ? PlaneMatch{} : bestPlane(*block, address, x, y, z);
   }
 }
 
-void VoxelPlaneMap::insertPoint(Level& level, const Eigen::Vector3f& p, const Eigen::Vector3f& beam)
+std::uint32_t VoxelPlaneMap::findOrAddBlock(std::uint64_t key)
 {
-  const std::uint64_t key = voxelKey(p.x(), p.y(), p.z(), level.inverse_size);
-  const auto [it, added] =
-      level.index.try_emplace(key, static_cast<std::uint32_t>(level.voxels.size()));
-  if (added)
+  const auto it = index_.find(key);
+  if (it != index_.end()) return it->second;
+  auto block = static_cast<std::uint32_t>(blocks_.size());
+  if (free_blocks_.empty())
+    blocks_.emplace_back();
+  else
   {
-    level.voxels.emplace_back();
-    level.voxels.back().key = key;
+    block = free_blocks_.back();
+    free_blocks_.pop_back();
+    blocks_[block] = Block{};
   }
-  PlaneVoxel& v = level.voxels[it->second];
-  const Eigen::Vector3f c = voxelCenter(key, level.size);
-  const float dx = p.x() - c.x(), dy = p.y() - c.y(), dz = p.z() - c.z();
-  for (int i = 0; i < 3; ++i)
-    v.beams[static_cast<std::size_t>(i)] += beam[i];
-  v.count += 1;
-  v.sum[0] += dx;
-  v.sum[1] += dy;
-  v.sum[2] += dz;
-  v.products[0] += dx * dx;
-  v.products[1] += dx * dy;
-  v.products[2] += dx * dz;
-  v.products[3] += dy * dy;
-  v.products[4] += dy * dz;
-  v.products[5] += dz * dz;
-  level.dirty.push_back(it->second);
+  blocks_[block].key = key;
+  blocks_[block].used = true;
+  index_.emplace(key, block);
+  return block;
 }
 
-void VoxelPlaneMap::refit(Level& level)
+std::uint32_t VoxelPlaneMap::addVoxel()
 {
-  for (const std::uint32_t i : level.dirty)
+  if (!free_voxels_.empty())
   {
-    PlaneVoxel& v = level.voxels[i];
-    if (v.count >= 1.1F * v.fitted_count + 1.0F) fit(v, level.size, options_);
+    const std::uint32_t index = free_voxels_.back();
+    free_voxels_.pop_back();
+    voxelAt(index) = PlaneVoxel{};
+    return index;
   }
-  level.dirty.clear();
+  if (pool_size_ / kPoolChunk >= pool_.size())
+    pool_.push_back(std::make_unique<std::array<PlaneVoxel, kPoolChunk>>());
+  return pool_size_++;
+}
+
+void VoxelPlaneMap::addPoint(
+    std::uint32_t block, const Address& address, const Eigen::Vector3f& point,
+    const Eigen::Vector3f& beam)
+{
+  for (const std::uint8_t slot : address.slots)
+  {
+    std::uint32_t& index = blocks_[block].voxels[slot];
+    if (index == kNone)
+    {
+      index = addVoxel();
+      finest_count_ += slot < kMiddleSlot ? 1 : 0;
+    }
+    PlaneVoxel& voxel = voxelAt(index);
+    voxel.add(point - centerOf(address.block_key, slot), beam);
+    if (voxel.claimRefit()) refits_.push_back({index, block, slot});
+  }
 }
 
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
 {
+  ++scan_;
   const Eigen::Vector3f origin = sensor_origin.cast<float>();
-  for (Level& level : levels_)
+  std::uint64_t last_key = 0;
+  std::uint32_t block = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const Eigen::Vector3f p(points.x[i], points.y[i], points.z[i]);
-      insertPoint(level, p, (p - origin).normalized());
-    }
-    refit(level);
+    const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
+    const Address address = addressOf(point.x(), point.y(), point.z());
+    if (i == 0 || address.block_key != last_key) block = findOrAddBlock(address.block_key);
+    last_key = address.block_key;
+    addPoint(block, address, point, (point - origin).normalized());
   }
+  for (const Refit& r : refits_)
+    voxelAt(r.voxel).fit(centerOf(blocks_[r.block].key, r.slot), options_.rules, scan_);
+  refits_.clear();
 }
 
-void VoxelPlaneMap::removeOutside(const Vec3&, double) {}
-
-std::size_t VoxelPlaneMap::pointCount() const
+void VoxelPlaneMap::dropBlock(Block& block)
 {
-  return levels_.front().voxels.size();
+  index_.erase(block.key);
+  for (std::size_t slot = 0; slot < kVoxelsPerBlock; ++slot)
+  {
+    if (block.voxels[slot] == kNone) continue;
+    free_voxels_.push_back(block.voxels[slot]);
+    finest_count_ -= slot < kMiddleSlot ? 1 : 0;
+  }
+  block.used = false;
+}
+
+void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
+{
+  const Eigen::Vector3f origin = center.cast<float>();
+  const auto limit = static_cast<float>(radius * radius);
+  const std::size_t share = blocks_.size() / kSweepCalls + 1;
+  for (std::size_t k = 0; k < share && !blocks_.empty(); ++k)
+  {
+    sweep_ = sweep_ + 1 < blocks_.size() ? sweep_ + 1 : 0;
+    Block& block = blocks_[sweep_];
+    if (!block.used) continue;
+    if ((centerOf(block.key, kCoarseSlot) - origin).squaredNorm() <= limit) continue;
+    dropBlock(block);
+    free_blocks_.push_back(static_cast<std::uint32_t>(sweep_));
+  }
 }
 
 mrpt::maps::CSimplePointsMap::Ptr VoxelPlaneMap::toPointsMap() const
 {
   auto map = mrpt::maps::CSimplePointsMap::Create();
-  for (const PlaneVoxel& v : levels_.front().voxels)
+  map->reserve(finest_count_);
+  for (const Block& block : blocks_)
   {
-    const Eigen::Vector3f c = voxelCenter(v.key, levels_.front().size);
-    map->insertPoint(
-        c.x() + v.sum[0] / v.count, c.y() + v.sum[1] / v.count, c.z() + v.sum[2] / v.count);
+    for (std::uint8_t slot = 0; block.used && slot < kMiddleSlot; ++slot)
+    {
+      if (block.voxels[slot] == kNone) continue;
+      const Eigen::Vector3f p =
+          centerOf(block.key, slot) + voxelAt(block.voxels[slot]).meanOffset();
+      map->insertPoint(p.x(), p.y(), p.z());
+    }
   }
   return map;
 }

@@ -23,9 +23,9 @@ std::unique_ptr<SurfaceMap> makePlaneMap(const Parameters& parameters)
 {
   VoxelPlaneOptions options;
   options.voxel_size = parameters.map.voxel_size;
-  options.levels = parameters.map.levels;
-  options.min_incidence = parameters.map.min_incidence;
-  options.point_noise = parameters.measurement.range_noise;
+  options.rules.min_incidence = static_cast<float>(parameters.map.min_incidence);
+  options.rules.max_thickness = static_cast<float>(parameters.map.max_thickness);
+  options.rules.point_noise = static_cast<float>(parameters.measurement.range_noise);
   return std::make_unique<VoxelPlaneMap>(options);
 }
 }  // namespace

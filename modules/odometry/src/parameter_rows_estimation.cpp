@@ -8,12 +8,11 @@ namespace fastlio
 ParameterRows reductionRows()
 {
   return {
-      {"reduction.voxel_size", "m",
-       RealValue{[](auto& p) { return &p.reduction.voxel_size; }, 0.01, 10.0},
-       "grid of which each voxel gives one point to the update; smaller: slower, more points"},
-      {"reduction.max_points", "",
-       IntegerValue{[](auto& p) { return &p.reduction.max_points; }, 0, 10000000},
-       "at most so many points in the update; 0: no limit"},
+      {"reduction.target_points", "",
+       IntegerValue{[](auto& p) { return &p.reduction.target_points; }, 0, 10000000},
+       "about so many points of a scan are used, evenly spread over the surfaces; fewer: faster, "
+       "less "
+       "accurate; 0: all"},
   };
 }
 
@@ -49,12 +48,14 @@ ParameterRows mapRows()
       {"map.min_spacing", "m", RealValue{[](auto& p) { return &p.map.min_spacing; }, 0.001, 10.0},
        "map types knn and kdtree: points nearer than this to one in the map are not added"},
       {"map.voxel_size", "m", RealValue{[](auto& p) { return &p.map.voxel_size; }, 0.01, 100.0},
-       "map type planes: edge of the finest voxels"},
-      {"map.levels", "", IntegerValue{[](auto& p) { return &p.map.levels; }, 1, 10},
-       "map type planes: number of scales, each twice as coarse as the one before"},
+       "map type planes: edge of the finest voxels; two coarser sizes are twice and four times as "
+       "wide"},
       {"map.min_incidence", "", RealValue{[](auto& p) { return &p.map.min_incidence; }, 0.0, 1.0},
        "map type planes: a plane whose normal has a smaller cosine to its mean beam is not used: "
        "grazing beams make bad planes"},
+      {"map.max_thickness", "m",
+       RealValue{[](auto& p) { return &p.map.max_thickness; }, 0.001, 10.0},
+       "map type planes: points that scatter more than this across their plane make none"},
   };
 }
 

@@ -21,7 +21,7 @@ ReductionLimits reductionLimits(const Parameters& p)
 {
   return {
       static_cast<float>(p.lidar.min_range), static_cast<float>(p.lidar.max_range),
-      static_cast<float>(p.reduction.voxel_size)};
+      static_cast<std::size_t>(p.reduction.target_points)};
 }
 
 ResidualModel residualModel(const MeasurementParameters& p, const FilterState& predicted)

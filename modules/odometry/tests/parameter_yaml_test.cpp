@@ -101,7 +101,7 @@ initialization:
   align_with_gravity: false
 imu: {max_gap: 2.5e-1}
 reduction:
-  max_points: 1500
+  target_points: 1234
 gain: standard
 threads: 2
 )");
@@ -111,7 +111,7 @@ threads: 2
   EXPECT_DOUBLE_EQ(p.initialization.max_gyro_mean, 10.0 * kRadPerDeg);
   EXPECT_FALSE(p.initialization.align_with_gravity);
   EXPECT_DOUBLE_EQ(p.imu.max_gap, 0.25);
-  EXPECT_EQ(p.reduction.max_points, 1500);
+  EXPECT_EQ(p.reduction.target_points, 1234);
   EXPECT_EQ(p.gain, GainForm::Standard);
   EXPECT_EQ(p.threads, 2);
 }

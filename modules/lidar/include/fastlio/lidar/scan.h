@@ -15,10 +15,10 @@ namespace fastlio
 /** Points as columns of equal length, LiDAR frame. */
 struct PointColumns
 {
-  std::vector<float> x, y, z;              //!< [m]
-  std::vector<float> intensity;            //!< sensor's own scale; 0 when it has none
+  std::vector<float> x, y, z;                //!< [m]
+  std::vector<float> intensity;              //!< sensor's own scale; 0 when it has none
   std::vector<std::int32_t> time_offset_ns;  //!< point time minus the scan's stamp_ns
-  std::vector<std::uint16_t> ring;         //!< laser line; 0 when unknown
+  std::vector<std::uint16_t> ring;           //!< laser line; 0 when unknown
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void clear();
@@ -33,7 +33,7 @@ struct LidarScan
 {
   std::int64_t stamp_ns = 0;  //!< reference time of the points' offsets, UNIX epoch [ns]
   PointColumns points;
-  Pose T_imu_lidar;           //!< extrinsic: LiDAR frame to IMU frame
+  Pose T_imu_lidar;                 //!< extrinsic: LiDAR frame to IMU frame
   std::size_t dropped_invalid = 0;  //!< returns that the bridge left out: no echo, NaN, zero
   bool has_point_times = true;      //!< false: all points are taken at stamp_ns, no deskew
 };

@@ -1,11 +1,14 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scan_reduction.h Which points of a scan take part: range gates and one point per voxel. */
+/** \file scan_reduction.h Which points of a scan take part: range gates and an even, unbiased
+ * thinning.
+ */
 #pragma once
 
 #include <fastlio/lidar/scan.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,9 +17,9 @@ namespace fastlio
 /** Limits of the reduction. */
 struct ReductionLimits
 {
-  float min_range = 0.5F;    //!< [m]
-  float max_range = 150.0F;  //!< [m]
-  float voxel_size = 0.5F;   //!< edge of the voxels of which one point each is kept [m]
+  float min_range = 0.5F;            //!< [m]
+  float max_range = 150.0F;          //!< [m]
+  std::size_t target_points = 2000;  //!< about so many points are kept; 0 keeps all
 };
 
 /** Chosen points, by index into the scan, and what was left out. */
@@ -28,30 +31,35 @@ struct ScanSelection
   std::size_t dropped_far = 0;
 };
 
-/** Keeps the first point of each voxel of the raw (not yet compensated) scan.
+/** Thins scans to about the same density everywhere on the surfaces around the sensor.
  *
- * Choosing before the motion compensation spares compensating points that are then thrown away; the
- * choice needs no exact position. The voxel table is reused between scans, so the steady state does
- * not allocate. */
+ * A scan's density on a surface falls with the square of the range r, so a point is kept with
+ * probability min(1, c r^2), c such that the target is met. The draw is a low-discrepancy sequence
+ * over the point index, another one for each scan: reproducible, and a resting sensor does not keep
+ * choosing the same beams.
+ *
+ * A voxel grid would not do: it keeps one point of every voxel that has any, so where a wall lies
+ * near a voxel's face the few points that noise carries across count as much as all others, and the
+ * wall appears shifted towards the face by up to the noise. Here the choice hardly depends on the
+ * noise. */
 class ScanReducer
 {
  public:
-  /** \param selection reused storage of the result */
+  /** Chooses points of the raw (not yet compensated) scan: those left out cost no compensation.
+   * \param selection reused storage of the result */
   void select(const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection);
 
  private:
-  struct Slot
-  {
-    std::uint64_t key = 0;
-    std::uint32_t epoch = 0;
-  };
+  static constexpr std::size_t kBins = 256;
 
-  bool claim(std::uint64_t key);
-  void startEpoch(std::size_t expected);
+  void gateRanges(
+      const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection);
+  [[nodiscard]] float densityFactor(std::size_t target) const;
 
-  std::vector<Slot> table_;
-  std::uint32_t epoch_ = 0;
-  std::size_t used_ = 0;
+  std::vector<float> squared_ranges_;          //!< 0 for points that are left out
+  std::array<std::uint32_t, kBins> counts_{};  //!< of points by logarithm of the squared range
+  std::size_t usable_ = 0;
+  std::uint32_t scan_ = 0;
 };
 
 }  // namespace fastlio

@@ -10,6 +10,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct PlaneMatch
 {
   float nx = 0, ny = 0, nz = 0;  //!< unit normal u, world frame
   float d = 0;                   //!< -u . q [m]
-  float variance = -1;  //!< variance of the plane's offset at the point [m^2]; negative: no match
+  float variance = -1;  //!< of the plane's offset at the point [m^2]; negative: no match
+  std::uint32_t plane = 0;  //!< which plane: points with the same number share its error
+  std::uint32_t born = 0;   //!< insertion (1, 2, ...) that founded the plane; 0: not known
 
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
 };

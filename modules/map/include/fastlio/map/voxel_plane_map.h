@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file voxel_plane_map.h A map of planes at several scales: association is one lookup per scale.
- */
+/** \file voxel_plane_map.h A map of planes at three scales: association is one hash lookup. */
 #pragma once
 
+#include <fastlio/map/plane_voxel.h>
 #include <fastlio/map/surface_map.h>
 
 #include <tsl/robin_map.h>
@@ -19,46 +19,23 @@ namespace fastlio
 /** Options of VoxelPlaneMap. */
 struct VoxelPlaneOptions
 {
-  double voxel_size = 0.4;     //!< edge of the finest voxels [m]
-  int levels = 3;              //!< scales, each twice as coarse as the one before
-  double point_noise = 0.02;   //!< least standard deviation of a point across its plane [m]
-  double max_thickness = 0.1;  //!< largest standard deviation across a plane [m]
-  int min_points = 6;          //!< fewer points give no plane
-  double min_incidence = 0.1;  //!< least cosine between normal and mean beam
+  double voxel_size = 0.4;  //!< edge of the finest voxels [m]; the others are 2 and 4 times as wide
+  PlaneRules rules;
 };
 
-/** Sums over the points of one voxel and the plane fitted to them. */
-struct PlaneVoxel
-{
-  // The plane: first cache line, the only one that match() reads.
-  float nx = 0, ny = 0, nz = 0, d = 0;  //!< n . p + d = 0
-  float qx = 0, qy = 0, qz = 0;         //!< centroid [m]
-  float variance = -1;  //!< across the plane, of one point [m^2]; negative: no plane
-  float inverse_count = 0;
-  std::array<float, 6> leverage{};  //!< symmetric, xx xy xz yy yz zz [1/m^2]
-  float fitted_count = 0;           //!< count at the last fit
-  // The sums, relative to the voxel's centre.
-  float count = 0;
-  std::array<float, 3> sum{};
-  std::array<float, 6> products{};
-  std::array<float, 3> beams{};  //!< sum of the unit vectors from the sensor to the points
-  std::uint64_t key = 0;
-};
-
-/** Spreads the bits of a voxel key over the hash. */
-struct VoxelKeyHash
-{
-  std::size_t operator()(std::uint64_t key) const
-  {
-    key *= 0x9E3779B97F4A7C15ULL;
-    return static_cast<std::size_t>(key ^ (key >> 32U));
-  }
-};
-
-/** Planes by incremental sums in cubic voxels of several sizes. */
+/** Planes by incremental sums in cubic voxels of three sizes.
+ *
+ * Space is cut into blocks of 4 x 4 x 4 finest voxels; a hash finds the block, the block knows its
+ * voxels: 64 of the finest size, 8 of twice that, 1 of four times. A point joins one voxel of each
+ * size; a query takes, of up to three planes at the point, the one whose offset there is known
+ * best: a wall is averaged over the whole block, a small face over its own voxel.
+ *
+ * removeOutside() looks at a share of the blocks per call, so that no call stands out; storage of
+ * dropped blocks is used again. */
 class VoxelPlaneMap : public SurfaceMap
 {
  public:
+  /** \exception std::invalid_argument an option is out of its range (the message names it) */
   explicit VoxelPlaneMap(const VoxelPlaneOptions& options);
 
   void match(
@@ -66,23 +43,77 @@ class VoxelPlaneMap : public SurfaceMap
       std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
-  [[nodiscard]] std::size_t pointCount() const override;
+  /** Number of finest voxels with points. */
+  [[nodiscard]] std::size_t pointCount() const override { return finest_count_; }
+  /** The mean point of each finest voxel. */
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;
 
  private:
-  struct Level
+  static constexpr int kScales = 3;
+  static constexpr std::size_t kVoxelsPerBlock = 64 + 8 + 1;
+  static constexpr std::uint32_t kNone = 0;
+
+  /** Spreads the bits of a block key over the hash. */
+  struct KeyHash
   {
-    float size = 0, inverse_size = 0;
-    tsl::robin_map<std::uint64_t, std::uint32_t, VoxelKeyHash> index;
-    std::vector<PlaneVoxel> voxels;
-    std::vector<std::uint32_t> dirty;
+    std::size_t operator()(std::uint64_t key) const
+    {
+      key *= 0x9E3779B97F4A7C15ULL;
+      return static_cast<std::size_t>(key ^ (key >> 32U));
+    }
   };
 
-  void insertPoint(Level& level, const Eigen::Vector3f& p, const Eigen::Vector3f& beam);
-  void refit(Level& level);
+  /** The voxels of 4 x 4 x 4 finest cells, as indices into the pool; kNone where there is none. */
+  struct Block
+  {
+    std::uint64_t key = 0;
+    bool used = false;
+    std::array<std::uint32_t, kVoxelsPerBlock> voxels{};
+  };
+
+  /** Where a point is: its block and its voxel of each scale in it. */
+  struct Address
+  {
+    std::uint64_t block_key = 0;
+    std::array<std::uint8_t, kScales> slots{};
+  };
+
+  /** A voxel to fit and the slot that says where it is. */
+  struct Refit
+  {
+    std::uint32_t voxel = 0;
+    std::uint32_t block = 0;
+    std::uint8_t slot = 0;
+  };
+
+  [[nodiscard]] Address addressOf(float x, float y, float z) const;
+  [[nodiscard]] Eigen::Vector3f centerOf(std::uint64_t block_key, std::uint8_t slot) const;
+  [[nodiscard]] PlaneMatch bestPlane(
+      const Block& block, const Address& address, float x, float y, float z) const;
+  [[nodiscard]] PlaneVoxel& voxelAt(std::uint32_t index) const;
+  std::uint32_t findOrAddBlock(std::uint64_t key);
+  std::uint32_t addVoxel();
+  void addPoint(
+      std::uint32_t block, const Address& address, const Eigen::Vector3f& point,
+      const Eigen::Vector3f& beam);
+  void dropBlock(Block& block);
+
+  static constexpr std::size_t kPoolChunk = 1024;
 
   VoxelPlaneOptions options_;
-  std::vector<Level> levels_;
+  float inverse_size_ = 0;
+  float noise_variance_ = 0;
+  tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash> index_;
+  std::vector<Block> blocks_;
+  std::vector<std::uint32_t> free_blocks_;
+  // Chunks, so that growth moves nothing and costs the same at any size.
+  std::vector<std::unique_ptr<std::array<PlaneVoxel, kPoolChunk>>> pool_;
+  std::uint32_t pool_size_ = 1;  // index 0 is kNone
+  std::vector<std::uint32_t> free_voxels_;
+  std::vector<Refit> refits_;
+  std::size_t finest_count_ = 0;
+  std::size_t sweep_ = 0;
+  std::uint32_t scan_ = 0;
 };
 
 }  // namespace fastlio

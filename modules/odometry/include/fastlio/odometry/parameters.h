@@ -52,8 +52,7 @@ struct LidarParameters
 /** Group `reduction`. */
 struct ReductionParameters
 {
-  double voxel_size = 0.5;  //!< grid that keeps one point per voxel for the update [m]
-  int max_points = 0;       //!< at most so many points in the update; 0 = no limit
+  int target_points = 1500;  //!< about so many points of a scan are used; 0 = all
 };
 
 /** Group `measurement`. */
@@ -80,8 +79,8 @@ struct MapParameters
   double radius = 150.0;       //!< points farther from the sensor than this may be dropped [m]
   double min_spacing = 0.4;    //!< knn: nearer points are not added [m]
   double voxel_size = 0.4;     //!< planes: edge of the finest voxels [m]
-  int levels = 3;              //!< planes: number of scales, each twice as coarse
   double min_incidence = 0.1;  //!< planes: least cosine between normal and mean beam
+  double max_thickness = 0.1;   //!< planes: largest standard deviation across a plane [m]
 };
 
 /** Group `input`: which sensors of a recording are used, and where they are mounted. Not used by

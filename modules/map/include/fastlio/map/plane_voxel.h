@@ -1,0 +1,70 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file plane_voxel.h Incremental sums over the points of a voxel and the plane fitted to them. */
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace fastlio
+{
+/** What makes a plane of a voxel's points. */
+struct PlaneRules
+{
+  float point_noise = 0.02F;   //!< least standard deviation of a point across its plane [m]
+  float max_thickness = 0.1F;  //!< largest standard deviation across a plane [m]
+  float min_incidence = 0.1F;  //!< least cosine between the normal and the mean beam
+  float min_points = 6.0F;     //!< fewer points give no plane
+};
+
+/** A plane with what is needed to predict where a point of it lies: one cache line. */
+struct VoxelPlane
+{
+  float nx = 0, ny = 0, nz = 0, d = 0;  //!< n . p + d = 0, unit normal, world frame
+  float qx = 0, qy = 0, qz = 0;         //!< centroid of the points [m]
+  float variance = -1;                  //!< of a point across the plane [m^2]; negative: no plane
+  float inverse_count = 0;              //!< 1 / number of points
+  std::array<float, 6> leverage{};      //!< (e1 e1^T/l1 + e2 e2^T/l2)/n: xx xy xz yy yz zz [1/m^2]
+  std::uint32_t born = 0;               //!< scan whose points made the first plane here
+
+  [[nodiscard]] bool valid() const { return variance >= 0; }
+
+  /** Variance of the plane's offset at a point, as of a regression's prediction: its mean, its tilt
+   * with the distance from the centroid, and the roughness that the sensor's noise does not explain
+   * [m^2]. */
+  [[nodiscard]] float offsetVariance(float x, float y, float z, float noise_variance) const;
+};
+
+/** The sums of a voxel, relative to its centre so that single precision suffices. */
+class PlaneVoxel
+{
+ public:
+  /** \param offset point minus voxel centre [m] \param beam unit vector from the sensor */
+  void add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam);
+
+  /** True once after enough points have joined since the last fit to make another one worth it. */
+  [[nodiscard]] bool claimRefit();
+
+  /** Fits the plane by the rules: smallest eigenvector of the scatter. A voxel that is too thick, a
+   * line, or seen edge-on has none. */
+  void fit(const Eigen::Vector3f& center, const PlaneRules& rules, std::uint32_t scan);
+
+  [[nodiscard]] const VoxelPlane& plane() const { return plane_; }
+  [[nodiscard]] float count() const { return count_; }
+  /** Mean of the points minus the voxel's centre [m]. */
+  [[nodiscard]] Eigen::Vector3f meanOffset() const;
+
+ private:
+  VoxelPlane plane_;
+  float count_ = 0;
+  float fitted_count_ = 0;
+  std::array<float, 3> sum_{};
+  std::array<float, 6> products_{};  //!< xx xy xz yy yz zz
+  std::array<float, 3> beams_{};
+  bool refit_pending_ = false;
+};
+
+}  // namespace fastlio

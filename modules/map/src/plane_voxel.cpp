@@ -1,0 +1,124 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/map/plane_voxel.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+// The second largest spread must exceed the noise by this factor (of variances), or a line of
+// points would pass as a plane whose normal is that line's noise.
+constexpr double kMinSpreadOverNoise = 16.0;
+// A plane is fitted anew when its points have grown by this factor.
+constexpr float kRefitGrowth = 1.1F;
+// Above this many points the sums are halved: old points fade, single precision stays exact enough.
+constexpr float kMaxCount = 4096.0F;
+
+struct Spread
+{
+  Eigen::Vector3d eigenvalues;   // ascending [m^2]
+  Eigen::Matrix3d eigenvectors;  // columns
+};
+
+Spread spreadOf(const std::array<float, 6>& products, const Eigen::Vector3d& mean, double n)
+{
+  Eigen::Matrix3d scatter;
+  const auto& s = products;
+  scatter << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
+  scatter = scatter / n - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(scatter);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+std::array<float, 6> leverageOf(const Spread& spread, double n)
+{
+  const Eigen::Vector3d e1 = spread.eigenvectors.col(1), e2 = spread.eigenvectors.col(2);
+  const Eigen::Matrix3f m =
+      ((e1 * e1.transpose() / spread.eigenvalues[1] + e2 * e2.transpose() / spread.eigenvalues[2]) /
+       n)
+          .cast<float>();
+  return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+}
+}  // namespace
+
+float VoxelPlane::offsetVariance(float x, float y, float z, float noise_variance) const
+{
+  const float dx = x - qx, dy = y - qy, dz = z - qz;
+  const auto& m = leverage;
+  const float distance = dx * (m[0] * dx + 2 * (m[1] * dy + m[2] * dz)) +
+                         dy * (m[3] * dy + 2 * m[4] * dz) + dz * m[5] * dz;
+  return variance * (inverse_count + distance) + (variance - noise_variance);
+}
+
+void PlaneVoxel::add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam)
+{
+  const float x = offset.x(), y = offset.y(), z = offset.z();
+  count_ += 1;
+  sum_ = {sum_[0] + x, sum_[1] + y, sum_[2] + z};
+  beams_ = {beams_[0] + beam.x(), beams_[1] + beam.y(), beams_[2] + beam.z()};
+  products_ = {products_[0] + x * x, products_[1] + x * y, products_[2] + x * z,
+               products_[3] + y * y, products_[4] + y * z, products_[5] + z * z};
+}
+
+bool PlaneVoxel::claimRefit()
+{
+  if (refit_pending_ || count_ < kRefitGrowth * fitted_count_ + 1.0F) return false;
+  refit_pending_ = true;
+  return true;
+}
+
+Eigen::Vector3f PlaneVoxel::meanOffset() const
+{
+  return Eigen::Vector3f(sum_[0], sum_[1], sum_[2]) / count_;
+}
+
+void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std::uint32_t scan)
+{
+  refit_pending_ = false;
+  if (count_ > kMaxCount)
+  {
+    count_ *= 0.5F;
+    for (float* sums : {sum_.data(), beams_.data(), products_.data(), products_.data() + 3})
+      for (int i = 0; i < 3; ++i)
+        sums[i] *= 0.5F;
+  }
+  fitted_count_ = count_;
+  const bool was_valid = plane_.valid();
+  plane_.variance = -1;
+  if (count_ < rules.min_points) return;
+
+  const double n = count_;
+  const Eigen::Vector3d mean = meanOffset().cast<double>();
+  const Spread spread = spreadOf(products_, mean, n);
+  const double noise = static_cast<double>(rules.point_noise) * rules.point_noise;
+  // Three degrees of freedom went into the fit.
+  const double across = std::max(spread.eigenvalues[0] * n / (n - 3.0), noise);
+  if (across > static_cast<double>(rules.max_thickness) * rules.max_thickness) return;
+  if (spread.eigenvalues[1] < kMinSpreadOverNoise * across) return;
+  const Eigen::Vector3f normal = spread.eigenvectors.col(0).cast<float>();
+  // One laser line on a bent surface spans a plane of its own, which contains the beams.
+  const Eigen::Vector3f beams(beams_[0], beams_[1], beams_[2]);
+  if (std::abs(normal.dot(beams)) < rules.min_incidence * count_) return;
+
+  const Eigen::Vector3f q = center + mean.cast<float>();
+  plane_.nx = normal.x();
+  plane_.ny = normal.y();
+  plane_.nz = normal.z();
+  plane_.d = -normal.dot(q);
+  plane_.qx = q.x();
+  plane_.qy = q.y();
+  plane_.qz = q.z();
+  plane_.variance = static_cast<float>(across);
+  plane_.inverse_count = 1.0F / count_;
+  plane_.leverage = leverageOf(spread, n);
+  if (!was_valid && plane_.born == 0) plane_.born = scan;
+}
+
+}  // namespace fastlio
