@@ -5,12 +5,16 @@
 
 #include <mrpt/math/CMatrixFixed.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace
 {
 using Ticks = mrpt::Clock::duration;
 constexpr std::int64_t kNanosecondsPerTick = 100;
+// 146 years on either side of 1970. Stamps beyond, as INVALID_TIMESTAMP or corrupt ones are, become
+// the nearest of these: any two stamps can then be subtracted without overflow.
+constexpr std::int64_t kMaxTicks = 46'000'000'000'000'000;
 static_assert(std::chrono::nanoseconds(Ticks(1)).count() == kNanosecondsPerTick);
 
 // MRPT counts from the year 1601.
@@ -25,7 +29,10 @@ namespace fastlio
 {
 std::int64_t toNanoseconds(const mrpt::Clock::time_point& stamp)
 {
-  return (stamp.time_since_epoch().count() - unixEpochTicks()) * kNanosecondsPerTick;
+  const std::int64_t epoch = unixEpochTicks();
+  const std::int64_t ticks =
+      std::clamp(stamp.time_since_epoch().count(), epoch - kMaxTicks, epoch + kMaxTicks);
+  return (ticks - epoch) * kNanosecondsPerTick;
 }
 
 mrpt::Clock::time_point toMrptTime(std::int64_t stamp_ns)

@@ -119,6 +119,8 @@ NextObject ObjectReader::readOne()
     object_offset_ = stream_->position();
     if (stream_->atEnd()) return atEndOfFile();
     const auto header = stream_->peekHeader();
+    if (!header && stream_->endsInsideHeader())
+      return fail(makeProblem(ReadProblemKind::Truncated, "", "the file ends inside its header"));
     if (!header) return fail(diagnose("", "there is no object where one should start"));
     if (header->class_name != "nullptr" && !isRegistered(header->class_name))
       return fail(
@@ -200,7 +202,8 @@ NextObject ObjectReader::fail(ReadProblem problem)
   if (found && problem.kind == ReadProblemKind::Truncated)
     problem = makeProblem(
         ReadProblemKind::Corrupt, problem.class_name, "it claims to be larger than it can be");
-  else if (!found && at_start && problem.class_name.empty())
+  else if (
+      !found && at_start && problem.kind == ReadProblemKind::Corrupt && problem.class_name.empty())
     problem =
         makeProblem(ReadProblemKind::NotARawlog, "", "the content is not a stream of MRPT objects");
   recovered_ = found;

@@ -98,6 +98,16 @@ std::optional<ObjectHeader> ObjectStream::peekHeader()
   return headerAt(position_);
 }
 
+bool ObjectStream::endsInsideHeader()
+{
+  if (require(1 + kLongestClassName) || available() == 0) return false;
+  const auto flagged = static_cast<unsigned char>(bytes_[position_]);
+  const std::size_t length = flagged & ~kHeaderFlag & 0xFFU;
+  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(position_) + 1;
+  return (flagged & kHeaderFlag) != 0 && length <= kLongestClassName && available() <= length &&
+         std::all_of(name, bytes_.end(), isClassNameCharacter);
+}
+
 std::optional<ObjectHeader> ObjectStream::lastHeaderRead() const
 {
   for (std::size_t length = 1; length <= kLongestClassName; ++length)

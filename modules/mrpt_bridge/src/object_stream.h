@@ -52,6 +52,9 @@ class ObjectStream
   /** The header at the current position, if there is one. */
   [[nodiscard]] std::optional<ObjectHeader> peekHeader();
 
+  /** The file ends inside what may be a header at the current position. */
+  [[nodiscard]] bool endsInsideHeader();
+
   /** The header that ends at the current position but for its version byte: what reading stopped
    * at. */
   [[nodiscard]] std::optional<ObjectHeader> lastHeaderRead() const;

@@ -166,7 +166,7 @@ void decodeBlock(
       ++sweep.counts.no_return;
     else if (first_return != nullptr && first_return->laser_returns[i].distance() == raw)
       ++sweep.counts.duplicate;
-    else if (distance < sensor.min_range || distance > sensor.max_range)
+    else if (!(distance >= sensor.min_range && distance <= sensor.max_range))
       ++sweep.counts.out_of_range;
     else
     {

@@ -142,6 +142,17 @@ LaserGeometry fromCorrection(const Correction& c, double radians_per_unit, Velod
   return laser;
 }
 
+// Also false for what is not a number.
+bool isPlausible(const LaserGeometry& laser)
+{
+  constexpr double kLargestOffset = 10.0;  // [m]
+  return std::abs(laser.sin_elevation) <= 1.0 && std::abs(laser.cos_elevation) <= 1.0 &&
+         std::isfinite(laser.azimuth_correction) &&
+         std::abs(laser.distance_correction) < kLargestOffset &&
+         std::abs(laser.horizontal_offset) < kLargestOffset &&
+         std::abs(laser.offset_xy) < kLargestOffset && std::abs(laser.offset_z) < kLargestOffset;
+}
+
 void rankByElevation(std::vector<LaserGeometry>& lasers)
 {
   for (LaserGeometry& laser : lasers)
@@ -223,6 +234,11 @@ std::vector<LaserGeometry> lasersOf(
     const double radians_per_unit = radiansPerUnit(corrections);
     for (const Correction& c : corrections)
       lasers.push_back(fromCorrection(c, radians_per_unit, model));
+    if (!std::all_of(lasers.begin(), lasers.end(), isPlausible))
+      throw std::runtime_error(
+          std::string(nameOf(model)) +
+          ": the calibration in the observation holds impossible values; the recording is "
+          "corrupt.");
   }
   else
   {

@@ -1,0 +1,72 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file bounded_queue.h Hands items from one thread to another. */
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace fastlio
+{
+/** First in, first out; holds at most \a capacity items. After close() nothing more goes in. */
+template <typename Item>
+class BoundedQueue
+{
+ public:
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
+
+  /** Waits for room. False: the queue is closed, the item is lost. */
+  bool push(Item item)
+  {
+    std::unique_lock lock(mutex_);
+    room_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
+    if (closed_) return false;
+    items_.push_back(std::move(item));
+    lock.unlock();
+    filled_.notify_one();
+    return true;
+  }
+
+  /** Waits for an item. Nothing: the queue is closed and empty. */
+  std::optional<Item> pop()
+  {
+    std::unique_lock lock(mutex_);
+    filled_.wait(lock, [&] { return closed_ || !items_.empty(); });
+    if (items_.empty()) return std::nullopt;
+    std::optional<Item> item(std::move(items_.front()));
+    items_.pop_front();
+    lock.unlock();
+    room_.notify_one();
+    return item;
+  }
+
+  void close()
+  {
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+    }
+    filled_.notify_all();
+    room_.notify_all();
+  }
+
+  void clear()
+  {
+    const std::lock_guard lock(mutex_);
+    items_.clear();
+  }
+
+ private:
+  std::size_t capacity_;
+  std::mutex mutex_;
+  std::condition_variable room_, filled_;
+  std::deque<Item> items_;
+  bool closed_ = false;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,147 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/imu_conversion.h>
+#include <fastlio/mrpt_bridge/observation_bridge.h>
+#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/rtti/CObject.h>
+
+#include <stdexcept>
+
+namespace
+{
+using namespace fastlio;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+using mrpt::obs::CObservationVelodyneScan;
+
+bool isFrom(const CObservation& observation, const SensorSummary& sensor)
+{
+  return observation.sensorLabel == sensor.label &&
+         observation.GetRuntimeClass()->className == sensor.class_name;
+}
+
+LidarScan fromPackets(const CObservationVelodyneScan& observation, BridgeStatistics& statistics)
+{
+  VelodyneSweep sweep = decodeVelodyne(observation);
+  const VelodyneDecodeCounts& counts = sweep.counts;
+  statistics.points_no_return += counts.no_return;
+  statistics.points_out_of_range += counts.out_of_range;
+  statistics.points_duplicate += counts.duplicate;
+  statistics.packet_blocks_corrupt += counts.bad_blocks;
+  statistics.packet_times_corrupt += counts.bad_packet_times;
+  LidarScan scan;
+  scan.points = std::move(sweep.points);
+  scan.dropped_invalid = counts.no_return + counts.out_of_range;
+  return scan;
+}
+
+LidarScan fromCloud(const CloudColumns& columns, BridgeStatistics& statistics)
+{
+  CloudConversion cloud = toTimedPoints(columns);
+  statistics.points_invalid += cloud.dropped_invalid;
+  if (cloud.times != PointTimes::PerPoint) ++statistics.scans_without_point_times;
+  if (cloud.times == PointTimes::Unusable) ++statistics.scans_unusable_point_times;
+  LidarScan scan;
+  scan.points = std::move(cloud.points);
+  scan.dropped_invalid = cloud.dropped_invalid;
+  scan.has_point_times = cloud.times == PointTimes::PerPoint;
+  return scan;
+}
+
+LidarScan toScan(const CObservation& observation, BridgeStatistics& statistics)
+{
+  if (const auto* packets = dynamic_cast<const CObservationVelodyneScan*>(&observation))
+    return fromPackets(*packets, statistics);
+  const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
+  if (cloud == nullptr)
+    throw std::runtime_error(
+        std::string("class ") + observation.GetRuntimeClass()->className +
+        " is not supported as a LiDAR");
+  if (!cloud->pointcloud) throw std::runtime_error("the observation holds no point cloud");
+  return fromCloud(readColumns(*cloud->pointcloud), statistics);
+}
+}  // namespace
+
+namespace fastlio
+{
+ObservationBridge::ObservationBridge(SensorSelection selection, BridgeOptions options)
+    : selection_(std::move(selection)),
+      options_(std::move(options)),
+      T_vehicle_imu_(options_.T_vehicle_imu.value_or(selection_.imu.T_vehicle_sensor))
+{
+}
+
+BridgeOutput ObservationBridge::convert(const CObservation& observation)
+{
+  if (isFrom(observation, selection_.imu)) return convertImu(observation);
+  if (isFrom(observation, selection_.lidar)) return convertScan(observation);
+  ++statistics_.other_sensors;
+  return std::monostate{};
+}
+
+BridgeOutput ObservationBridge::convertImu(const CObservation& observation)
+{
+  const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation);
+  const ImuConversion conversion = imu == nullptr ? ImuConversion{} : toImuSample(*imu);
+  switch (conversion.defect)
+  {
+    case ImuDefect::None:
+      break;
+    case ImuDefect::NoAcceleration:
+      ++statistics_.imu_no_acceleration;
+      break;
+    case ImuDefect::NoAngularRate:
+      ++statistics_.imu_no_angular_rate;
+      break;
+    case ImuDefect::NotFinite:
+      ++statistics_.imu_not_finite;
+      break;
+    case ImuDefect::NoStamp:
+      ++statistics_.imu_no_stamp;
+      break;
+  }
+  if (!conversion.sample) return std::monostate{};
+  ++statistics_.imu_converted;
+  return *conversion.sample;
+}
+
+BridgeOutput ObservationBridge::convertScan(const CObservation& observation)
+{
+  if (observation.timestamp == INVALID_TIMESTAMP)
+  {
+    ++statistics_.scans_no_stamp;
+    return std::monostate{};
+  }
+  try
+  {
+    LidarScan scan = toScan(observation, statistics_);
+    scan.stamp_ns = toNanoseconds(observation.timestamp);
+    scan.T_imu_lidar = extrinsicOf(observation);
+    ++statistics_.scans_converted;
+    statistics_.points_converted += scan.points.size();
+    return scan;
+  }
+  catch (const std::exception& e)
+  {
+    ++statistics_.scans_unreadable;
+    statistics_.last_error = e.what();
+    return std::monostate{};
+  }
+}
+
+Pose ObservationBridge::extrinsicOf(const CObservation& observation) const
+{
+  if (options_.T_imu_lidar) return *options_.T_imu_lidar;
+  mrpt::poses::CPose3D T_vehicle_lidar;
+  observation.getSensorPose(T_vehicle_lidar);
+  return T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,156 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "label_pattern.h"
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/imu_conversion.h>
+#include <fastlio/mrpt_bridge/sensor_selection.h>
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+#include <fastlio/mrpt_bridge/xyzirt_access.h>
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/rtti/CObject.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace
+{
+using namespace fastlio;
+using mrpt::obs::CObservation;
+
+constexpr double kNanosecondsPerSecond = 1e9;
+const std::string kRotatingScan = "mrpt::obs::CObservationRotatingScan";
+
+// What one observation tells about its sensor.
+struct Appearance
+{
+  SensorKind kind = SensorKind::Other;
+  bool usable = false;
+  std::string detail;
+};
+
+Appearance appearanceOf(const mrpt::obs::CObservationIMU& imu)
+{
+  const ImuDefect defect = toImuSample(imu).defect;
+  // A single bad value does not make a sensor unusable.
+  const bool usable = defect == ImuDefect::None || defect == ImuDefect::NotFinite;
+  return {SensorKind::Imu, usable, usable ? "acceleration and angular rate" : toString(defect)};
+}
+
+Appearance appearanceOf(const mrpt::obs::CObservationVelodyneScan& scan)
+{
+  const std::string model = velodyneModelName(scan);
+  try
+  {
+    const std::size_t points = decodeVelodyne(scan).points.size();
+    return {
+        SensorKind::Lidar, true,
+        model + ", " + std::to_string(scan.scan_packets.size()) + " packets with " +
+            std::to_string(points) + " points"};
+  }
+  catch (const std::runtime_error& e)
+  {
+    return {SensorKind::Lidar, false, e.what()};
+  }
+}
+
+Appearance appearanceOf(const mrpt::obs::CObservationPointCloud& scan)
+{
+  if (!scan.pointcloud) return {SensorKind::Lidar, false, "no points"};
+  const CloudColumns columns = readColumns(*scan.pointcloud);
+  return {
+      SensorKind::Lidar, true,
+      std::string(scan.pointcloud->GetRuntimeClass()->className) + " of " +
+          std::to_string(columns.size()) + " points" +
+          (columns.time_s.empty() ? ", no time per point" : " with time per point")};
+}
+
+Appearance appearanceOf(const CObservation& observation)
+{
+  if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation))
+    return appearanceOf(*imu);
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation))
+    return appearanceOf(*scan);
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
+    return appearanceOf(*scan);
+  if (observation.GetRuntimeClass()->className == kRotatingScan)
+    return {
+        SensorKind::Lidar, false,
+        "a range image without the elevation of its rows; convert it to point clouds with the time "
+        "of "
+        "each point"};
+  return {};
+}
+
+SensorSummary firstSight(const CObservation& observation)
+{
+  const Appearance appearance = appearanceOf(observation);
+  SensorSummary sensor;
+  sensor.label = observation.sensorLabel;
+  sensor.class_name = observation.GetRuntimeClass()->className;
+  sensor.detail = appearance.detail;
+  sensor.kind = appearance.kind;
+  sensor.usable = appearance.usable;
+  mrpt::poses::CPose3D T_vehicle_sensor;
+  observation.getSensorPose(T_vehicle_sensor);
+  sensor.T_vehicle_sensor = toPose(T_vehicle_sensor);
+  sensor.first_stamp_ns = toNanoseconds(observation.timestamp);
+  return sensor;
+}
+
+void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
+{
+  const std::string class_name = observation.GetRuntimeClass()->className;
+  auto sensor = std::find_if(
+      sensors.begin(), sensors.end(),
+      [&](const SensorSummary& s)
+      { return s.label == observation.sensorLabel && s.class_name == class_name; });
+  if (sensor == sensors.end()) sensor = sensors.insert(sensors.end(), firstSight(observation));
+  // A sensor that starts with an empty or incomplete observation may do better later.
+  if (!sensor->usable && sensor->kind != SensorKind::Other)
+  {
+    const Appearance now = appearanceOf(observation);
+    if (now.usable) sensor->usable = true, sensor->detail = now.detail;
+  }
+  ++sensor->observations;
+  sensor->last_stamp_ns = toNanoseconds(observation.timestamp);
+}
+
+bool hasUsable(
+    const std::vector<SensorSummary>& sensors, SensorKind kind, const LabelPattern& pattern)
+{
+  return std::any_of(
+      sensors.begin(), sensors.end(),
+      [&](const SensorSummary& s)
+      { return s.kind == kind && s.usable && pattern.matches(s.label); });
+}
+}  // namespace
+
+namespace fastlio
+{
+SensorSurvey surveySensors(
+    const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
+{
+  const LabelPattern lidar("lidar", patterns.lidar_label), imu("imu", patterns.imu_label);
+  const std::int64_t at_least_ns = std::llround(at_least * kNanosecondsPerSecond);
+  RawlogSource source(files);
+  SensorSurvey survey;
+  std::int64_t begin_ns = 0;
+  while (const auto observation = source.next())
+  {
+    if (observation->timestamp == INVALID_TIMESTAMP) continue;
+    const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
+    if (survey.sensors.empty()) begin_ns = stamp_ns;
+    note(survey.sensors, *observation);
+    const bool complete = hasUsable(survey.sensors, SensorKind::Lidar, lidar) &&
+                          hasUsable(survey.sensors, SensorKind::Imu, imu);
+    if (complete && stamp_ns - begin_ns >= at_least_ns) break;
+  }
+  survey.problems = source.problems();
+  return survey;
+}
+
+}  // namespace fastlio
