@@ -176,7 +176,7 @@ TEST(IncrementalPointsMap, PlanarNeighborMethodsIgnoreHeight)
   std::vector<std::uint64_t> indices;
   map.nn_multiple_search(mrpt::math::TPoint2Df(0.1F, 0), 2, points, distances, indices);
   EXPECT_EQ(indices, (std::vector<std::uint64_t>{0, 1}));
-  map.nn_radius_search(mrpt::math::TPoint2Df(3, 0), 0.25F, points, distances, indices);
+  map.nn_radius_search(mrpt::math::TPoint2Df(3, 0), 0.25F, points, distances, indices, 0);
   EXPECT_EQ(indices, (std::vector<std::uint64_t>{2}));
   // 3D queries do not depend on which kd-tree was built last.
   EXPECT_EQ(map.nearest(0, 0, 0, 1)[0].point_index, 1U);

@@ -140,7 +140,7 @@ class CIncrementalPointsMap : public mrpt::maps::CSimplePointsMap
   void nn_radius_search(
       const mrpt::math::TPoint2Df& query, const float search_radius_sqr,
       std::vector<mrpt::math::TPoint2Df>& results, std::vector<float>& out_dists_sqr,
-      std::vector<std::uint64_t>& result_indices, std::size_t max_points = 0) const;
+      std::vector<std::uint64_t>& result_indices, std::size_t max_points) const;
 #endif
   /** @} */
 
