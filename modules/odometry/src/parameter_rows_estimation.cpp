@@ -11,8 +11,7 @@ ParameterRows reductionRows()
       {"reduction.target_points", "",
        IntegerValue{[](auto& p) { return &p.reduction.target_points; }, 0, 10000000},
        "about so many points of a scan are used, evenly spread over the surfaces; fewer: faster, "
-       "less "
-       "accurate; 0: all"},
+       "less accurate; 0: all"},
   };
 }
 
