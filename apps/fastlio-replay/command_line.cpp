@@ -6,7 +6,7 @@
 #include <fastlio/mrpt_bridge/output/run_summary.h>
 
 #include <CLI/CLI.hpp>
-#include <mrpt/version.h>
+#include <mrpt/system/os.h>
 
 #include <map>
 

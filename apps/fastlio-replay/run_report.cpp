@@ -47,6 +47,17 @@ std::string scansText(const RunStatistics& statistics)
   return text;
 }
 
+/** What the bridge, the odometry's input and the range limits left out. */
+std::vector<NamedCount> allLosses(const RunSummary& run)
+{
+  std::vector<NamedCount> counts = run.input_counts;
+  const PointTotals& points = run.statistics.points();
+  counts.push_back({"points_too_near", points.near});
+  counts.push_back({"points_too_far", points.far});
+  counts.push_back({"points_with_wrong_time", points.time});
+  return losses(counts);
+}
+
 std::string countsText(const std::vector<NamedCount>& counts)
 {
   std::string text;
@@ -111,7 +122,7 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
 std::string reportText(const RunSummary& summary)
 {
   const auto& statistics = summary.statistics;
-  const auto lost = losses(summary.input_counts);
+  const auto lost = allLosses(summary);
   const ExitStatus status = exitStatusOf(summary);
   std::string text = line("Scans", scansText(statistics));
   text += line("Path", fixedText(statistics.pathLength(), 2) + " m");

@@ -29,18 +29,20 @@ std::string contentOf(const std::string& path)
 {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+  std::vector<std::string> texts = command;  // execv wants text that it could change
   std::vector<char*> arguments;
-  for (const auto& text : command)
-    arguments.push_back(const_cast<char*>(text.c_str()));
+  arguments.reserve(texts.size() + 1);
+  for (auto& text : texts)
+    arguments.push_back(text.data());
   arguments.push_back(nullptr);
   execv(arguments.front(), arguments.data());
   _exit(127);
 }
 }  // namespace
 
-Process::Process(const std::vector<std::string>& command, std::string log) : log_(std::move(log))
+Process::Process(const std::vector<std::string>& command, std::string log)
+    : pid_(fork()), log_(std::move(log))
 {
-  pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("cannot start " + command.front());
   if (pid_ == 0) become(command, log_);
 }

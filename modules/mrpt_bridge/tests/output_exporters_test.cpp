@@ -75,6 +75,7 @@ TEST(TrajectoryTum, HoldsTheVehiclePoseAtTheExactStamp)
   ASSERT_EQ(cells.size(), 8U);
   EXPECT_EQ(cells[0], "1403636580.838555648");
   std::vector<double> v;
+  v.reserve(cells.size());
   for (const auto& cell : cells)
     v.push_back(std::stod(cell));
   const Pose expected = result.filter.x.pose() * frame.T_imu_body;

@@ -5,6 +5,7 @@
 #include <fastlio/mrpt_bridge/output/run_statistics.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace fastlio
@@ -15,7 +16,7 @@ namespace
 double quantile(std::vector<float>& values, double share)
 {
   const auto last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<std::ptrdiff_t>(share * last + 0.5);
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * last));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return static_cast<double>(values[static_cast<std::size_t>(rank)]);
 }
