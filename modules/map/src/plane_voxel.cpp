@@ -48,13 +48,13 @@ std::array<float, 6> leverageOf(const Spread& spread, double n)
 }
 }  // namespace
 
-float VoxelPlane::offsetVariance(float x, float y, float z, float noise_variance) const
+float VoxelPlane::offsetVariance(float x, float y, float z) const
 {
   const float dx = x - qx, dy = y - qy, dz = z - qz;
   const auto& m = leverage;
   const float distance = dx * (m[0] * dx + 2 * (m[1] * dy + m[2] * dz)) +
                          dy * (m[3] * dy + 2 * m[4] * dz) + dz * m[5] * dz;
-  return variance * (inverse_count + distance) + (variance - noise_variance);
+  return variance * (inverse_count + distance);
 }
 
 void PlaneVoxel::add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam)

@@ -44,6 +44,24 @@ struct AxisNeighbors
   return {{0, 1, -1}, {here, above, below}, beyond};
 }
 
+/** Squared gaps [m^2] from a coordinate to the cells of a block on one axis. */
+struct BlockGaps
+{
+  double squared_gap[kBlockEdge];
+  [[nodiscard]] double operator[](std::int32_t cell) const { return squared_gap[cell]; }
+};
+
+[[nodiscard]] inline BlockGaps squaredGaps(
+    const CellGrid& grid, double coordinate, std::int32_t first)
+{
+  BlockGaps gaps;
+  for (std::int32_t i = 0; i < kBlockEdge; ++i)
+  {
+    gaps.squared_gap[i] = squaredGap(coordinate, grid.interval(first + i, 1));
+  }
+  return gaps;
+}
+
 /** Position of an entry of kNeighborOrder in AxisNeighbors. */
 [[nodiscard]] constexpr int axisEntry(std::int8_t offset)
 {
@@ -144,15 +162,20 @@ template <class Collector>
 void PointIndex::searchBlock(
     const Block& block, const Point3& query, const GridCoord& home, Collector& collector) const
 {
-  if (grid_.lowerBound(query, firstCell(block.coord), kBlockEdge) > collector.bound()) return;
+  const GridCoord first = firstCell(block.coord);
+  const auto x = detail::squaredGaps(grid_, query.x, first.x);
+  const auto y = detail::squaredGaps(grid_, query.y, first.y);
+  const auto z = detail::squaredGaps(grid_, query.z, first.z);
   for (std::uint64_t left = block.occupied; left != 0; left &= left - 1)
   {
     const auto c = static_cast<std::uint32_t>(__builtin_ctzll(left));
-    const GridCoord cell = cellOfBlock(block.coord, c);
+    const GridCoord in_block = cellOfBlock({}, c);
+    const double gap = x[in_block.x] + y[in_block.y] + z[in_block.z];
+    if (CellGrid::shrink(gap) > collector.bound()) continue;
+    const GridCoord cell = first + in_block;
     const bool visited = std::abs(cell.x - home.x) <= 1 && std::abs(cell.y - home.y) <= 1 &&
                          std::abs(cell.z - home.z) <= 1;
-    if (visited || grid_.lowerBound(query, cell, 1) > collector.bound()) continue;
-    searchCell(block.cells[c], query, collector);
+    if (!visited) searchCell(block.cells[c], query, collector);
   }
 }
 
@@ -164,10 +187,13 @@ void PointIndex::searchBeyond(
 {
   const double reach = std::sqrt(static_cast<double>(collector.bound()));
   const BlockRange range = grid_.blocksWithin(query, reach);
+  const auto may_hold = [&](const GridCoord& coord)
+  { return grid_.lowerBound(query, firstCell(coord), kBlockEdge) <= collector.bound(); };
   if (range.count() > static_cast<double>(blocks_by_key_.size()))
   {
     for (const auto& entry : blocks_by_key_)
     {
+      if (!may_hold(blocks_[entry.second].coord)) continue;
       searchBlock(blocks_[entry.second], query, home, collector);
     }
     return;
@@ -175,7 +201,7 @@ void PointIndex::searchBeyond(
   range.forEach(
       [&](const GridCoord& coord)
       {
-        if (grid_.lowerBound(query, firstCell(coord), kBlockEdge) > collector.bound()) return;
+        if (!may_hold(coord)) return;
         const std::uint32_t number = blockNumber(coord);
         if (number != kNowhere) searchBlock(blocks_[number], query, home, collector);
       });

@@ -98,9 +98,11 @@ PlaneMatch VoxelPlaneMap::bestPlane(
     if (index == kNone) continue;
     const VoxelPlane& plane = voxelAt(index).plane();
     if (!plane.valid()) continue;
-    const float variance = plane.offsetVariance(x, y, z, noise_variance_);
+    const float shared = plane.offsetVariance(x, y, z);
+    // Roughness that the sensor's noise does not explain belongs to each point.
+    const float variance = shared + plane.variance - noise_variance_;
     if (best.valid() && variance >= best.variance) continue;
-    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, index, plane.born};
+    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, shared, index, plane.born};
   }
   return best;
 }

@@ -24,17 +24,26 @@ void transformToWorld(const BodyPoints& body, const Pose& T_world_imu, WorldPoin
 }
 
 PlaneMeasurement planeMeasurement(
-    const Pose& T_world_imu, const Vec3& p_imu, const Vec3& beam_imu, const PlaneMatch& plane,
-    double range_variance)
+    const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
+    const ResidualModel& model)
 {
+  const Vec3 p_imu(body.x[i], body.y[i], body.z[i]);
+  const Vec3 beam(body.ux[i], body.uy[i], body.uz[i]);
   const Vec3 u(plane.nx, plane.ny, plane.nz);
   const Vec3 u_imu = T_world_imu.R.transpose() * u;
   PlaneMeasurement m;
   m.h << p_imu.cross(u_imu), u;
   m.z = u_imu.dot(p_imu) + u.dot(T_world_imu.p) + plane.d;
-  const double cos_incidence = u_imu.dot(beam_imu);
-  m.variance = range_variance * cos_incidence * cos_incidence + plane.variance;
+  const double cos_incidence = u_imu.dot(beam);
+  m.variance = model.range_variance * cos_incidence * cos_incidence + plane.variance;
   return m;
+}
+
+bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
+{
+  const double prior_variance =
+      model.prior_position_variance + model.prior_attitude_variance * m.h.head<3>().squaredNorm();
+  return m.z * m.z <= model.gate * model.gate * (m.variance + prior_variance);
 }
 
 InformationSums accumulate(
@@ -42,16 +51,11 @@ InformationSums accumulate(
     const ResidualModel& model, StackedMeasurements* stacked)
 {
   InformationSums sums;
-  const double gate2 = model.gate * model.gate;
   for (std::size_t i = 0; i < body.size(); ++i)
   {
     if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(
-        T_world_imu, {body.x[i], body.y[i], body.z[i]}, {body.ux[i], body.uy[i], body.uz[i]},
-        matches[i], model.range_variance);
-    const double prior_variance =
-        model.prior_position_variance + model.prior_attitude_variance * m.h.head<3>().squaredNorm();
-    if (m.z * m.z > gate2 * (m.variance + prior_variance)) continue;
+    const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
+    if (!isConsistent(m, model)) continue;
     const double weight = 1.0 / m.variance;
     sums.HtRinvH.noalias() += weight * m.h * m.h.transpose();
     sums.HtRinvz += weight * m.z * m.h;

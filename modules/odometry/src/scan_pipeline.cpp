@@ -81,9 +81,9 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   state_ns_ = span.end_ns;
   describeUpdate(update, result.statistics);
   decideStatus(update, result);
-  growMap(scan.T_imu_lidar.p);  // eq. 21
+  result.filter = considerMapError(predicted);
+  growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
 
-  result.filter = filter_;
   timings_.total = total.milliseconds();
   result.milliseconds = timings_;
   result.statistics.points_in = scan.points.size();
@@ -174,12 +174,22 @@ void ScanPipeline::decideStatus(const UpdateResult& update, ScanResult& result)
     scans_without_update_ = 0;
 }
 
-void ScanPipeline::growMap(const Vec3& p_imu_lidar)
+FilterState ScanPipeline::considerMapError(const FilterState& predicted)
+{
+  FilterState total = filter_;
+  total.P.topLeftCorner<6, 6>() += map_error_.update(
+      filter_.x.pose(), filter_.P.topLeftCorner<6, 6>(), body_, matches_,
+      residualModel(parameters_.measurement, predicted));
+  return total;
+}
+
+void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
   if (scans_without_update_ == 0)
   {
     transformToWorld(body_, filter_.x.pose(), world_);
+    map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
     map_->insert(world_, filter_.x.pose() * p_imu_lidar);
     map_->removeOutside(filter_.x.p, parameters_.map.radius);
   }

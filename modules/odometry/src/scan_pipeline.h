@@ -10,6 +10,7 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/odometry/scan_result.h>
@@ -42,13 +43,16 @@ class ScanPipeline
       const NavState& iterate, const FilterState& predicted, int iteration);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
   void decideStatus(const UpdateResult& update, ScanResult& result);
-  void growMap(const Vec3& p_imu_lidar);
+  void growMap(const Vec3& p_imu_lidar, const FilterState& total);
+  [[nodiscard]] FilterState considerMapError(const FilterState& predicted);
 
   Parameters parameters_;
   std::unique_ptr<SurfaceMap> map_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
   int scans_without_update_ = 0;
+  MapErrorModel map_error_;
+  std::uint32_t insertions_ = 0;
 
   // Reused between scans.
   ScanReducer reducer_;

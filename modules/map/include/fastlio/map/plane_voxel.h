@@ -32,10 +32,9 @@ struct VoxelPlane
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
 
-  /** Variance of the plane's offset at a point, as of a regression's prediction: its mean, its tilt
-   * with the distance from the centroid, and the roughness that the sensor's noise does not explain
-   * [m^2]. */
-  [[nodiscard]] float offsetVariance(float x, float y, float z, float noise_variance) const;
+  /** Variance of the plane's offset at a point, as of a regression's prediction: of its mean, and of its
+   * tilt with the distance from the centroid [m^2]. */
+  [[nodiscard]] float offsetVariance(float x, float y, float z) const;
 };
 
 /** The sums of a voxel, relative to its centre so that single precision suffices. */

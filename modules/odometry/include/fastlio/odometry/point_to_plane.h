@@ -26,11 +26,6 @@ struct PlaneMeasurement
   double variance = 0.0;  //!< [m^2]
 };
 
-/** Eq. 14 for one point, body frame p_imu, at the attitude and position of an iterate. */
-[[nodiscard]] PlaneMeasurement planeMeasurement(
-    const Pose& T_world_imu, const Vec3& p_imu, const Vec3& beam_imu, const PlaneMatch& plane,
-    double range_variance);
-
 /** What decides on a match: the noise model, the gate and how far the prediction may be off. */
 struct ResidualModel
 {
@@ -39,6 +34,15 @@ struct ResidualModel
   double prior_position_variance = 0.0;  //!< of the prediction [m^2]
   double prior_attitude_variance = 0.0;  //!< of the prediction [rad^2]
 };
+
+/** Eq. 14 for point i of the scan at the attitude and position of an iterate. The variance is that
+ * of the range across the plane plus the plane's own. */
+[[nodiscard]] PlaneMeasurement planeMeasurement(
+    const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
+    const ResidualModel& model);
+
+/** True when the residual is within the gate of what noise and prediction explain. */
+[[nodiscard]] bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model);
 
 /** Sums over the consistent matches of a scan, in the points' order. Fills \a stacked when given.
  */
