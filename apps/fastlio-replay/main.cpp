@@ -30,8 +30,8 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
   RunSetup setup = setUpRun(arguments);
   logger.logStr(mrpt::system::LVL_INFO, describe(setup.selection));
   logger.logStr(mrpt::system::LVL_INFO, "parameters: " + setup.configuration);
-  ReplayRun run(std::move(setup), logger);
   catchInterruptions();
+  ReplayRun run(std::move(setup), logger);
   return report(run.execute(), logger);
 }
 }  // namespace
