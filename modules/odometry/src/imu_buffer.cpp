@@ -82,10 +82,10 @@ std::int64_t ImuBuffer::longestGap(std::int64_t begin_ns, std::int64_t end_ns) c
   return std::max(longest, end_ns - previous_ns);
 }
 
-std::vector<ImuSample> ImuBuffer::samplesUntil(std::int64_t end_ns) const
+std::vector<ImuSample> ImuBuffer::samplesBetween(std::int64_t begin_ns, std::int64_t end_ns) const
 {
-  const auto begin = samples_.begin() + static_cast<std::ptrdiff_t>(head_);
-  return {begin, samples_.begin() + static_cast<std::ptrdiff_t>(firstAfter(end_ns))};
+  const auto at = [&](std::size_t i) { return samples_.begin() + static_cast<std::ptrdiff_t>(i); };
+  return {at(firstAfter(begin_ns - 1)), at(firstAfter(end_ns))};
 }
 
 void ImuBuffer::forgetBefore(std::int64_t stamp_ns)

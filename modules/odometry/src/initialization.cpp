@@ -19,26 +19,33 @@ InitializationOutcome tryStaticStart(
     ImuBuffer& imu, const InitializationParameters& parameters, std::int64_t first_scan_begin_ns)
 {
   InitializationOutcome outcome;
-  const std::int64_t begin_ns = imu.oldestStamp();
-  const std::int64_t end_ns = begin_ns + static_cast<std::int64_t>(parameters.duration * 1e9);
-  if (imu.newestStamp() < end_ns)
+  const auto duration_ns = static_cast<std::int64_t>(parameters.duration * 1e9);
+  const auto step_ns =
+      std::max<std::int64_t>(static_cast<std::int64_t>(kWindowStep * parameters.duration * 1e9), 1);
+  const std::int64_t latest_ns = std::max(imu.oldestStamp(), first_scan_begin_ns - duration_ns);
+  if (imu.newestStamp() < latest_ns + duration_ns)
   {
     outcome.message = mrpt::format(
         "collecting the resting start: %.2f of %.2f s (initialization.duration)",
-        static_cast<double>(imu.newestStamp() - begin_ns) * 1e-9, parameters.duration);
+        static_cast<double>(imu.newestStamp() - latest_ns) * 1e-9, parameters.duration);
     return outcome;
   }
-  const RestStatistics rest = restStatistics(imu.samplesUntil(end_ns));
-  if (const auto reason = whyNotAtRest(rest, parameters))
+  // The later the window, the less is left to inertial data alone until the first scan.
+  for (std::int64_t begin_ns = latest_ns; begin_ns >= imu.oldestStamp(); begin_ns -= step_ns)
   {
-    const auto step_ns = static_cast<std::int64_t>(kWindowStep * parameters.duration * 1e9);
-    imu.forgetBefore(begin_ns + std::max<std::int64_t>(step_ns, 1));
-    outcome.rejected = true;
-    outcome.message = *reason;
-    return outcome;
+    const std::int64_t end_ns = begin_ns + duration_ns;
+    const RestStatistics rest = restStatistics(imu.samplesBetween(begin_ns, end_ns));
+    const auto reason = whyNotAtRest(rest, parameters);
+    if (!reason)
+    {
+      outcome.state = initialState(rest, parameters);
+      outcome.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, end_ns);
+      return outcome;
+    }
+    if (begin_ns == latest_ns) outcome.message = *reason;
   }
-  outcome.state = initialState(rest, parameters);
-  outcome.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, end_ns);
+  imu.forgetBefore(latest_ns + step_ns);
+  outcome.rejected = true;
   return outcome;
 }
 

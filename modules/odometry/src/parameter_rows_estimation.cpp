@@ -31,6 +31,9 @@ ParameterRows measurementRows()
       {"measurement.association_iterations", "",
        IntegerValue{[](auto& p) { return &p.measurement.association_iterations; }, 1, 100},
        "so many iterations of the update search the map anew, the further ones keep the planes"},
+      {"measurement.max_unaided_time", "s",
+       RealValue{[](auto& p) { return &p.measurement.max_unaided_time; }, 0.0, 1e6},
+       "after so long without a scan that matches the map, the pose is reported as diverged"},
   };
 }
 
@@ -44,6 +47,11 @@ ParameterRows mapRows()
        "rebuilt for each scan, slow: the reference"},
       {"map.radius", "m", RealValue{[](auto& p) { return &p.map.radius; }, 1.0, 100000.0},
        "points farther from the sensor than this may leave the map: bounds its memory"},
+      {"map.max_insertion_std", "m",
+       RealValue{[](auto& p) { return &p.map.max_insertion_std; }, 0.0, 1e6},
+       "a scan that does not match still joins the map while the predicted position is known "
+       "better "
+       "than this: lets a young map grow, keeps a lost one clean"},
       {"map.min_spacing", "m", RealValue{[](auto& p) { return &p.map.min_spacing; }, 0.001, 10.0},
        "map types knn and kdtree: points nearer than this to one in the map are not added"},
       {"map.voxel_size", "m", RealValue{[](auto& p) { return &p.map.voxel_size; }, 0.01, 100.0},

@@ -63,6 +63,7 @@ void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns)
 {
   filter_ = state;
   state_ns_ = stamp_ns;
+  last_update_ns_ = stamp_ns;
 }
 
 ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu)
@@ -74,26 +75,38 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.stamp_ns = span.end_ns;
 
   const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
-  reducer_.select(scan.points, reductionLimits(parameters_), selection_);
+  reduce(scan);
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
   state_ns_ = span.end_ns;
-  describeUpdate(update, result.statistics);
-  decideStatus(update, result);
   result.filter = considerMapError(predicted);
-  growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
+  judge(update, result);
+  if (mayGrowMap(result)) growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
 
+  describeUpdate(update, result.statistics);
+  describeScan(scan, result.statistics);
   timings_.total = total.milliseconds();
   result.milliseconds = timings_;
-  result.statistics.points_in = scan.points.size();
-  result.statistics.dropped_invalid = scan.dropped_invalid + selection_.dropped_invalid;
-  result.statistics.dropped_near = selection_.dropped_near;
-  result.statistics.dropped_far = selection_.dropped_far;
-  result.statistics.points_reduced = selection_.indices.size();
-  result.statistics.imu_samples = inputs_.size();
-  result.statistics.map_points = map_->pointCount();
   return result;
+}
+
+void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistics) const
+{
+  statistics.points_in = scan.points.size();
+  statistics.dropped_invalid = scan.dropped_invalid + selection_.dropped_invalid;
+  statistics.dropped_near = selection_.dropped_near;
+  statistics.dropped_far = selection_.dropped_far;
+  statistics.points_reduced = selection_.indices.size();
+  statistics.imu_samples = inputs_.size();
+  statistics.map_points = map_->pointCount();
+}
+
+void ScanPipeline::reduce(const LidarScan& scan)
+{
+  const Stopwatch watch;
+  reducer_.select(scan.points, reductionLimits(parameters_), selection_);
+  timings_.reduce = watch.milliseconds();
 }
 
 FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
@@ -107,6 +120,9 @@ FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
     const double dt = static_cast<double>(stop_ns - inputs_[i].stamp_ns) * kNsToS;
     s = propagate(s, inputs_[i].gyro, inputs_[i].accel, dt, parameters_.imu.noise);
   }
+  // Absurd but finite inertial samples may overflow; such a number never enters the state.
+  prediction_finite_ = isFinite(s.x) && s.P.allFinite();
+  if (!prediction_finite_) s = filter_;
   timings_.propagate = watch.milliseconds();
   return s;
 }
@@ -147,31 +163,52 @@ UpdateResult ScanPipeline::updateWithScan(const FilterState& predicted)
 {
   const Stopwatch watch;
   matches_.resize(body_.size());
+  const auto minimum = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
+  std::size_t effective = 0;
   const auto model = [&](const NavState& iterate, int iteration)
   {
     MeasurementEvaluation e = evaluate(iterate, predicted, iteration);
-    if (e.sums.count < static_cast<std::size_t>(parameters_.measurement.min_effective_points))
-      e = {};
-    return e;
+    effective = e.sums.count;
+    // An evaluation without measurements makes the update leave the prediction alone.
+    return effective < minimum ? MeasurementEvaluation{} : e;
   };
   UpdateResult update = iteratedUpdate(predicted, model, parameters_.update, parameters_.gain);
+  update.last.count = effective;
   timings_.update = watch.milliseconds() - timings_.associate;
   return update;
 }
 
-void ScanPipeline::decideStatus(const UpdateResult& update, ScanResult& result)
+void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
 {
   result.status = ScanStatus::Tracking;
   if (map_->pointCount() == 0)
     result.status = ScanStatus::FirstScan;
   else if (!update.updated)
-  {
-    ++scans_without_update_;
     result.status = ScanStatus::PredictionOnly;
-    result.message = "too few points match the map";
-  }
-  else
-    scans_without_update_ = 0;
+  if (result.status != ScanStatus::PredictionOnly) last_update_ns_ = state_ns_;
+
+  const double unaided_s = static_cast<double>(state_ns_ - last_update_ns_) * kNsToS;
+  const double position_std =
+      std::sqrt(filter_.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
+  if (!prediction_finite_ || unaided_s > parameters_.measurement.max_unaided_time)
+    result.status = ScanStatus::Diverged;
+  if (result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged)
+    result.message = mrpt::format(
+        "%zu of %zu points match the map, at least %i are needed "
+        "(measurement.min_effective_points); "
+        "%.2f s on inertial data alone, position uncertain by %.3f m%s",
+        update.last.count, body_.size(), parameters_.measurement.min_effective_points, unaided_s,
+        position_std, prediction_finite_ ? "" : "; the inertial data overflowed the prediction");
+}
+
+bool ScanPipeline::mayGrowMap(const ScanResult& result) const
+{
+  if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
+  if (result.status == ScanStatus::Diverged) return false;
+  // A young map has few planes: it must grow as long as the prediction knows where the scan is.
+  const double position_variance =
+      filter_.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff();
+  return position_variance < std::pow(parameters_.map.max_insertion_std, 2);
 }
 
 FilterState ScanPipeline::considerMapError(const FilterState& predicted)
@@ -186,13 +223,10 @@ FilterState ScanPipeline::considerMapError(const FilterState& predicted)
 void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
-  if (scans_without_update_ == 0)
-  {
-    transformToWorld(body_, filter_.x.pose(), world_);
-    map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
-    map_->insert(world_, filter_.x.pose() * p_imu_lidar);
-    map_->removeOutside(filter_.x.p, parameters_.map.radius);
-  }
+  transformToWorld(body_, filter_.x.pose(), world_);
+  map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
+  map_->insert(world_, filter_.x.pose() * p_imu_lidar);
+  map_->removeOutside(filter_.x.p, parameters_.map.radius);
   timings_.insert = watch.milliseconds();
 }
 

@@ -42,7 +42,10 @@ class ScanPipeline
   [[nodiscard]] MeasurementEvaluation evaluate(
       const NavState& iterate, const FilterState& predicted, int iteration);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
-  void decideStatus(const UpdateResult& update, ScanResult& result);
+  void reduce(const LidarScan& scan);
+  void judge(const UpdateResult& update, ScanResult& result);
+  [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
+  void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
   void growMap(const Vec3& p_imu_lidar, const FilterState& total);
   [[nodiscard]] FilterState considerMapError(const FilterState& predicted);
 
@@ -50,7 +53,8 @@ class ScanPipeline
   std::unique_ptr<SurfaceMap> map_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
-  int scans_without_update_ = 0;
+  std::int64_t last_update_ns_ = 0;
+  bool prediction_finite_ = true;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;
 

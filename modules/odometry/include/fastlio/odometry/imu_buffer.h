@@ -47,8 +47,9 @@ class ImuBuffer
   /** Longest time between consecutive samples that the interval touches [ns]. */
   [[nodiscard]] std::int64_t longestGap(std::int64_t begin_ns, std::int64_t end_ns) const;
 
-  /** Samples up to end_ns, oldest first. */
-  [[nodiscard]] std::vector<ImuSample> samplesUntil(std::int64_t end_ns) const;
+  /** Samples of [begin_ns, end_ns], oldest first. */
+  [[nodiscard]] std::vector<ImuSample> samplesBetween(
+      std::int64_t begin_ns, std::int64_t end_ns) const;
 
   /** Forgets samples that no interval starting at or after stamp_ns needs. */
   void forgetBefore(std::int64_t stamp_ns);

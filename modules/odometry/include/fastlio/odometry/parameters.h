@@ -62,6 +62,7 @@ struct MeasurementParameters
   double max_normalized_residual = 4.0;  //!< gate, in standard deviations of residual and prior
   int min_effective_points = 20;         //!< fewer matches: the scan is not used
   int association_iterations = 2;        //!< iterations that search the map anew
+  double max_unaided_time = 3.0;         //!< longer without an update: the pose is not trusted [s]
 };
 
 /** Which map the scans are matched with. */
@@ -76,11 +77,12 @@ enum class MapType
 struct MapParameters
 {
   MapType type = MapType::Planes;
-  double radius = 150.0;       //!< points farther from the sensor than this may be dropped [m]
-  double min_spacing = 0.4;    //!< knn: nearer points are not added [m]
-  double voxel_size = 0.4;     //!< planes: edge of the finest voxels [m]
-  double min_incidence = 0.1;  //!< planes: least cosine between normal and mean beam
-  double max_thickness = 0.1;   //!< planes: largest standard deviation across a plane [m]
+  double radius = 150.0;           //!< points farther from the sensor than this may be dropped [m]
+  double max_insertion_std = 0.2;  //!< a scan without matches joins below this position error [m]
+  double min_spacing = 0.4;        //!< knn: nearer points are not added [m]
+  double voxel_size = 0.4;         //!< planes: edge of the finest voxels [m]
+  double min_incidence = 0.1;      //!< planes: least cosine between normal and mean beam
+  double max_thickness = 0.1;      //!< planes: largest standard deviation across a plane [m]
 };
 
 /** Group `input`: which sensors of a recording are used, and where they are mounted. Not used by
