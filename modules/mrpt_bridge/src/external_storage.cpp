@@ -7,9 +7,27 @@
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservationPointCloud.h>
-#include <mrpt/obs/CRawlog.h>
 
 #include <filesystem>
+
+namespace
+{
+namespace fs = std::filesystem;
+
+// The names that MRPT gives the folder of a rawlog NAME.rawlog. (CRawlog::detectImagesDirectory()
+// of 2.5.8 loses the slash between folder and name.)
+std::string externalFolderOf(const std::string& rawlog)
+{
+  const fs::path folder = fs::path(rawlog).parent_path();
+  const std::string name = fs::path(rawlog).stem().string();
+  for (const std::string& candidate : {name + "_Images", name + "_images", std::string("Images")})
+  {
+    std::error_code error;
+    if (fs::is_directory(folder / candidate, error)) return (folder / candidate).string();
+  }
+  return (folder / (name + "_Images")).string();
+}
+}  // namespace
 
 namespace fastlio
 {
@@ -19,12 +37,12 @@ std::optional<std::string> loadExternal(
   const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
   if (cloud == nullptr || !cloud->isExternallyStored()) return std::nullopt;
   // MRPT keeps one base folder per process; files of several rawlogs may lie in several folders.
-  mrpt::io::setLazyLoadPathBase(mrpt::obs::CRawlog::detectImagesDirectory(rawlog));
+  mrpt::io::setLazyLoadPathBase(externalFolderOf(rawlog));
   const std::string file = mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile());
   const std::string prefix =
       rawlog + ": a point cloud of sensor '" + cloud->sensorLabel + "' lies in the file " + file;
   std::error_code error;
-  if (!std::filesystem::exists(file, error))
+  if (!fs::exists(file, error))
     return prefix + ", which does not exist. Copy the folder of external files along.";
   try
   {

@@ -4,6 +4,7 @@
 #include "object_reader.h"
 
 #include "mrpt_messages.h"
+#include "size_check.h"
 
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
@@ -119,12 +120,17 @@ NextObject ObjectReader::readOne()
     object_offset_ = stream_->position();
     if (stream_->atEnd()) return atEndOfFile();
     const auto header = stream_->peekHeader();
-    if (!header && stream_->endsInsideHeader())
+    if (!header && stream_->endsInsideHeader(0))
       return fail(makeProblem(ReadProblemKind::Truncated, "", "the file ends inside its header"));
     if (!header) return fail(diagnose("", "there is no object where one should start"));
     if (header->class_name != "nullptr" && !isRegistered(header->class_name))
       return fail(
           makeProblem(ReadProblemKind::UnknownClass, header->class_name, "its class is not known"));
+    const SizeVerdict sizes = checkSizes(*stream_);
+    if (sizes == SizeVerdict::RunsOut) return fail(diagnoseEnd(header->class_name));
+    if (sizes == SizeVerdict::Misaligned)
+      return fail(makeProblem(
+          ReadProblemKind::Corrupt, header->class_name, "it does not end where its lengths say"));
     try
     {
       auto archive = mrpt::serialization::archiveFrom(*stream_);
@@ -163,16 +169,17 @@ NextObject ObjectReader::atEndOfFile()
   return EndOfObjects{};
 }
 
-ReadProblem ObjectReader::diagnose(const std::string& class_name, const std::string& error)
+ReadProblem ObjectReader::diagnoseEnd(const std::string& class_name) const
 {
-  const FileEnd end = stream_->file().end();
-  if (stream_->ranOut())
-  {
-    if (end == FileEnd::Corrupt)
-      return makeProblem(
-          ReadProblemKind::Corrupt, class_name, "the compressed data are damaged inside it");
-    return makeProblem(ReadProblemKind::Truncated, class_name, "the file ends inside it");
-  }
+  if (stream_->file().end() == FileEnd::Corrupt)
+    return makeProblem(
+        ReadProblemKind::Corrupt, class_name, "the compressed data are damaged inside it");
+  return makeProblem(ReadProblemKind::Truncated, class_name, "the file ends inside it");
+}
+
+ReadProblem ObjectReader::diagnose(const std::string& class_name, const std::string& error) const
+{
+  if (stream_->ranOut()) return diagnoseEnd(class_name);
   const auto inner = stream_->lastHeaderRead();
   if (inner && inner->class_name != class_name && !isRegistered(inner->class_name))
     return makeProblem(

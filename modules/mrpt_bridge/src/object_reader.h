@@ -41,7 +41,8 @@ class ObjectReader
   [[nodiscard]] NextObject readOne();
   [[nodiscard]] NextObject atEndOfFile();
   [[nodiscard]] NextObject fail(ReadProblem problem);
-  [[nodiscard]] ReadProblem diagnose(const std::string& class_name, const std::string& error);
+  [[nodiscard]] ReadProblem diagnose(const std::string& class_name, const std::string& error) const;
+  [[nodiscard]] ReadProblem diagnoseEnd(const std::string& class_name) const;
   [[nodiscard]] ReadProblem makeProblem(
       ReadProblemKind kind, const std::string& class_name, const std::string& what) const;
   void skipFrameEnds();

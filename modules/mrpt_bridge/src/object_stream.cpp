@@ -26,19 +26,50 @@ bool isClassNameCharacter(char c)
 
 namespace fastlio
 {
-// Makes size bytes available from the position on; grows by what the file really holds only.
-bool ObjectStream::require(std::size_t size)
+// Makes bytes_ reach to end; it grows by what the file really holds only.
+bool ObjectStream::fill(std::size_t end)
 {
-  while (available() < size)
+  while (bytes_.size() < end)
   {
-    if (bytes_.size() - object_ > kLargestObject)
-      throw std::runtime_error("the object is larger than 1 GiB");
+    if (file_.end() != FileEnd::NotYet) return false;
     const std::size_t old_size = bytes_.size();
     bytes_.resize(old_size + kChunk);
     bytes_.resize(old_size + file_.read(bytes_.data() + old_size, kChunk));
     if (bytes_.size() == old_size) return false;
   }
   return true;
+}
+
+bool ObjectStream::require(std::size_t size)
+{
+  if (position_ - object_ + size > kLargestObject)
+    throw std::runtime_error("it is larger than 1 GiB");
+  return fill(position_ + size);
+}
+
+bool ObjectStream::holds(std::size_t offset, std::size_t size)
+{
+  return offset + size <= kLargestObject && fill(object_ + offset + size);
+}
+
+unsigned char ObjectStream::byteAt(std::size_t offset) const
+{
+  return static_cast<unsigned char>(bytes_[object_ + offset]);
+}
+
+std::uint32_t ObjectStream::wordAt(std::size_t offset) const
+{
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;)
+    word = (word << 8U) | byteAt(offset + i);
+  return word;
+}
+
+std::optional<ObjectHeader> ObjectStream::headerAtOffset(std::size_t offset)
+{
+  if (!holds(offset, 1)) return {};
+  fill(object_ + offset + 1 + kLongestClassName);
+  return headerAt(object_ + offset);
 }
 
 std::size_t ObjectStream::Read(void* data, std::size_t size)
@@ -63,7 +94,8 @@ void ObjectStream::beginObject()
 {
   object_ = position_;
   ran_out_ = false;
-  if (object_ < kChunk) return;
+  if (object_ < std::max(kChunk, bytes_.size() / 2))
+    return;  // moving the rest costs in proportion to it
   bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(object_));
   origin_ += object_;
   position_ = object_ = 0;
@@ -98,13 +130,14 @@ std::optional<ObjectHeader> ObjectStream::peekHeader()
   return headerAt(position_);
 }
 
-bool ObjectStream::endsInsideHeader()
+bool ObjectStream::endsInsideHeader(std::size_t offset)
 {
-  if (require(1 + kLongestClassName) || available() == 0) return false;
-  const auto flagged = static_cast<unsigned char>(bytes_[position_]);
-  const std::size_t length = flagged & ~kHeaderFlag & 0xFFU;
-  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(position_) + 1;
-  return (flagged & kHeaderFlag) != 0 && length <= kLongestClassName && available() <= length &&
+  if (holds(offset, 1 + kLongestClassName)) return false;
+  if (!holds(offset, 1)) return true;
+  const std::size_t length = byteAt(offset) & ~kHeaderFlag & 0xFFU;
+  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(object_ + offset) + 1;
+  const auto held = static_cast<std::size_t>(bytes_.end() - name);
+  return (byteAt(offset) & kHeaderFlag) != 0 && length <= kLongestClassName && held < length &&
          std::all_of(name, bytes_.end(), isClassNameCharacter);
 }
 
@@ -130,7 +163,7 @@ bool ObjectStream::seekNextObservation()
     if (header && header->class_name.compare(0, kObservations.size(), kObservations) == 0 &&
         mrpt::rtti::findRegisteredClass(header->class_name) != nullptr)
       return true;
-    if (position_ - object_ > kChunk) beginObject();
+    if (position_ - object_ > kChunk) beginObject();  // what was skipped is not needed any more
   }
   return false;
 }

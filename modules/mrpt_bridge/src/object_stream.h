@@ -52,8 +52,15 @@ class ObjectStream
   /** The header at the current position, if there is one. */
   [[nodiscard]] std::optional<ObjectHeader> peekHeader();
 
-  /** The file ends inside what may be a header at the current position. */
-  [[nodiscard]] bool endsInsideHeader();
+  /** \name Looking into the object at hand, by offset to its start, without moving.
+   * @{ */
+  [[nodiscard]] bool holds(std::size_t offset, std::size_t size);
+  [[nodiscard]] unsigned char byteAt(std::size_t offset) const;
+  [[nodiscard]] std::uint32_t wordAt(std::size_t offset) const;
+  [[nodiscard]] std::optional<ObjectHeader> headerAtOffset(std::size_t offset);
+  /** The file ends there or inside of what may be a header there. */
+  [[nodiscard]] bool endsInsideHeader(std::size_t offset);
+  /** @} */
 
   /** The header that ends at the current position but for its version byte: what reading stopped
    * at. */
@@ -67,6 +74,7 @@ class ObjectStream
  private:
   [[nodiscard]] std::size_t available() const { return bytes_.size() - position_; }
   bool require(std::size_t size);
+  bool fill(std::size_t end);
   [[nodiscard]] std::optional<ObjectHeader> headerAt(std::size_t at) const;
 
   InflatingFile file_;
