@@ -12,7 +12,7 @@
 
 namespace
 {
-constexpr std::size_t kChunk = 1U << 18U;
+constexpr std::size_t kChunk = 1U << 15U;
 constexpr std::size_t kLargestObject = 1U << 30U;  // [bytes]
 constexpr std::size_t kLongestClassName = 120;     // limit of MRPT's format
 constexpr unsigned char kHeaderFlag = 0x80;

@@ -60,6 +60,8 @@ std::string gzip(const std::string& bytes)
 
 void write(const std::string& file, const std::string& bytes)
 {
+  // A new file: truncating an old one makes ext4 flush it to the disk.
+  std::filesystem::remove(file);
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
