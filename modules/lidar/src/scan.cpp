@@ -43,8 +43,14 @@ ScanSpan spanOf(const LidarScan& scan)
 {
   const auto& offsets = scan.points.time_offset_ns;
   if (offsets.empty()) return {scan.stamp_ns, scan.stamp_ns};
-  const auto [first, last] = std::minmax_element(offsets.begin(), offsets.end());
-  return {scan.stamp_ns + *first, scan.stamp_ns + *last};
+  std::int32_t first = offsets.front(), last = first;
+  // Plain comparisons: the compiler vectorises them, unlike std::minmax_element.
+  for (const std::int32_t offset : offsets)
+  {
+    first = std::min(first, offset);
+    last = std::max(last, offset);
+  }
+  return {scan.stamp_ns + first, scan.stamp_ns + last};
 }
 
 }  // namespace fastlio

@@ -16,12 +16,19 @@ namespace
 constexpr double kNsToS = 1e-9;
 constexpr double kSToNs = 1e9;
 
-ScanResult waitingResult(const LidarScan& scan, const ScanSpan& span, const std::string& why)
+/** A scan and its time span, found once. */
+struct QueuedScan
+{
+  LidarScan scan;
+  ScanSpan span;
+};
+
+ScanResult waitingResult(const QueuedScan& queued, const std::string& why)
 {
   ScanResult waiting;
-  waiting.begin_ns = span.begin_ns;
-  waiting.stamp_ns = span.end_ns;
-  waiting.statistics.points_in = scan.points.size();
+  waiting.begin_ns = queued.span.begin_ns;
+  waiting.stamp_ns = queued.span.end_ns;
+  waiting.statistics.points_in = queued.scan.points.size();
   waiting.message = why;
   return waiting;
 }
@@ -44,10 +51,10 @@ class Odometry::Impl
  private:
   [[nodiscard]] std::optional<ScanResult> waitForStart(bool at_end);
   [[nodiscard]] bool usable(const ScanSpan& span);
-  [[nodiscard]] LidarScan popScan();
+  [[nodiscard]] QueuedScan popScan();
 
   ImuBuffer imu_;
-  std::deque<LidarScan> scans_;
+  std::deque<QueuedScan> scans_;
 };
 
 void Odometry::Impl::addImu(const ImuSample& sample)
@@ -78,12 +85,13 @@ void Odometry::Impl::addScan(LidarScan scan)
     return;
   }
   scan.stamp_ns += static_cast<std::int64_t>(parameters_.lidar.time_offset * kSToNs);
-  scans_.push_back(std::move(scan));
+  const ScanSpan span = spanOf(scan);
+  scans_.push_back({std::move(scan), span});
 }
 
-LidarScan Odometry::Impl::popScan()
+QueuedScan Odometry::Impl::popScan()
 {
-  LidarScan scan = std::move(scans_.front());
+  QueuedScan scan = std::move(scans_.front());
   scans_.pop_front();
   return scan;
 }
@@ -92,12 +100,12 @@ std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
 {
   while (!scans_.empty() && !pipeline_.started())
   {
-    const ScanSpan span = spanOf(scans_.front());
+    const ScanSpan span = scans_.front().span;
     const auto start = tryStaticStart(imu_, parameters_.initialization, span.begin_ns);
     if (start.state) pipeline_.start(*start.state, start.stamp_ns);
     const bool passed_by = start.rejected && span.end_ns < imu_.oldestStamp();
     const bool never = !start.state && !start.rejected && at_end;
-    if (passed_by || never) return waitingResult(popScan(), span, start.message);
+    if (passed_by || never) return waitingResult(popScan(), start.message);
     if (!start.state && !start.rejected) break;
   }
   return std::nullopt;
@@ -123,11 +131,11 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
   }
   while (pipeline_.started() && !scans_.empty())
   {
-    const ScanSpan span = spanOf(scans_.front());
+    const ScanSpan span = scans_.front().span;
     if (span.end_ns > imu_.newestStamp() && !at_end) break;
-    const LidarScan scan = popScan();
+    const QueuedScan queued = popScan();
     if (!usable(span)) continue;
-    ScanResult result = pipeline_.process(scan, span, imu_);
+    ScanResult result = pipeline_.process(queued.scan, span, imu_);
     imu_.forgetBefore(span.end_ns);
     return result;
   }

@@ -9,12 +9,13 @@
 
 namespace fastlio
 {
-void transformToWorld(const BodyPoints& body, const Pose& T_world_imu, WorldPoints& world)
+void transformToWorld(
+    const BodyPoints& body, const Pose& T_world_imu, std::size_t first, std::size_t last,
+    WorldPoints& world)
 {
-  world.resize(body.size());
   const Mat3& R = T_world_imu.R;
   const Vec3& t = T_world_imu.p;
-  for (std::size_t i = 0; i < body.size(); ++i)
+  for (std::size_t i = first; i < last; ++i)
   {
     const double x = body.x[i], y = body.y[i], z = body.z[i];
     world.x[i] = static_cast<float>(R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x());
@@ -48,26 +49,52 @@ bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
 
 InformationSums accumulate(
     const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, StackedMeasurements* stacked)
+    const ResidualModel& model, std::size_t first, std::size_t last)
 {
   InformationSums sums;
-  for (std::size_t i = 0; i < body.size(); ++i)
+  // Upper triangle only, mirrored at the end.
+  Eigen::Matrix<double, 6, 6> upper = Eigen::Matrix<double, 6, 6>::Zero();
+  for (std::size_t i = first; i < last; ++i)
   {
     if (!matches[i].valid()) continue;
     const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
     if (!isConsistent(m, model)) continue;
     const double weight = 1.0 / m.variance;
-    sums.HtRinvH.noalias() += weight * m.h * m.h.transpose();
+    for (int c = 0; c < 6; ++c)
+      upper.col(c).head(c + 1) += weight * m.h[c] * m.h.head(c + 1);
     sums.HtRinvz += weight * m.z * m.h;
     sums.weighted_squares += weight * m.z * m.z;
     sums.squares += m.z * m.z;
     ++sums.count;
-    if (stacked == nullptr) continue;
-    stacked->h.push_back(m.h);
-    stacked->z.push_back(m.z);
-    stacked->variance.push_back(m.variance);
   }
+  sums.HtRinvH = upper.selfadjointView<Eigen::Upper>();
   return sums;
+}
+
+void addSums(InformationSums& a, const InformationSums& b)
+{
+  a.HtRinvH += b.HtRinvH;
+  a.HtRinvz += b.HtRinvz;
+  a.weighted_squares += b.weighted_squares;
+  a.squares += b.squares;
+  a.count += b.count;
+}
+
+StackedMeasurements stack(
+    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model)
+{
+  StackedMeasurements stacked;
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    if (!matches[i].valid()) continue;
+    const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
+    if (!isConsistent(m, model)) continue;
+    stacked.h.push_back(m.h);
+    stacked.z.push_back(m.z);
+    stacked.variance.push_back(m.variance);
+  }
+  return stacked;
 }
 
 }  // namespace fastlio

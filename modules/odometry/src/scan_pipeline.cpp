@@ -55,7 +55,7 @@ void describeUpdate(const UpdateResult& update, ScanStatistics& statistics)
 }  // namespace
 
 ScanPipeline::ScanPipeline(const Parameters& parameters)
-    : parameters_(parameters), map_(makeSurfaceMap(parameters))
+    : parameters_(parameters), map_(makeSurfaceMap(parameters)), workers_(parameters.threads)
 {
 }
 
@@ -141,33 +141,46 @@ void ScanPipeline::compensate(
   timings_.deskew = watch.milliseconds();
 }
 
-MeasurementEvaluation ScanPipeline::evaluate(
-    const NavState& iterate, const FilterState& predicted, int iteration)
+void ScanPipeline::associate(const Pose& T_world_imu)
 {
-  const Stopwatch associate;
-  if (iteration < parameters_.measurement.association_iterations)
-  {
-    transformToWorld(body_, iterate.pose(), world_);
-    map_->match(world_, 0, world_.size(), matches_);
-  }
-  timings_.associate += associate.milliseconds();
+  const Stopwatch watch;
+  workers_.forEachChunk(
+      body_.size(),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        transformToWorld(body_, T_world_imu, first, last, world_);
+        map_->match(world_, first, last, matches_);
+      });
+  timings_.associate += watch.milliseconds();
+}
+
+MeasurementEvaluation ScanPipeline::evaluate(
+    const NavState& iterate, const ResidualModel& model, int iteration)
+{
+  if (iteration < parameters_.measurement.association_iterations) associate(iterate.pose());
+  workers_.forEachChunk(
+      body_.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_sums_[chunk] = accumulate(iterate.pose(), body_, matches_, model, first, last); });
   MeasurementEvaluation evaluation;
-  const bool stack = parameters_.gain == GainForm::Standard;
-  evaluation.sums = accumulate(
-      iterate.pose(), body_, matches_, residualModel(parameters_.measurement, predicted),
-      stack ? &evaluation.stacked : nullptr);
+  for (const InformationSums& sums : chunk_sums_)
+    addSums(evaluation.sums, sums);
+  if (parameters_.gain == GainForm::Standard)
+    evaluation.stacked = stack(iterate.pose(), body_, matches_, model);
   return evaluation;
 }
 
 UpdateResult ScanPipeline::updateWithScan(const FilterState& predicted)
 {
   const Stopwatch watch;
+  world_.resize(body_.size());
   matches_.resize(body_.size());
+  chunk_sums_.resize(Workers::chunks(body_.size()));
+  const ResidualModel residuals = residualModel(parameters_.measurement, predicted);
   const auto minimum = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
   std::size_t effective = 0;
   const auto model = [&](const NavState& iterate, int iteration)
   {
-    MeasurementEvaluation e = evaluate(iterate, predicted, iteration);
+    MeasurementEvaluation e = evaluate(iterate, residuals, iteration);
     effective = e.sums.count;
     // An evaluation without measurements makes the update leave the prediction alone.
     return effective < minimum ? MeasurementEvaluation{} : e;
@@ -223,7 +236,7 @@ FilterState ScanPipeline::considerMapError(const FilterState& predicted)
 void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
-  transformToWorld(body_, filter_.x.pose(), world_);
+  transformToWorld(body_, filter_.x.pose(), 0, body_.size(), world_);
   map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
   map_->insert(world_, filter_.x.pose() * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);

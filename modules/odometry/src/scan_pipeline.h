@@ -4,6 +4,7 @@
 /** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
 #pragma once
 
+#include "workers.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/lidar/scan_reduction.h>
@@ -39,8 +40,9 @@ class ScanPipeline
  private:
   [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
+  void associate(const Pose& T_world_imu);
   [[nodiscard]] MeasurementEvaluation evaluate(
-      const NavState& iterate, const FilterState& predicted, int iteration);
+      const NavState& iterate, const ResidualModel& model, int iteration);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
   void reduce(const LidarScan& scan);
   void judge(const UpdateResult& update, ScanResult& result);
@@ -51,6 +53,7 @@ class ScanPipeline
 
   Parameters parameters_;
   std::unique_ptr<SurfaceMap> map_;
+  Workers workers_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
@@ -66,6 +69,7 @@ class ScanPipeline
   BodyPoints body_;
   WorldPoints world_;
   std::vector<PlaneMatch> matches_;
+  std::vector<InformationSums> chunk_sums_;
   StageTimings timings_;
 };
 

@@ -15,8 +15,10 @@
 
 namespace fastlio
 {
-/** p_G = T_GI p_I for all points (eq. 12), reused storage. */
-void transformToWorld(const BodyPoints& body, const Pose& T_world_imu, WorldPoints& world);
+/** p_G = T_GI p_I (eq. 12) for the points [first, last); \a world has been resized to hold them. */
+void transformToWorld(
+    const BodyPoints& body, const Pose& T_world_imu, std::size_t first, std::size_t last,
+    WorldPoints& world);
 
 /** One scalar measurement: residual z = u . p_G + d, its row h of H and its variance. */
 struct PlaneMeasurement
@@ -44,10 +46,17 @@ struct ResidualModel
 /** True when the residual is within the gate of what noise and prediction explain. */
 [[nodiscard]] bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model);
 
-/** Sums over the consistent matches of a scan, in the points' order. Fills \a stacked when given.
- */
+/** Sums over the consistent matches among the points [first, last), in the points' order. */
 [[nodiscard]] InformationSums accumulate(
     const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, StackedMeasurements* stacked);
+    const ResidualModel& model, std::size_t first, std::size_t last);
+
+/** Adds the sums \a b to \a a. */
+void addSums(InformationSums& a, const InformationSums& b);
+
+/** The consistent matches of a scan one by one, as the standard gain needs them. */
+[[nodiscard]] StackedMeasurements stack(
+    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model);
 
 }  // namespace fastlio
