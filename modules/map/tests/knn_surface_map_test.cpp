@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "map_test_tools.h"
+#include "surface_map_test_tools.h"
 #include <fastlio/map/knn_surface_map.h>
 #include <fastlio/map/plane_fit.h>
 
@@ -17,31 +17,6 @@ using namespace fastlio::test;
 
 namespace
 {
-WorldPoints worldPoints(const Cloud& cloud)
-{
-  WorldPoints points;
-  points.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-  {
-    points.x[i] = cloud.points[i].x;
-    points.y[i] = cloud.points[i].y;
-    points.z[i] = cloud.points[i].z;
-  }
-  return points;
-}
-
-std::vector<PlaneMatch> matchAll(const SurfaceMap& map, const WorldPoints& points)
-{
-  std::vector<PlaneMatch> matches(points.size());
-  map.match(points, 0, points.size(), matches);
-  return matches;
-}
-
-double residual(const PlaneMatch& m, const Xyz& p)
-{
-  return double(m.nx) * p.x + double(m.ny) * p.y + double(m.nz) * p.z + m.d;
-}
-
 KnnSurfaceMap mapOf(const Cloud& cloud, const KnnSurfaceMapOptions& options = {})
 {
   KnnSurfaceMap map(options);

@@ -1,73 +1,82 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// match() must not touch the heap: this program counts every allocation.
+// match() must not touch the heap, and a map that moves along must not grow: this program counts
+// every allocation.
 
-#include "map_test_tools.h"
+#include "allocation_counter.h"
+#include "surface_map_test_tools.h"
 #include <fastlio/map/knn_surface_map.h>
+#include <fastlio/map/voxel_plane_map.h>
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
+#include <algorithm>
+
+using namespace fastlio;
+using namespace fastlio::test;
 
 namespace
 {
-std::atomic<std::size_t> allocation_count{0};
-
-void* countedAllocation(std::size_t size)
+void expectMatchAllocatesNothing(SurfaceMap& map)
 {
-  ++allocation_count;
-  void* p = std::malloc(size == 0 ? 1 : size);
-  if (p == nullptr) throw std::bad_alloc();
-  return p;
+  const WorldPoints points = worldPoints(roomCloud(1, 20000));
+  std::size_t before = allocationCount();
+  map.insert(points, Vec3::Zero());
+  ASSERT_GT(allocationCount(), before) << "the counter does not count";
+  std::vector<PlaneMatch> matches(points.size());
+  before = allocationCount();
+  map.match(points, 0, points.size(), matches);
+  EXPECT_EQ(allocationCount(), before);
+}
+
+/** Ground and two walls 10 m around a vehicle that has come to x. */
+WorldPoints street(double x, unsigned seed)
+{
+  std::mt19937 rng(seed);
+  std::uniform_real_distribution<float> u(-1, 1);
+  Cloud cloud;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const float along = float(x) + 20 * u(rng), side = u(rng) > 0 ? 10.0F : -10.0F;
+    if (i % 2 == 0)
+      cloud.add({along, 10 * u(rng), -1.5F});
+    else
+      cloud.add({along, side, 3 * u(rng)});
+  }
+  return worldPoints(cloud);
 }
 }  // namespace
 
-void* operator new(std::size_t size)
-{
-  return countedAllocation(size);
-}
-void* operator new[](std::size_t size)
-{
-  return countedAllocation(size);
-}
-void operator delete(void* p) noexcept
-{
-  std::free(p);
-}
-void operator delete[](void* p) noexcept
-{
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept
-{
-  std::free(p);
-}
-void operator delete[](void* p, std::size_t) noexcept
-{
-  std::free(p);
-}
-
 TEST(KnnSurfaceMap, MatchAllocatesNothing)
 {
-  using namespace fastlio;
   KnnSurfaceMap map;
-  const test::Cloud cloud = test::roomCloud(1, 20000);
-  WorldPoints points;
-  points.resize(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
+  expectMatchAllocatesNothing(map);
+}
+
+TEST(VoxelPlaneMap, MatchAllocatesNothing)
+{
+  VoxelPlaneMap map{VoxelPlaneOptions{}};
+  expectMatchAllocatesNothing(map);
+}
+
+TEST(VoxelPlaneMap, HoldsNoMoreMemoryAfterALongDrive)
+{
+  VoxelPlaneMap map{VoxelPlaneOptions{}};
+  std::size_t after_first_km = 0, voxels_in_first_km = 0;
+  for (int i = 0; i < 3000; ++i)  // metres
   {
-    points.x[i] = cloud.points[i].x;
-    points.y[i] = cloud.points[i].y;
-    points.z[i] = cloud.points[i].z;
+    const Vec3 position(i, 0.0, 0.0);
+    map.insert(street(i, static_cast<unsigned>(i)), position);
+    map.removeOutside(position, 40.0);
+    if (i >= 1000)
+    {
+      EXPECT_LE(map.pointCount(), 1.1 * double(voxels_in_first_km)) << i;
+      continue;
+    }
+    after_first_km = allocatedBytes();
+    voxels_in_first_km = std::max(voxels_in_first_km, map.pointCount());
   }
-  std::size_t before = allocation_count;
-  map.insert(points, Vec3::Zero());
-  ASSERT_GT(allocation_count, before) << "the counter does not count";
-  std::vector<PlaneMatch> matches(points.size());
-  before = allocation_count;
-  map.match(points, 0, points.size(), matches);
-  EXPECT_EQ(allocation_count, before);
+  EXPECT_GT(voxels_in_first_km, 10000U);
+  EXPECT_LE(double(allocatedBytes()), 1.05 * double(after_first_km));
 }

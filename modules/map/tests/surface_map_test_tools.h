@@ -1,0 +1,44 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file surface_map_test_tools.h Clouds into maps of surfaces and planes out of them. */
+#pragma once
+
+#include "map_test_tools.h"
+#include <fastlio/map/surface_map.h>
+
+#include <vector>
+
+namespace fastlio::test
+{
+inline WorldPoints worldPoints(const Cloud& cloud)
+{
+  WorldPoints points;
+  points.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+  {
+    points.x[i] = cloud.points[i].x;
+    points.y[i] = cloud.points[i].y;
+    points.z[i] = cloud.points[i].z;
+  }
+  return points;
+}
+
+inline std::vector<PlaneMatch> matchAll(const SurfaceMap& map, const WorldPoints& points)
+{
+  std::vector<PlaneMatch> matches(points.size());
+  map.match(points, 0, points.size(), matches);
+  return matches;
+}
+
+inline PlaneMatch matchOne(const SurfaceMap& map, const Xyz& p)
+{
+  return matchAll(map, worldPoints({p})).front();
+}
+
+/** Signed distance of a point from the plane of a match [m]. */
+inline double residual(const PlaneMatch& m, const Xyz& p)
+{
+  return double(m.nx) * p.x + double(m.ny) * p.y + double(m.nz) * p.z + m.d;
+}
+}  // namespace fastlio::test

@@ -1,0 +1,206 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "surface_map_test_tools.h"
+#include <fastlio/map/voxel_plane_map.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+
+using namespace fastlio;
+using namespace fastlio::test;
+
+namespace
+{
+constexpr float kSize = 0.5F;  // exact in binary, as are its multiples
+
+VoxelPlaneOptions halfMetre()
+{
+  VoxelPlaneOptions o;
+  o.voxel_size = kSize;
+  o.rules.point_noise = 0.01F;
+  return o;
+}
+
+/** Points on z = height, |x - x0|, |y - y0| < half, with noise, seen from above. */
+Cloud patch(float x0, float y0, float height, float half, std::size_t n, float noise = 0.01F)
+{
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<float> u(-half, half);
+  std::normal_distribution<float> e(0.0F, noise);
+  Cloud cloud;
+  for (std::size_t i = 0; i < n; ++i)
+    cloud.add({x0 + u(rng), y0 + u(rng), height + e(rng)});
+  return cloud;
+}
+
+}  // namespace
+
+TEST(VoxelPlaneMap, MatchesLieOnTheSurfaceWithinTheirVariance)
+{
+  // Floors of many blocks, each in the middle of its finest voxels: a face through the noise of a
+  // wall would cut its points in two.
+  VoxelPlaneMap map(halfMetre());
+  const float height = 0.75F;
+  map.insert(worldPoints(patch(0.0F, 0.0F, height, 20.0F, 100000)), {0.0, 0.0, 9.0});
+  double sum = 0.0;
+  const Cloud queries = patch(0.0F, 0.0F, height, 19.5F, 10000, 0.0F);
+  for (const Xyz& p : queries.points)
+  {
+    const PlaneMatch m = matchOne(map, p);
+    ASSERT_TRUE(m.valid());
+    sum += residual(m, p) * residual(m, p) / double(m.variance);
+  }
+  // About 1; below, as scatter that is there by chance counts as roughness of the surface, which
+  // the points of the test do not have.
+  EXPECT_GT(sum / double(queries.size()), 0.3);
+  EXPECT_LT(sum / double(queries.size()), 1.3);
+}
+
+TEST(VoxelPlaneMap, AveragesAWallOverTheWholeBlock)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(1.0F, 1.0F, 0.25F, 0.99F, 2000)), {1.0, 1.0, 3.0});
+  const PlaneMatch m = matchOne(map, {0.7F, 1.3F, 0.25F});
+  ASSERT_TRUE(m.valid());
+  EXPECT_LT(m.shared_variance, 3.0F * 1e-4F / 2000.0F);
+  EXPECT_EQ(matchOne(map, {1.7F, 0.3F, 0.25F}).plane, m.plane) << "the same plane elsewhere";
+}
+
+TEST(VoxelPlaneMap, KeepsASmallFaceApartFromItsSurroundings)
+{
+  // A box's top of 0.5 m on a floor: their common block has no plane, the top's own voxel has.
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.25F, 0.25F, 0.75F, 0.24F, 100)), {0.3, 0.3, 3.0});
+  map.insert(worldPoints(patch(1.0F, 1.0F, 0.25F, 0.99F, 2000)), {0.3, 0.3, 3.0});
+  const PlaneMatch top = matchOne(map, {0.25F, 0.25F, 0.75F});
+  ASSERT_TRUE(top.valid());
+  EXPECT_NEAR(std::abs(top.nz), 1.0F, 1e-2F);
+  EXPECT_NEAR(residual(top, {0.25F, 0.25F, 0.75F}), 0.0, 0.01);
+  EXPECT_EQ(top.born, 1U);
+  EXPECT_EQ(matchOne(map, {1.7F, 1.7F, 0.25F}).born, 2U);
+}
+
+TEST(VoxelPlaneMap, DoesNotFoldNegativeCoordinatesOntoPositiveOnes)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.25F, 0.25F, 0.2F, 0.2F, 100)), {0.0, 0.0, 3.0});
+  EXPECT_TRUE(matchOne(map, {0.2F, 0.2F, 0.2F}).valid());
+  EXPECT_FALSE(matchOne(map, {-0.2F, 0.2F, 0.2F}).valid());
+  EXPECT_FALSE(matchOne(map, {0.2F, -0.2F, 0.2F}).valid());
+  EXPECT_FALSE(matchOne(map, {0.2F, 0.2F, -0.2F}).valid());
+  EXPECT_EQ(map.pointCount(), 1U);
+}
+
+TEST(VoxelPlaneMap, HasNoMatchInTheCornerOfARoom)
+{
+  // One voxel of each scale holds three walls; no other voxel is near.
+  Cloud cloud;
+  for (const Xyz& p : patch(0.24F, 0.24F, 0.0F, 0.2F, 100, 0.005F).points)
+    for (const Xyz& q :
+         {Xyz{p.x, p.y, 0.04F + p.z}, Xyz{0.04F + p.z, p.x, p.y}, Xyz{p.x, 0.04F + p.z, p.y}})
+      cloud.add(q);
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(cloud), {3.0, 3.0, 3.0});
+  EXPECT_FALSE(matchOne(map, {0.04F, 0.2F, 0.2F}).valid());
+}
+
+TEST(VoxelPlaneMap, WritesOnlyTheRangeThatIsAskedFor)
+{
+  VoxelPlaneMap map(halfMetre());
+  const WorldPoints points = worldPoints(patch(0.0F, 0.0F, 0.2F, 3.0F, 4000));
+  map.insert(points, {0.0, 0.0, 3.0});
+  std::vector<PlaneMatch> matches(points.size(), PlaneMatch{0, 0, 0, 99.0F, -1, 0, 0, 0});
+  map.match(points, 1000, 3000, matches);
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    EXPECT_EQ(matches[i].d == 99.0F, i < 1000 || i >= 3000) << i;
+}
+
+TEST(VoxelPlaneMap, SeveralThreadsFindWhatOneFinds)
+{
+  VoxelPlaneMap map(halfMetre());
+  const WorldPoints points = worldPoints(roomCloud(4, 40000));
+  map.insert(points, Vec3::Zero());
+  const auto expected = matchAll(map, points);
+  std::vector<PlaneMatch> found(points.size());
+  std::thread first([&] { map.match(points, 0, 17001, found); });
+  map.match(points, 17001, points.size(), found);
+  first.join();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    ASSERT_TRUE(found[i].plane == expected[i].plane && found[i].variance == expected[i].variance);
+}
+
+TEST(VoxelPlaneMap, ForgetsWhatIsFarAndKeepsWhatIsNear)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.5F, 0.5F, 0.2F, 0.4F, 500)), {0.0, 0.0, 3.0});
+  map.insert(worldPoints(patch(50.5F, 0.5F, 0.2F, 0.4F, 500)), {50.0, 0.0, 3.0});
+  const std::size_t both = map.pointCount();
+  for (int call = 0; call < 40; ++call)  // each call looks at a share of the map
+    map.removeOutside({50.0, 0.0, 0.0}, 20.0);
+  EXPECT_EQ(map.pointCount(), both / 2);
+  EXPECT_FALSE(matchOne(map, {0.5F, 0.5F, 0.2F}).valid());
+  EXPECT_TRUE(matchOne(map, {50.5F, 0.5F, 0.2F}).valid());
+  EXPECT_EQ(map.toPointsMap()->size(), map.pointCount());
+  // A place that comes into view again starts anew.
+  map.insert(worldPoints(patch(0.5F, 0.5F, 0.3F, 0.4F, 500)), {0.0, 0.0, 3.0});
+  const PlaneMatch again = matchOne(map, {0.5F, 0.5F, 0.3F});
+  ASSERT_TRUE(again.valid());
+  EXPECT_NEAR(residual(again, {0.5F, 0.5F, 0.3F}), 0.0, 5e-3);
+  EXPECT_EQ(again.born, 3U);
+}
+
+TEST(VoxelPlaneMap, EmptyMapAnswersAndForgetsNothing)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.removeOutside(Vec3::Zero(), 1.0);
+  map.insert({}, Vec3::Zero());
+  EXPECT_EQ(map.pointCount(), 0U);
+  EXPECT_FALSE(matchOne(map, {0.0F, 0.0F, 0.0F}).valid());
+  EXPECT_EQ(map.toPointsMap()->size(), 0U);
+}
+
+TEST(VoxelPlaneMap, ExportsTheMeanPointOfEachFinestVoxel)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.insert(
+      worldPoints({{0.1F, 0.1F, 0.1F}, {0.3F, 0.2F, 0.1F}, {-0.1F, 0.1F, 0.1F}}), Vec3::Zero());
+  const auto points = map.toPointsMap();
+  ASSERT_EQ(points->size(), 2U);
+  const std::size_t first = pointOf(*points, 0).x > 0 ? 0 : 1;
+  EXPECT_LT(distance(pointOf(*points, first), {0.2F, 0.15F, 0.1F}), 1e-6);
+  EXPECT_LT(distance(pointOf(*points, 1 - first), {-0.1F, 0.1F, 0.1F}), 1e-6);
+}
+
+TEST(VoxelPlaneMap, RefusesUnusableOptionsByName)
+{
+  const auto refusal = [](auto change) -> std::string
+  {
+    VoxelPlaneOptions o;
+    change(o);
+    try
+    {
+      VoxelPlaneMap map(o);
+    }
+    catch (const std::invalid_argument& e)
+    {
+      return e.what();
+    }
+    return {};
+  };
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : {0.0, -0.4, kNaN})
+  {
+    EXPECT_NE(
+        refusal([&](auto& o) { o.voxel_size = value; }).find("voxel_size"), std::string::npos);
+    EXPECT_NE(
+        refusal([&](auto& o) { o.rules.point_noise = float(value); }).find("point_noise"),
+        std::string::npos);
+    EXPECT_NE(
+        refusal([&](auto& o) { o.rules.max_thickness = float(value); }).find("max_thickness"),
+        std::string::npos);
+  }
+  EXPECT_EQ(refusal([](auto&) {}), "");
+}
