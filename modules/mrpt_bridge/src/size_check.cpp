@@ -43,54 +43,53 @@ struct Layout
 };
 
 constexpr std::size_t kStamp = 8, kDouble = 8, kPoint = 12;
-const Field kString{Field::Counted, 1};
+
+Field fixed(std::size_t size)
+{
+  return {Field::Fixed, size};
+}
+Field counted(std::size_t size)
+{
+  return {Field::Counted, size};
+}
+const Field kString = counted(1);
+const Field kPose{Field::Object};
+const Field kRest{Field::Unknown};
+
+std::vector<Field> imuFields()
+{
+  constexpr std::size_t kChannels = mrpt::obs::COUNT_IMU_DATA_FIELDS;
+  return {kPose, fixed(kChannels), fixed(kStamp), fixed(kChannels * kDouble), kString};
+}
+
+std::vector<Field> velodyneFields()
+{
+  using mrpt::obs::CObservationVelodyneScan;
+  constexpr std::size_t kPacket = sizeof(CObservationVelodyneScan::TVelodyneRawPacket);
+  constexpr std::size_t kLaser = sizeof(mrpt::obs::VelodyneCalibration::PerLaserCalib);
+  std::vector<Field> fields{fixed(kStamp), kString,          fixed(2 * kDouble),
+                            kPose,         counted(kPacket), counted(kLaser)};
+  // Cached points: x, y, z, intensity; whether the stamp is a satellite's.
+  fields.insert(fields.end(), {counted(4), counted(4), counted(4), counted(1), fixed(1)});
+  // Their stamps (MRPT writes the names of these types before them), azimuths, lasers and indices.
+  fields.insert(fields.end(), {kString, kString, counted(kStamp), counted(4), counted(2)});
+  fields.insert(fields.end(), {kString, kString, {Field::CountedLists, 8}});
+  return fields;
+}
 
 std::map<std::string, Layout> makeLayouts()
 {
-  using mrpt::obs::CObservationVelodyneScan;
-  constexpr std::size_t kImuFields = mrpt::obs::COUNT_IMU_DATA_FIELDS;
-  constexpr std::size_t kPacket = sizeof(CObservationVelodyneScan::TVelodyneRawPacket);
-  constexpr std::size_t kLaser = sizeof(mrpt::obs::VelodyneCalibration::PerLaserCalib);
-  const std::vector<Field> points_and_more{{Field::Counted, kPoint}, {Field::Unknown}};
+  const std::vector<Field> points_and_more{counted(kPoint), kRest};
   return {
-      {"mrpt::poses::CPose3D", {3, {{Field::Fixed, 12 * kDouble}}}},
+      {"mrpt::poses::CPose3D", {3, {fixed(12 * kDouble)}}},
       {"mrpt::obs::CSensoryFrame", {2, {{Field::CountedObjects}}}},
-      {"mrpt::obs::CObservationIMU",
-       {4,
-        {{Field::Object},
-         {Field::Fixed, kImuFields},
-         {Field::Fixed, kStamp},
-         {Field::Fixed, kImuFields * kDouble},
-         kString}}},
-      // Packets, calibration, then the point cloud: x, y, z, intensity, [satellite time], stamps,
-      // azimuths, laser numbers, indices by laser.
-      {"mrpt::obs::CObservationVelodyneScan",
-       {2,
-        {{Field::Fixed, kStamp},
-         kString,
-         {Field::Fixed, 2 * kDouble},
-         {Field::Object},
-         {Field::Counted, kPacket},
-         {Field::Counted, kLaser},
-         {Field::Counted, 4},
-         {Field::Counted, 4},
-         {Field::Counted, 4},
-         {Field::Counted, 1},
-         {Field::Fixed, 1},
-         {Field::Counted, kStamp},
-         {Field::Counted, 4},
-         {Field::Counted, 2},
-         {Field::CountedLists, 8}}}},
+      {"mrpt::obs::CObservationIMU", {4, imuFields()}},
+      {"mrpt::obs::CObservationVelodyneScan", {2, velodyneFields()}},
       {"mrpt::obs::CObservationPointCloud",
-       {0, {kString, {Field::Fixed, kStamp}, {Field::Object}, {Field::StoredCloud}}}},
+       {0, {kString, fixed(kStamp), kPose, {Field::StoredCloud}}}},
       {"mrpt::maps::CPointsMapXYZIRT",
-       {0,
-        {{Field::Counted, kPoint},
-         {Field::Counted, 4},
-         {Field::Counted, 2},
-         {Field::Counted, 4},
-         {Field::Unknown}}}},
-      {"mrpt::maps::CPointsMapXYZI", {0, {{Field::Counted, kPoint + 4}, {Field::Unknown}}}},
+       {0, {counted(kPoint), counted(4), counted(2), counted(4), kRest}}},
+      {"mrpt::maps::CPointsMapXYZI", {0, {counted(kPoint + 4), kRest}}},
       {"mrpt::maps::CSimplePointsMap", {10, points_and_more}},
       {"mrpt::maps::CColouredPointsMap", {9, points_and_more}},
       {"mrpt::maps::CWeightedPointsMap", {2, points_and_more}}};
@@ -148,7 +147,7 @@ class Walk
     return stream_.byteAt(at_ - 1) == kEndFlag || stop(SizeVerdict::Misaligned);
   }
 
-  bool counted(std::size_t size)
+  bool countedBytes(std::size_t size)
   {
     if (!skip(kCountBytes)) return false;
     return skip(stream_.wordAt(at_ - kCountBytes) * size);
@@ -167,7 +166,7 @@ class Walk
   bool storedCloud(int depth)
   {
     if (!skip(1)) return false;
-    return stream_.byteAt(at_ - 1) == 0 ? object(depth + 1) : counted(kString.size);
+    return stream_.byteAt(at_ - 1) == 0 ? object(depth + 1) : countedBytes(kString.size);
   }
 
   bool walk(const Field& field, int depth)
@@ -177,9 +176,9 @@ class Walk
       case Field::Fixed:
         return skip(field.size);
       case Field::Counted:
-        return counted(field.size);
+        return countedBytes(field.size);
       case Field::CountedLists:
-        return repeated([&] { return counted(field.size); });
+        return repeated([&] { return countedBytes(field.size); });
       case Field::Object:
         return object(depth + 1);
       case Field::CountedObjects:
