@@ -144,6 +144,8 @@ void addOscillation(
 void addWalkingSway(CarrierPath& path, double step_frequency, double strength)
 {
   const double stride = 0.5 * step_frequency;
+  path.channels[CarrierPath::kPitch].offset += 0.09 * strength;
+  path.channels[CarrierPath::kRoll].offset -= 0.06 * strength;
   addOscillation(path, CarrierPath::kZ, 0.02 * strength, step_frequency);
   addOscillation(path, CarrierPath::kX, 0.01 * strength, 1.03 * stride);
   addOscillation(path, CarrierPath::kY, 0.01 * strength, 0.97 * stride);

@@ -29,11 +29,20 @@ Json json(const ImuBias& bias)
   return {{"gyro_rad_s", json(bias.gyro)}, {"accel_m_s2", json(bias.accel)}};
 }
 
+/** Numbers as numbers, lists as arrays, names as strings. */
+Json settingJson(const SettingRow& row, const SimulationSettings& settings)
+{
+  const std::string text = settingText(row, settings);
+  if (std::holds_alternative<KindSetting>(row.value)) return text;
+  const bool is_list = text.find(',') != std::string::npos;
+  return Json::parse(is_list ? "[" + text + "]" : text);
+}
+
 Json settingsJson(const SimulationSettings& settings)
 {
   Json all = Json::object();
   for (const auto& row : settingsTable())
-    all[std::string(row.key)] = settingText(row, settings);
+    all[std::string(row.key)] = settingJson(row, settings);
   return all;
 }
 

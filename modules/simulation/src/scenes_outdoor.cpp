@@ -110,10 +110,11 @@ MovingObject swinging(const Primitive& body, const Vec3& amplitude, double perio
 
 void appendCrowd(std::vector<MovingObject>& moving)
 {
-  for (int i = 0; i < 14; ++i)
+  // On both long sides of the loop, most of them walking along beside the path.
+  for (int i = 0; i < 40; ++i)
   {
-    const double x = -24.0 + 3.7 * i, y = (i % 2 == 0 ? -19.0 : 18.5) + 0.3 * (i % 5);
-    const Vec3 way = i % 3 == 0 ? Vec3(0.0, 3.0, 0.0) : Vec3(5.0, 0.6 * (i % 4), 0.0);
+    const double x = -26.0 + 2.7 * (i / 2), y = (i % 2 == 0 ? -20.0 : 19.0) + 0.4 * (i % 5);
+    const Vec3 way = i % 5 == 0 ? Vec3(0.0, 1.2, 0.0) : Vec3(6.0, 0.2 * (i % 4), 0.0);
     const Primitive person = pillar(x, y, 0.28, 1.75, meadow(x, y), 0.4);
     moving.push_back(swinging(person, way, 14.0 + i, 0.9 * i));
   }

@@ -35,6 +35,14 @@ bool meets(const Bounds& bounds, const TracedRay& ray, double max_range)
   return enter <= leave && leave >= 0.0 && enter <= max_range;
 }
 
+/** Everywhere that a moving object can be. */
+Bounds sweptBounds(const MovingObject& object)
+{
+  const Bounds middle = boundsOf(object.body);
+  const Vec3 reach = object.amplitude.cwiseAbs();
+  return {middle.min - reach, middle.max + reach};
+}
+
 void keepNearer(std::optional<RayHit>& best, const std::optional<RayHit>& hit, double max_range)
 {
   if (hit && hit->range <= (best ? best->range : max_range)) best = hit;
@@ -50,6 +58,8 @@ Primitive MovingObject::at(double t) const
 
 World::World(WorldDescription description) : description_(std::move(description))
 {
+  for (const auto& object : description_.moving)
+    swept_.push_back(sweptBounds(object));
   if (!description_.bodies.empty())
     build(0, static_cast<std::uint32_t>(description_.bodies.size()));
 }
@@ -109,8 +119,10 @@ std::optional<RayHit> World::cast(const Ray& ray, double t, double max_range) co
   std::optional<RayHit> best = castBodies(ray, max_range);
   if (description_.ground)
     keepNearer(best, description_.ground->cast(ray, best ? best->range : max_range), max_range);
-  for (const auto& object : description_.moving)
-    keepNearer(best, intersect(object.at(t), ray), max_range);
+  const TracedRay fast = traced(ray);
+  for (std::size_t i = 0; i < swept_.size(); ++i)
+    if (meets(swept_[i], fast, best ? best->range : max_range))
+      keepNearer(best, intersect(description_.moving[i].at(t), ray), max_range);
   return best;
 }
 

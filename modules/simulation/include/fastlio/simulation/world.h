@@ -56,6 +56,7 @@ class World
 
   WorldDescription description_;
   std::vector<Node> nodes_;
+  std::vector<Bounds> swept_;  //!< of the moving objects
 };
 
 }  // namespace fastlio
