@@ -28,7 +28,7 @@ step "3/3 fastlio-eval: the trajectory against the truth"
   --json "$output/evaluation.json"
 
 step "Files"
-ls -lR "$output" | awk 'NF == 9 { printf "  %12d  %s\n", $5, $9 } /:$/ { print }'
+find "$output" -type f -printf '%12s bytes  %p\n' | sort -k 3
 echo
 echo "Look at the trajectory: $output/trajectory.svg"
 echo "Look at the map:        $odometry/map.ply (any point-cloud viewer)"
