@@ -1,0 +1,138 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file command_line_test.cpp fastlio-sim as users call it, with good and bad input. */
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <process.h>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace
+{
+namespace fs = std::filesystem;
+using fastlio::testing::ProcessResult;
+
+/** Runs the program in a directory of its own. */
+class FastlioSim : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    directory_ = fs::temp_directory_path() /
+                 ("fastlio_sim_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] ProcessResult run(std::vector<std::string> arguments) const
+  {
+    arguments.insert(arguments.begin(), FASTLIO_SIM_PROGRAM);
+    return fastlio::testing::Process(arguments, path("log.txt")).wait();
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return directory_ / name; }
+
+  [[nodiscard]] nlohmann::json truthOf(const std::string& directory) const
+  {
+    return nlohmann::json::parse(std::ifstream(path(directory) + "/scenario.json"));
+  }
+
+ private:
+  fs::path directory_;
+};
+
+bool mentions(const ProcessResult& result, const std::string& text)
+{
+  return result.output.find(text) != std::string::npos;
+}
+
+TEST_F(FastlioSim, TellsWhatItCanDo)
+{
+  const ProcessResult help = run({"--help"});
+  EXPECT_EQ(help.exit_status, 0);
+  for (const char* option :
+       {"--list", "--scenario", "--duration", "--seed", "--output-dir", "--set"})
+    EXPECT_TRUE(mentions(help, option)) << option;
+  EXPECT_TRUE(mentions(run({"--version"}), "fastlio-sim 0."));
+  const ProcessResult list = run({"--list"});
+  EXPECT_EQ(list.exit_status, 0);
+  for (const char* name : {"campus", "office", "uav", "car", "shake", "spin", "stairs", "tunnel"})
+    EXPECT_TRUE(mentions(list, name)) << name;
+  const ProcessResult settings = run({"uav", "--list-settings"});
+  EXPECT_EQ(settings.exit_status, 0);
+  EXPECT_TRUE(mentions(settings, "lidar.kind = livox"));
+}
+
+TEST_F(FastlioSim, WritesAllFilesAndNamesThem)
+{
+  const ProcessResult result =
+      run({"--scenario", "office", "--duration", "3", "--stride", "20", "-o", path("out")});
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  for (const char* file : {"recording.rawlog", "ground_truth.tum", "config.yaml", "scenario.json"})
+  {
+    EXPECT_TRUE(fs::exists(path("out") + "/" + file)) << file;
+    EXPECT_TRUE(mentions(result, file)) << result.output;
+  }
+  EXPECT_EQ(truthOf("out")["duration_s"], 3.0);
+}
+
+TEST_F(FastlioSim, SettingsAreChangedByOptionsAndBySet)
+{
+  const ProcessResult result = run(
+      {"rest", "--duration", "1", "--seed", "42", "--imu-rate", "400", "--scan-rate", "20",
+       "--lidar", "os64", "--set", "lidar.columns=128", "--set", "imu.gyro_bias=0.1,0,-0.1", "-q",
+       "-o", path("out")});
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_EQ(result.output, "");
+  const auto settings = truthOf("out")["settings"];
+  EXPECT_EQ(settings["seed"], 42);
+  EXPECT_EQ(settings["imu.rate"], 400.0);
+  EXPECT_EQ(settings["lidar.rate"], 20.0);
+  EXPECT_EQ(settings["lidar.kind"], "os64");
+  EXPECT_EQ(settings["lidar.columns"], 128);
+  EXPECT_EQ(settings["imu.gyro_bias"][2], -0.1);
+}
+
+TEST_F(FastlioSim, WrongNamesGetTheNearestOne)
+{
+  const ProcessResult scenario = run({"--scenario", "ofice", "-o", path("out")});
+  EXPECT_EQ(scenario.exit_status, 1);
+  EXPECT_TRUE(mentions(scenario, "'office'")) << scenario.output;
+  const ProcessResult setting = run({"office", "--set", "imu.gyro_nose=1", "-o", path("out")});
+  EXPECT_EQ(setting.exit_status, 1);
+  EXPECT_TRUE(mentions(setting, "'imu.gyro_noise'")) << setting.output;
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
+TEST_F(FastlioSim, WrongValuesAreRefusedWithWhatIsAllowed)
+{
+  using Arguments = std::vector<std::string>;
+  for (const auto& arguments :
+       {Arguments{"office", "--duration", "-3"}, Arguments{"office", "--imu-rate", "fast"},
+        Arguments{"office", "--scan-rate", "0"}, Arguments{"office", "--lidar", "sonar"},
+        Arguments{"office", "--set", "imu.rate"}, Arguments{"office", "--no-such-option"},
+        Arguments{"office", "--set", "lidar.min_range=200"}, Arguments{}})
+  {
+    const ProcessResult result = run(arguments);
+    EXPECT_EQ(result.exit_status, 1) << result.output;
+    EXPECT_FALSE(result.output.empty());
+  }
+  EXPECT_TRUE(mentions(run({"office", "--duration", "-3"}), "from 0 to"));
+  EXPECT_TRUE(mentions(run({}), "campus"));
+}
+
+TEST_F(FastlioSim, DirectoriesThatCannotBeWrittenAreNamed)
+{
+  std::ofstream(path("file")) << "not a directory";
+  const ProcessResult result = run({"rest", "--duration", "1", "-o", path("file") + "/out"});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_TRUE(mentions(result, path("file"))) << result.output;
+}
+}  // namespace
