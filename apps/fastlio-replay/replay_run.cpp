@@ -49,6 +49,14 @@ std::vector<std::string> sentences(const std::vector<ReadProblem>& problems)
   }
   return texts;
 }
+
+CIncrementalPointsMap::TCreationOptions outputMapOptions(const MapParameters& parameters)
+{
+  CIncrementalPointsMap::TCreationOptions options;
+  options.min_spacing = parameters.output_spacing;
+  options.cell_size = 3.0 * parameters.output_spacing;
+  return options;
+}
 }  // namespace
 
 ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
@@ -57,6 +65,7 @@ ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
       odometry_(setup_.parameters),
       exporters_(makeStandardExporters(
           {setup_.arguments.output_directory, setup_.arguments.output_tum_path, setup_.frame})),
+      output_map_(outputMapOptions(setup_.parameters.map)),
       progress_(logger)
 {
 }
@@ -79,7 +88,7 @@ RunSummary ReplayRun::execute()
   progress_.clear();
   RunSummary summary = summarize(source);
   summary.wall_seconds = stopwatch.Tac();
-  return exporters_.finish(std::move(summary), *odometry_.map().toPointsMap());
+  return exporters_.finish(std::move(summary), output_map_);
 }
 
 void ReplayRun::consume(DecodeAheadSource& source)
@@ -126,9 +135,17 @@ void ReplayRun::drain()
 void ReplayRun::take(const ScanResult& result)
 {
   statistics_.add(result);
+  extendOutputMap();
   exporters_.onScan(result);
   reportChange(result);
   reportExporters();
+}
+
+/** The map for the user is denser than what the odometry matches with. */
+void ReplayRun::extendOutputMap()
+{
+  const WorldPoints& points = odometry_.registeredPoints();
+  output_map_.insertPoints(points.x.data(), points.y.data(), points.z.data(), points.size());
 }
 
 /** Tells when scans start to fare differently; every scan at DEBUG. */

@@ -6,6 +6,7 @@
 
 #include "progress_meter.h"
 #include "run_setup.h"
+#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/mrpt_bridge/decode_ahead_source.h>
 #include <fastlio/mrpt_bridge/output/exporter.h>
 #include <fastlio/odometry/odometry.h>
@@ -36,6 +37,7 @@ class ReplayRun
   bool feedScan(LidarScan scan);
   void drain();
   void take(const ScanResult& result);
+  void extendOutputMap();
   void reportChange(const ScanResult& result);
   void reportExporters();
   [[nodiscard]] RunSummary summarize(const DecodeAheadSource& source) const;
@@ -44,6 +46,7 @@ class ReplayRun
   mrpt::system::COutputLogger& logger_;
   Odometry odometry_;
   ExporterSet exporters_;
+  CIncrementalPointsMap output_map_;
   ProgressMeter progress_;
   RunStatistics statistics_;
   double input_share_ = 0.0;  //!< of the input's bytes that have been read

@@ -167,6 +167,10 @@ const SurfaceMap& Odometry::map() const
 {
   return impl_->pipeline_.map();
 }
+const WorldPoints& Odometry::registeredPoints() const
+{
+  return impl_->pipeline_.registeredPoints();
+}
 const Parameters& Odometry::parameters() const
 {
   return impl_->parameters_;

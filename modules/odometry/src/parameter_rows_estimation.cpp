@@ -45,6 +45,10 @@ ParameterRows mapRows()
        "planes: voxels at several scales that hold a ready plane, one lookup each; knn: a plane "
        "through the exact nearest points, as in the paper; kdtree: the same through nanoflann, "
        "rebuilt for each scan, slow: the reference"},
+      {"map.output_spacing", "m",
+       RealValue{[](auto& p) { return &p.map.output_spacing; }, 0.01, 100.0},
+       "least distance between the points of the map that is saved; smaller: denser and larger "
+       "files"},
       {"map.radius", "m", RealValue{[](auto& p) { return &p.map.radius; }, 1.0, 100000.0},
        "points farther from the sensor than this may leave the map: bounds its memory"},
       {"map.max_insertion_std", "m",

@@ -82,7 +82,10 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   state_ns_ = span.end_ns;
   result.filter = considerMapError(predicted);
   judge(update, result);
-  if (mayGrowMap(result)) growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
+  if (mayGrowMap(result))
+    growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
+  else
+    world_.resize(0);
 
   describeUpdate(update, result.statistics);
   describeScan(scan, result.statistics);

@@ -33,6 +33,9 @@ class ScanPipeline
   [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
   [[nodiscard]] const SurfaceMap& map() const { return *map_; }
 
+  /** What the last scan added to the map; empty when nothing. */
+  [[nodiscard]] const WorldPoints& registeredPoints() const { return world_; }
+
   /** One scan, from prediction to map growth (section III of the paper). */
   [[nodiscard]] ScanResult process(
       const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu);

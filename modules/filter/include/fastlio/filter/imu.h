@@ -21,8 +21,8 @@ struct ImuSample
 /** Continuous-time noise densities of the process model (Q in eq. 8). */
 struct ImuNoise
 {
-  double gyro_noise_density = 2e-3;   //!< n_w [rad/s/sqrt(Hz)]
-  double accel_noise_density = 2e-2;  //!< n_a [m/s^2/sqrt(Hz)]
+  double gyro_noise_density = 5e-4;   //!< n_w [rad/s/sqrt(Hz)]
+  double accel_noise_density = 5e-3;  //!< n_a [m/s^2/sqrt(Hz)]
   double gyro_bias_walk = 2e-5;       //!< n_bw [rad/s^2/sqrt(Hz)]
   double accel_bias_walk = 2e-4;      //!< n_ba [m/s^3/sqrt(Hz)]
 };

@@ -18,6 +18,7 @@
 namespace fastlio
 {
 class SurfaceMap;
+struct WorldPoints;
 
 /** Counts of everything that was dropped before it reached the filter. */
 struct InputStatistics
@@ -53,6 +54,9 @@ class Odometry
   [[nodiscard]] std::optional<ScanResult> flush();
 
   [[nodiscard]] const SurfaceMap& map() const;
+  /** The points of the last scan that was used, in the world frame; empty when the last scan did
+   * not join the map. Valid until the next call of next() or flush(). */
+  [[nodiscard]] const WorldPoints& registeredPoints() const;
   [[nodiscard]] const Parameters& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;
 

@@ -59,7 +59,7 @@ struct ReductionParameters
 struct MeasurementParameters
 {
   double range_noise = 0.02;             //!< standard deviation of a range [m]
-  double max_normalized_residual = 4.0;  //!< gate, in standard deviations of residual and prior
+  double max_normalized_residual = 3.0;  //!< gate, in standard deviations of residual and prior
   int min_effective_points = 20;         //!< fewer matches: the scan is not used
   int association_iterations = 2;        //!< iterations that search the map anew
   double max_unaided_time = 3.0;         //!< longer without an update: the pose is not trusted [s]
@@ -77,7 +77,8 @@ enum class MapType
 struct MapParameters
 {
   MapType type = MapType::Planes;
-  double radius = 150.0;           //!< points farther from the sensor than this may be dropped [m]
+  double output_spacing = 0.1;  //!< least distance between the points of the map that is saved [m]
+  double radius = 150.0;        //!< points farther from the sensor than this may be dropped [m]
   double max_insertion_std = 0.2;  //!< a scan without matches joins below this position error [m]
   double min_spacing = 0.4;        //!< knn: nearer points are not added [m]
   double voxel_size = 0.4;         //!< planes: edge of the finest voxels [m]

@@ -32,7 +32,7 @@ struct PlaneMeasurement
 struct ResidualModel
 {
   double range_variance = 4e-4;          //!< [m^2]
-  double gate = 4.0;                     //!< in standard deviations
+  double gate = 3.0;                     //!< in standard deviations
   double prior_position_variance = 0.0;  //!< of the prediction [m^2]
   double prior_attitude_variance = 0.0;  //!< of the prediction [rad^2]
 };
