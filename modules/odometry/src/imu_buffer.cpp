@@ -91,7 +91,17 @@ std::vector<ImuSample> ImuBuffer::samplesBetween(std::int64_t begin_ns, std::int
 void ImuBuffer::forgetBefore(std::int64_t stamp_ns)
 {
   const std::size_t next = firstAfter(stamp_ns);
-  head_ = next > head_ ? next - 1 : head_;
+  moveHead(next > head_ ? next - 1 : head_);
+}
+
+void ImuBuffer::forgetSamplesBefore(std::int64_t stamp_ns)
+{
+  if (!empty()) moveHead(std::min(firstAfter(stamp_ns - 1), samples_.size() - 1));
+}
+
+void ImuBuffer::moveHead(std::size_t head)
+{
+  head_ = head;
   if (head_ < kCompactAfter) return;
   samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(head_));
   head_ = 0;

@@ -44,7 +44,8 @@ InitializationOutcome tryStaticStart(
     }
     if (begin_ns == latest_ns) outcome.message = *reason;
   }
-  imu.forgetBefore(latest_ns + step_ns);
+  // All of them, so that the search goes on behind a gap longer than its step.
+  imu.forgetSamplesBefore(latest_ns + step_ns);
   outcome.rejected = true;
   return outcome;
 }

@@ -5,6 +5,7 @@
 #include "scan_pipeline.h"
 #include <fastlio/odometry/imu_buffer.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/odometry/parameter_yaml.h>
 
 #include <deque>
 #include <utility>
@@ -32,13 +33,22 @@ ScanResult waitingResult(const QueuedScan& queued, const std::string& why)
   waiting.message = why;
   return waiting;
 }
+
+const Parameters& validated(const Parameters& parameters)
+{
+  validate(parameters);
+  return parameters;
+}
 }  // namespace
 
 /** Queues, the order of events, and who processes what. */
 class Odometry::Impl
 {
  public:
-  explicit Impl(const Parameters& parameters) : parameters_(parameters), pipeline_(parameters) {}
+  explicit Impl(const Parameters& parameters)
+      : parameters_(validated(parameters)), pipeline_(parameters)
+  {
+  }
 
   void addImu(const ImuSample& sample);
   void addScan(LidarScan scan);

@@ -234,6 +234,23 @@ TEST(ImuBuffer, ForgettingChangesNoLaterInput)
   EXPECT_LE(forgetful.oldestStamp(), forgotten);
 }
 
+TEST(ImuBuffer, ForgetsTheSamplesBeforeAnInstantAcrossAGap)
+{
+  const auto buffer = [] {
+    return bufferOf({sampleAt(kStart), sampleAt(kStart + kMs), sampleAt(kStart + 900 * kMs)});
+  };
+  ImuBuffer on_sample = buffer(), in_gap = buffer(), behind = buffer(), ahead = buffer();
+  on_sample.forgetSamplesBefore(kStart + kMs);
+  EXPECT_EQ(on_sample.oldestStamp(), kStart + kMs);
+  in_gap.forgetSamplesBefore(kStart + kMs + 1);
+  EXPECT_EQ(in_gap.oldestStamp(), kStart + 900 * kMs);
+  behind.forgetSamplesBefore(kStart + 1000 * kMs);
+  EXPECT_EQ(behind.oldestStamp(), kStart + 900 * kMs) << "the newest stays";
+  ahead.forgetSamplesBefore(kStart);
+  EXPECT_EQ(ahead.oldestStamp(), kStart);
+  ImuBuffer{}.forgetSamplesBefore(kStart);
+}
+
 TEST(ImuBuffer, ForgettingKeepsTheNewestSample)
 {
   ImuBuffer buffer = bufferOf({sampleAt(kStart), sampleAt(kStart + kMs, 2.0)});

@@ -54,8 +54,12 @@ class ImuBuffer
   /** Forgets samples that no interval starting at or after stamp_ns needs. */
   void forgetBefore(std::int64_t stamp_ns);
 
+  /** Forgets all samples before stamp_ns, also the one that held at stamp_ns; the newest stays. */
+  void forgetSamplesBefore(std::int64_t stamp_ns);
+
  private:
   [[nodiscard]] std::size_t firstAfter(std::int64_t stamp_ns) const;
+  void moveHead(std::size_t head);
   [[nodiscard]] ImuSample heldInput(
       std::size_t left, std::int64_t begin_ns, std::int64_t end_ns, ImuHold hold) const;
 
