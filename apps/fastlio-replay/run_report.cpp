@@ -54,7 +54,6 @@ std::vector<NamedCount> allLosses(const RunSummary& run)
   const PointTotals& points = run.statistics.points();
   counts.push_back({"points_too_near", points.near});
   counts.push_back({"points_too_far", points.far});
-  counts.push_back({"points_with_wrong_time", points.time});
   return losses(counts);
 }
 

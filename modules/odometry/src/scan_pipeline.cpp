@@ -79,6 +79,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
+  filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3) by rounding
   state_ns_ = span.end_ns;
   result.filter = considerMapError(predicted);
   judge(update, result);
@@ -116,6 +117,7 @@ FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
   imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
+  imu_gap_s_ = static_cast<double>(imu.longestGap(state_ns_, end_ns)) * kNsToS;
   FilterState s = filter_;
   for (std::size_t i = 0; i < inputs_.size(); ++i)
   {
@@ -208,6 +210,11 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
       std::sqrt(filter_.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
   if (!prediction_finite_ || unaided_s > parameters_.measurement.max_unaided_time)
     result.status = ScanStatus::Diverged;
+  if (imu_gap_s_ > parameters_.imu.max_gap)
+    result.message = mrpt::format(
+        "%.2f s without inertial samples (imu.max_gap is %.2f s): bridged with the last rate and "
+        "acceleration",
+        imu_gap_s_, parameters_.imu.max_gap);
   if (result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged)
     result.message = mrpt::format(
         "%zu of %zu points match the map, at least %i are needed "

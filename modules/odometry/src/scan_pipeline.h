@@ -61,6 +61,7 @@ class ScanPipeline
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
   bool prediction_finite_ = true;
+  double imu_gap_s_ = 0.0;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;
 

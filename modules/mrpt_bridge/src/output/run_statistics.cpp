@@ -27,7 +27,6 @@ PointTotals plus(PointTotals sum, const ScanStatistics& scan)
   sum.invalid += scan.dropped_invalid;
   sum.near += scan.dropped_near;
   sum.far += scan.dropped_far;
-  sum.time += scan.dropped_time;
   sum.reduced += scan.points_reduced;
   sum.effective += scan.points_effective;
   return sum;

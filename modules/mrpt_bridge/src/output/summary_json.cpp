@@ -75,7 +75,6 @@ Json pointsJson(const PointTotals& points)
       {"dropped_invalid", points.invalid},
       {"dropped_near", points.near},
       {"dropped_far", points.far},
-      {"dropped_time", points.time},
       {"after_reduction", points.reduced},
       {"effective", points.effective}};
 }

@@ -39,7 +39,6 @@ struct ScanStatistics
   std::size_t dropped_invalid = 0;   //!< no echo, NaN or zero
   std::size_t dropped_near = 0;      //!< nearer than lidar.min_range
   std::size_t dropped_far = 0;       //!< farther than lidar.max_range
-  std::size_t dropped_time = 0;      //!< with a time far outside of the scan
   std::size_t points_reduced = 0;    //!< after the voxel grid
   std::size_t points_effective = 0;  //!< matched with a plane in the last iteration
   std::size_t imu_samples = 0;       //!< inertial samples of this scan's interval

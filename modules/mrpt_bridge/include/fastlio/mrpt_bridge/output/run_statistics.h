@@ -38,7 +38,7 @@ struct ScanTimeSummary
 /** Sums of the per-scan point counts. */
 struct PointTotals
 {
-  std::size_t in = 0, invalid = 0, near = 0, far = 0, time = 0, reduced = 0, effective = 0;
+  std::size_t in = 0, invalid = 0, near = 0, far = 0, reduced = 0, effective = 0;
 };
 
 /** Digest of the ScanResults of a run. */
