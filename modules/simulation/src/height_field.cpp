@@ -132,7 +132,7 @@ std::optional<RayHit> HeightField::cast(const Ray& ray, double max_range) const
   AxisWalk y = startWalk(o.y(), d.y(), entry.y(), e.cell, e.cells_y);
   while (x.cell >= 0 && x.cell < e.cells_x && y.cell >= 0 && y.cell < e.cells_y)
   {
-    if (const auto hit = castCell(ray, x.cell, y.cell, max_range)) return hit;
+    if (auto hit = castCell(ray, x.cell, y.cell, max_range)) return hit;
     AxisWalk& nearer = x.next < y.next ? x : y;
     if (nearer.next > span.end) return std::nullopt;
     nearer.cell += nearer.step;

@@ -96,7 +96,8 @@ class SpinningModel : public LidarModel
   {
     Sweep sweep;
     sweep.stamp_ns = stampOf(index);
-    sweep.shots.reserve(static_cast<std::size_t>(settings_.columns * settings_.lines));
+    sweep.shots.reserve(
+        static_cast<std::size_t>(settings_.columns) * static_cast<std::size_t>(settings_.lines));
     for (int column = 0; column < settings_.columns; ++column)
     {
       const double turn = static_cast<double>(column) / settings_.columns;

@@ -161,7 +161,7 @@ RecordingFiles writeRecording(
     const Simulation& simulation, const std::string& directory, const RecordingProgress& progress)
 {
   prepareOutputDirectory(directory);
-  const RecordingFiles files{
+  RecordingFiles files{
       directory + "/recording.rawlog", directory + "/ground_truth.tum", directory + "/config.yaml",
       directory + "/scenario.json"};
   writeText(files.config, configText(simulation.settings()));

@@ -113,7 +113,7 @@ void appendCrowd(std::vector<MovingObject>& moving)
   // On both long sides of the loop, most of them walking along beside the path.
   for (int i = 0; i < 40; ++i)
   {
-    const double x = -26.0 + 2.7 * (i / 2), y = (i % 2 == 0 ? -20.0 : 19.0) + 0.4 * (i % 5);
+    const double x = -26.0 + 1.35 * (i - i % 2), y = (i % 2 == 0 ? -20.0 : 19.0) + 0.4 * (i % 5);
     const Vec3 way = i % 5 == 0 ? Vec3(0.0, 1.2, 0.0) : Vec3(6.0, 0.2 * (i % 4), 0.0);
     const Primitive person = pillar(x, y, 0.28, 1.75, meadow(x, y), 0.4);
     moving.push_back(swinging(person, way, 14.0 + i, 0.9 * i));

@@ -48,8 +48,8 @@ std::optional<std::array<double, N>> numbers(std::string_view text)
 std::string formatted(double value)
 {
   std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  const auto* end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {static_cast<const char*>(buffer.data()), end};
 }
 
 /** Writes a text into a setting; false when it is not an allowed value. */

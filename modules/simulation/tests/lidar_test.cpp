@@ -89,7 +89,7 @@ TEST(Os64, CoversTheCircleAndItsFieldOfView)
   ASSERT_EQ(sweep.shots.size(), 64U * 1024U);
   EXPECT_NEAR(std::asin(sweep.shots[0].direction.z()), -0.3925, 1e-12);
   EXPECT_NEAR(std::asin(sweep.shots[63].direction.z()), 0.3925, 1e-12);
-  const Shot& quarter = sweep.shots[256 * 64];
+  const Shot& quarter = sweep.shots[std::size_t{256} * 64];
   EXPECT_EQ(quarter.offset_ns, 25'000'000);
   EXPECT_LT(quarter.direction.y(), -0.9);  // clockwise: to the right
 }

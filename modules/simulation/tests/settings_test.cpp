@@ -88,15 +88,16 @@ TEST(Settings, UnknownKeysGetTheNearestOne)
 TEST(Settings, ValuesThatAreNotAllowedAreRefusedWithWhatIs)
 {
   using Case = std::pair<const char*, const char*>;
-  for (const auto& [key, text] :
+  for (const Case& wrong :
        {Case{"imu.rate", "fast"}, Case{"imu.rate", ""}, Case{"imu.rate", "nan"},
         Case{"imu.rate", "inf"}, Case{"imu.rate", "-5"}, Case{"imu.rate", "100x"},
         Case{"lidar.lines", "1.5"}, Case{"lidar.kind", "sonar"}, Case{"seed", "-1"},
         Case{"imu.average", "yes"}, Case{"imu.gyro_bias", "1,2"}, Case{"imu.gyro_bias", "1,2,3,4"},
         Case{"lidar.pose", "1,2,3,4,5,x"}, Case{"start_time", "99999999999"}})
   {
-    const std::string problem = problemOf([&] { (void)withSetting({}, key, text); });
-    EXPECT_NE(problem.find(key), std::string::npos) << key << " = " << text;
+    const std::string problem =
+        problemOf([&] { (void)withSetting({}, wrong.first, wrong.second); });
+    EXPECT_NE(problem.find(wrong.first), std::string::npos) << wrong.first << " = " << wrong.second;
     EXPECT_NE(problem.find("give"), std::string::npos) << problem;
   }
 }
