@@ -27,6 +27,28 @@ bool isFrom(const CObservation& observation, const SensorSummary& sensor)
          observation.GetRuntimeClass()->className == sensor.class_name;
 }
 
+LidarScan fromCloud(const CloudColumns& columns, BridgeStatistics& statistics);
+
+// Some recorders drop the packets and keep the points that MRPT made of them.
+CloudColumns cachedPoints(const CObservationVelodyneScan& observation)
+{
+  const auto& cached = observation.point_cloud;
+  const std::size_t n = cached.size();
+  CloudColumns columns{cached.x, cached.y, cached.z, {}, {}, {}};
+  if (cached.y.size() != n || cached.z.size() != n)
+    throw std::runtime_error("the cached points of the observation are corrupt");
+  if (cached.intensity.size() == n)
+    columns.intensity.assign(cached.intensity.begin(), cached.intensity.end());
+  if (cached.laser_id.size() == n)
+    columns.ring.assign(cached.laser_id.begin(), cached.laser_id.end());
+  if (cached.timestamp.size() != n) return columns;
+  const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
+  for (const auto& time : cached.timestamp)
+    columns.time_s.push_back(
+        static_cast<float>(static_cast<double>(toNanoseconds(time) - stamp_ns) * 1e-9));
+  return columns;
+}
+
 LidarScan fromPackets(const CObservationVelodyneScan& observation, BridgeStatistics& statistics)
 {
   VelodyneSweep sweep = decodeVelodyne(observation);
@@ -57,8 +79,9 @@ LidarScan fromCloud(const CloudColumns& columns, BridgeStatistics& statistics)
 
 LidarScan toScan(const CObservation& observation, BridgeStatistics& statistics)
 {
-  if (const auto* packets = dynamic_cast<const CObservationVelodyneScan*>(&observation))
-    return fromPackets(*packets, statistics);
+  if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation))
+    return velodyne->scan_packets.empty() ? fromCloud(cachedPoints(*velodyne), statistics)
+                                          : fromPackets(*velodyne, statistics);
   const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
   if (cloud == nullptr)
     throw std::runtime_error(

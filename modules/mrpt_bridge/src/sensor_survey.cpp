@@ -43,6 +43,11 @@ Appearance appearanceOf(const mrpt::obs::CObservationIMU& imu)
 Appearance appearanceOf(const mrpt::obs::CObservationVelodyneScan& scan)
 {
   const std::string model = velodyneModelName(scan);
+  if (scan.scan_packets.empty())
+    return {
+        SensorKind::Lidar, true,
+        model + ", no packets, " + std::to_string(scan.point_cloud.size()) + " cached points" +
+            (scan.point_cloud.timestamp.empty() ? ", no time per point" : " with time per packet")};
   try
   {
     const std::size_t points = decodeVelodyne(scan).points.size();

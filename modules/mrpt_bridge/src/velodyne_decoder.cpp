@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "velodyne_models.h"
+#include "velodyne_packet.h"
 #include <fastlio/mrpt_bridge/velodyne_decoder.h>
 
 #include <algorithm>
@@ -13,13 +14,18 @@
 
 namespace
 {
+using fastlio::azimuthOf;
+using fastlio::distanceOf;
 using fastlio::FiringTiming;
+using fastlio::headerOf;
+using fastlio::intensityOf;
 using fastlio::LaserGeometry;
+using fastlio::timeOf;
 using fastlio::VelodyneModel;
 using fastlio::VelodyneSweep;
 using Scan = mrpt::obs::CObservationVelodyneScan;
-using Packet = Scan::TVelodyneRawPacket;
-using Block = Scan::raw_block_t;
+using Packet = fastlio::VelodynePacket;
+using Block = fastlio::VelodyneBlock;
 
 constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
 constexpr std::size_t kReturns = Scan::SCANS_PER_BLOCK;
@@ -51,9 +57,9 @@ struct PacketLayout
 
 bool isGood(const Block& block, const FiringTiming& timing)
 {
-  const bool upper = block.header() == Scan::UPPER_BANK;
-  const bool lower = timing.blocks_at_once == 2 && block.header() == Scan::LOWER_BANK;
-  return (upper || lower) && block.rotation() < kFullCircle;
+  const bool upper = headerOf(block) == Scan::UPPER_BANK;
+  const bool lower = timing.blocks_at_once == 2 && headerOf(block) == Scan::LOWER_BANK;
+  return (upper || lower) && azimuthOf(block) < kFullCircle;
 }
 
 // The return mode byte of the HDL-64E carries status; two pairs of banks with one azimuth give it
@@ -61,8 +67,8 @@ bool isGood(const Block& block, const FiringTiming& timing)
 bool isDual(const Packet& packet, const Sensor& sensor)
 {
   if (sensor.model != VelodyneModel::Hdl64e) return packet.laser_return_mode == Scan::RETMODE_DUAL;
-  return packet.blocks[0].rotation() == packet.blocks[2].rotation() &&
-         packet.blocks[4].rotation() == packet.blocks[6].rotation();
+  return azimuthOf(packet.blocks[0]) == azimuthOf(packet.blocks[2]) &&
+         azimuthOf(packet.blocks[4]) == azimuthOf(packet.blocks[6]);
 }
 
 // Rotor speed as the mean of the steps between groups, without those that a corrupt or missing
@@ -78,7 +84,7 @@ double azimuthPerMicrosecond(
     const Block& from = packet.blocks[i];
     const Block& to = packet.blocks[i + blocks_per_group];
     if (isGood(from, timing) && isGood(to, timing))
-      steps.push_back((to.rotation() - from.rotation() + kFullCircle) % kFullCircle);
+      steps.push_back((azimuthOf(to) - azimuthOf(from) + kFullCircle) % kFullCircle);
   }
   if (steps.empty()) return 0.0;
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
@@ -155,16 +161,16 @@ void decodeBlock(
   const Block& block = packet.blocks[index];
   const Block* first_return = firstReturnOf(packet, layout, index);
   const FiringTiming& timing = sensor.timing;
-  const std::size_t bank = block.header() == Scan::LOWER_BANK ? timing.lasers_per_sequence : 0;
+  const std::size_t bank = headerOf(block) == Scan::LOWER_BANK ? timing.lasers_per_sequence : 0;
   const double block_us = static_cast<double>(index / layout.blocks_per_group) * timing.block_us;
   for (std::size_t i = 0; i < kReturns; ++i)
   {
-    const int raw = block.laser_returns[i].distance();
+    const int raw = distanceOf(block, i);
     const LaserGeometry& laser = sensor.lasers[bank + i % timing.lasers_per_sequence];
     const double distance = raw * kMetresPerUnit + laser.distance_correction;
     if (raw == 0)
       ++sweep.counts.no_return;
-    else if (first_return != nullptr && first_return->laser_returns[i].distance() == raw)
+    else if (first_return != nullptr && distanceOf(*first_return, i) == raw)
       ++sweep.counts.duplicate;
     else if (!(distance >= sensor.min_range && distance <= sensor.max_range))
       ++sweep.counts.out_of_range;
@@ -174,9 +180,9 @@ void decodeBlock(
           static_cast<double>(i / timing.lasers_per_sequence) * timing.sequence_us +
           static_cast<double>(i % timing.lasers_per_sequence) * timing.laser_us;
       const double azimuth =
-          block.rotation() * kRadiansPerUnit + since_block_us * layout.azimuth_per_us;
+          azimuthOf(block) * kRadiansPerUnit + since_block_us * layout.azimuth_per_us;
       addPoint(
-          sweep, laser, distance, azimuth, block.laser_returns[i].intensity(),
+          sweep, laser, distance, azimuth, intensityOf(block, i),
           layout.offset_us + block_us + since_block_us);
     }
   }
@@ -219,13 +225,12 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   if (scan.scan_packets.empty()) return sweep;
   const Sensor sensor = sensorOf(scan);
   sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturns);
-  PacketClock clock(scan.scan_packets.front().gps_timestamp());
+  PacketClock clock(timeOf(scan.scan_packets.front()));
   for (const Packet& packet : scan.scan_packets)
   {
     PacketLayout layout = layoutOf(packet, sensor);
     layout.offset_us = clock.offsetOf(
-        packet.gps_timestamp(), packetDuration(layout, sensor.timing),
-        sweep.counts.bad_packet_times);
+        timeOf(packet), packetDuration(layout, sensor.timing), sweep.counts.bad_packet_times);
     for (std::size_t i = 0; i < kBlocks; ++i)
     {
       if (isGood(packet.blocks[i], sensor.timing))

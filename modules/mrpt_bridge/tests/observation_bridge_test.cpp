@@ -1,162 +1,27 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// From files to the inputs of the odometry: choice of sensors, conversion, reading ahead.
+// From observations to the inputs of the odometry: conversion, counters, reading ahead.
 
-#include "test_files.h"
+#include "bridge_recording.h"
 #include "velodyne_packets.h"
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/decode_ahead_source.h>
-#include <fastlio/mrpt_bridge/xyzirt_access.h>
 
-#include <gtest/gtest.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CObservationPointCloud.h>
-
-#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace
 {
 using namespace fastlio;
 using namespace fastlio_test;
 
-mrpt::obs::CObservationPointCloud::Ptr cloudAt(
-    double seconds, const std::string& label = "lidar", std::vector<float> times = {0.0F, 0.1F})
+class ObservationBridgeTest : public BridgeTest
 {
-  auto cloud = mrpt::obs::CObservationPointCloud::Create();
-  cloud->sensorLabel = label;
-  cloud->timestamp = toMrptTime(kStart + static_cast<std::int64_t>(seconds * 1e9));
-  cloud->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0, 0);
-  cloud->pointcloud = makeXyzirt(CloudColumns{{1, 2}, {1, 2}, {1, 2}, {}, {}, std::move(times)});
-  return cloud;
-}
-
-std::vector<Object> recording(int scans)
-{
-  std::vector<Object> objects;
-  for (int i = 0; i < scans; ++i)
-  {
-    objects.push_back(cloudAt(0.1 * i));
-    for (int k = 0; k < 20; ++k)
-      objects.push_back(imuAt(0.1 * i + 0.005 * k));
-  }
-  return objects;
-}
-
-class BridgeTest : public testing::Test
-{
- protected:
-  std::string fileOf(const std::vector<Object>& objects)
-  {
-    const std::string name = folder_.file("log.rawlog");
-    write(name, gzip(serialize(objects)));
-    return name;
-  }
-
-  SensorSelection select(const std::vector<Object>& objects, const SensorPatterns& patterns = {})
-  {
-    return selectSensors(surveySensors({fileOf(objects)}, patterns), patterns);
-  }
-
-  std::string errorOf(const std::vector<Object>& objects, const SensorPatterns& patterns = {})
-  {
-    try
-    {
-      (void)select(objects, patterns);
-    }
-    catch (const std::runtime_error& e)
-    {
-      return e.what();
-    }
-    return "";
-  }
-
-  TemporaryFolder folder_;
 };
-
-bool contains(const std::string& text, const std::string& part)
-{
-  return text.find(part) != std::string::npos;
-}
 }  // namespace
 
-TEST_F(BridgeTest, finds_sensors_by_itself)
-{
-  auto objects = recording(3);
-  auto odometry = mrpt::obs::CObservationOdometry::Create();
-  odometry->sensorLabel = "wheels";
-  odometry->timestamp = toMrptTime(kStart);
-  objects.insert(objects.begin(), odometry);
-  const SensorSelection selection = select(objects);
-  EXPECT_EQ(selection.lidar.label, "lidar");
-  EXPECT_EQ(selection.lidar.class_name, "mrpt::obs::CObservationPointCloud");
-  EXPECT_EQ(selection.lidar.observations, 3U);
-  EXPECT_NEAR(selection.lidar.T_vehicle_sensor.p.z(), 1.0, 1e-12);
-  EXPECT_EQ(selection.imu.label, "imu");
-  ASSERT_EQ(selection.ignored.size(), 1U);
-  const std::string text = describe(selection);
-  for (const char* part :
-       {"LiDAR", "'lidar'", "time per point", "IMU", "'imu'", "ignored", "'wheels'", "200.0 Hz"})
-    EXPECT_TRUE(contains(text, part)) << part << " in:\n" << text;
-}
-
-TEST_F(BridgeTest, takes_the_sensors_asked_for)
-{
-  auto objects = recording(3);
-  objects.push_back(cloudAt(0.2, "roof"));
-  objects.push_back(imuAt(0.2, "imu_2"));
-  EXPECT_EQ(select(objects).lidar.label, "lidar");
-  const auto selection = select(objects, {"ro.*", "imu_\\d"});
-  EXPECT_EQ(selection.lidar.label, "roof");
-  EXPECT_EQ(selection.imu.label, "imu_2");
-  EXPECT_EQ(selection.ignored.size(), 2U);
-}
-
-TEST_F(BridgeTest, looks_on_until_both_sensors_have_come)
-{
-  std::vector<Object> objects;
-  for (int i = 0; i < 2000; ++i)
-    objects.push_back(imuAt(0.005 * i));
-  objects.push_back(cloudAt(9.9));
-  EXPECT_EQ(select(objects).lidar.label, "lidar");
-}
-
-TEST_F(BridgeTest, says_what_is_missing_and_what_there_is)
-{
-  EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "No IMU found in the recording"));
-  EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "found: label 'lidar'"));
-  EXPECT_TRUE(contains(errorOf({imuAt(0)}), "No LiDAR found in the recording"));
-  const std::string no_match = errorOf(recording(2), {"roof", ""});
-  EXPECT_TRUE(contains(no_match, "matches 'roof'")) << no_match;
-  EXPECT_TRUE(contains(no_match, "--lidar-sensor-label")) << no_match;
-  EXPECT_TRUE(contains(no_match, "'lidar'")) << no_match;
-
-  auto objects = recording(2);
-  for (const Object& object : objects)
-    if (auto imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(object))
-      imu->dataIsPresent[mrpt::obs::IMU_X_ACC] = false;
-  const std::string no_acceleration = errorOf(objects);
-  EXPECT_TRUE(contains(no_acceleration, "No IMU of the recording can be used"));
-  EXPECT_TRUE(contains(no_acceleration, "no acceleration channels")) << no_acceleration;
-
-  const std::string unreadable = []
-  {
-    try
-    {
-      (void)selectSensors(surveySensors({"/nonexistent.rawlog"}, {}), {});
-    }
-    catch (const std::runtime_error& e)
-    {
-      return std::string(e.what());
-    }
-    return std::string();
-  }();
-  EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: there is no such file")) << unreadable;
-
-  EXPECT_THROW((void)select(recording(1), {"(", ""}), std::invalid_argument);
-}
-
-TEST_F(BridgeTest, extrinsic_comes_from_both_poses_or_the_override)
+TEST_F(ObservationBridgeTest, extrinsic_comes_from_both_poses_or_the_override)
 {
   auto objects = recording(1);
   const mrpt::poses::CPose3D T_vehicle_imu(0.5, 0, 0, M_PI / 2, 0, 0);
@@ -181,7 +46,7 @@ TEST_F(BridgeTest, extrinsic_comes_from_both_poses_or_the_override)
   EXPECT_TRUE(scanOf(options).T_imu_lidar.p.isApprox(Vec3(7, 8, 9), 1e-9));
 }
 
-TEST_F(BridgeTest, counts_everything)
+TEST_F(ObservationBridgeTest, counts_everything)
 {
   ObservationBridge bridge(select(recording(1)));
   const auto convert = [&](const mrpt::obs::CObservation& o) { return bridge.convert(o).index(); };
@@ -213,7 +78,7 @@ TEST_F(BridgeTest, counts_everything)
   EXPECT_EQ(s.points_converted, 6U);
 }
 
-TEST_F(BridgeTest, packets_go_through)
+TEST_F(ObservationBridgeTest, packets_go_through)
 {
   Packet packet = makePacket(0, 40, 0, 5000);
   setReturn(packet, 0, 0, 0);
@@ -230,7 +95,28 @@ TEST_F(BridgeTest, packets_go_through)
   EXPECT_EQ(bridge.statistics().packet_blocks_corrupt, 1U);
 }
 
-TEST_F(BridgeTest, reading_ahead_changes_nothing)
+TEST_F(ObservationBridgeTest, points_that_mrpt_cached_serve_where_packets_are_missing)
+{
+  const auto scan = makeVlp16Scan({makePacket(0, 40, 0, 5000), makePacket(480, 40, 1327, 5000)});
+  mrpt::obs::CObservationVelodyneScan::TGeneratePointCloudParameters timed;
+  timed.generatePerPointTimestamp = true;
+  scan->generatePointCloud(timed);
+  scan->scan_packets.clear();
+  ObservationBridge bridge(select({scan, imuAt(0)}));
+  EXPECT_TRUE(contains(bridge.selection().lidar.detail, "cached"))
+      << bridge.selection().lidar.detail;
+  const auto converted = std::get<LidarScan>(bridge.convert(*scan));
+  EXPECT_EQ(converted.points.size(), scan->point_cloud.size());
+  EXPECT_TRUE(converted.has_point_times);
+  EXPECT_NEAR(converted.points.time_offset_ns.back(), 1'327'000, 1000);
+  EXPECT_EQ(converted.points.intensity.back(), 100.0F);
+
+  scan->point_cloud.y.pop_back();
+  EXPECT_EQ(bridge.convert(*scan).index(), 0U);
+  EXPECT_EQ(bridge.statistics().scans_unreadable, 1U);
+}
+
+TEST_F(ObservationBridgeTest, reading_ahead_changes_nothing)
 {
   const auto objects = recording(50);
   const auto selection = select(objects);
@@ -259,7 +145,7 @@ TEST_F(BridgeTest, reading_ahead_changes_nothing)
   }
 }
 
-TEST_F(BridgeTest, reading_ahead_can_be_left_at_any_time)
+TEST_F(ObservationBridgeTest, reading_ahead_can_be_left_at_any_time)
 {
   const auto objects = recording(50);
   const auto selection = select(objects);

@@ -18,28 +18,8 @@ namespace
 {
 using namespace fastlio_test;
 using fastlio::decodeVelodyne;
-using fastlio::PointColumns;
 using mrpt::obs::CObservationVelodyneScan;
-using mrpt::obs::VelodyneCalibration;
 
-constexpr double kDegree = M_PI / 180.0;
-
-double rangeOf(const PointColumns& p, std::size_t i)
-{
-  return std::hypot(p.x[i], p.y[i], p.z[i]);
-}
-
-double elevationOf(const PointColumns& p, std::size_t i)
-{
-  return std::atan2(p.z[i], std::hypot(p.x[i], p.y[i])) / kDegree;
-}
-
-// Clockwise from x, as Velodyne counts, in [0, 360).
-double azimuthOf(const PointColumns& p, std::size_t i)
-{
-  const double degrees = std::atan2(-p.y[i], p.x[i]) / kDegree;
-  return degrees < 0 ? degrees + 360 : degrees;
-}
 }  // namespace
 
 TEST(Velodyne, vlp16_uses_both_firings_at_their_own_times)
@@ -184,70 +164,6 @@ TEST(Velodyne, dual_returns_share_their_time_and_identical_ones_count_once)
   EXPECT_EQ(at_time.size(), kBlocks / 2 * kReturns);
   EXPECT_EQ(at_time[0], 2);
   EXPECT_NEAR(at_time.rbegin()->first, (5 * 110.592 + 55.296 + 15 * 2.304) * 1e3, 1.0);
-}
-
-TEST(Velodyne, hdl32e_fires_32_lasers_per_block)
-{
-  auto scan = makeVlp16Scan({makePacket(0, 17, 0, 5000, 0x37, 0x21)});
-  for (const bool own_table : {false, true})
-  {
-    scan->calibration =
-        own_table ? VelodyneCalibration{} : VelodyneCalibration::LoadDefaultCalibration("HDL32");
-    const auto sweep = decodeVelodyne(*scan);
-    ASSERT_EQ(sweep.points.size(), kBlocks * kReturns);
-    EXPECT_NEAR(sweep.points.time_offset_ns[33], (46.08 + 1.152) * 1e3, 1.0);
-    EXPECT_NEAR(elevationOf(sweep.points, 0), -30.67, 1e-2);
-    EXPECT_NEAR(elevationOf(sweep.points, 1), -9.33, 1e-2);
-    EXPECT_NEAR(elevationOf(sweep.points, 31), 10.67, 1e-2);
-    EXPECT_EQ(sweep.points.ring[0], 0);
-    EXPECT_EQ(sweep.points.ring[31], 31);
-  }
-}
-
-TEST(Velodyne, hdl64e_has_two_banks_at_once_and_needs_its_calibration)
-{
-  Packet packet = makePacket(0, 17, 0, 5000, 0xF7, 0x31, 2);
-  for (std::size_t block = 1; block < kBlocks; block += 2)
-    setHeader(packet, block, 0xDDFF);
-  auto scan = makeVlp16Scan({packet});
-  scan->calibration.laser_corrections.resize(64);
-  for (std::size_t i = 0; i < 64; ++i)
-  {
-    auto& laser = scan->calibration.laser_corrections[i];
-    laser.verticalCorrection = 2.0 - 0.4 * static_cast<double>(i);
-    laser.sinVertCorrection = std::sin(laser.verticalCorrection * kDegree);
-    laser.cosVertCorrection = std::cos(laser.verticalCorrection * kDegree);
-    laser.azimuthCorrection = 5.0;
-    laser.distanceCorrection = 1.0;
-  }
-  const auto sweep = decodeVelodyne(*scan);
-  ASSERT_EQ(sweep.points.size(), kBlocks * kReturns);
-  EXPECT_EQ(fastlio::velodyneModelName(*scan), "HDL-64E");
-  EXPECT_EQ(sweep.points.time_offset_ns[0], sweep.points.time_offset_ns[kReturns]);
-  EXPECT_NEAR(sweep.points.time_offset_ns[2 * kReturns], 48e3, 1.0);
-  EXPECT_NEAR(rangeOf(sweep.points, 0), 11.0, 1e-5);
-  EXPECT_NEAR(azimuthOf(sweep.points, 0), 355.0, 1e-4);
-  EXPECT_NEAR(elevationOf(sweep.points, kReturns), 2.0 - 0.4 * 32, 1e-4);
-  EXPECT_EQ(sweep.points.ring[0], 63);
-}
-
-TEST(Velodyne, unknown_models_and_impossible_calibrations_are_named)
-{
-  auto scan = makeVlp16Scan({makePacket(0, 40, 0, 5000, 0x37, 0xA1)});
-  scan->calibration.clear();
-  EXPECT_EQ(fastlio::velodyneModelName(*scan), "unknown model");
-  try
-  {
-    (void)decodeVelodyne(*scan);
-    FAIL();
-  }
-  catch (const std::runtime_error& e)
-  {
-    EXPECT_NE(std::string(e.what()).find("161"), std::string::npos) << e.what();
-  }
-  auto broken = makeVlp16Scan({makePacket(0, 40, 0, 5000)});
-  broken->calibration.laser_corrections[3].distanceCorrection = NAN;
-  EXPECT_THROW((void)decodeVelodyne(*broken), std::runtime_error);
 }
 
 TEST(Velodyne, no_packets_no_points)

@@ -6,6 +6,7 @@
 #include "test_files.h"
 #include <fastlio/mrpt_bridge/conversions.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace
@@ -69,6 +70,22 @@ mrpt::obs::CObservationVelodyneScan::Ptr makeVlp16Scan(const std::vector<Packet>
   scan->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
   scan->scan_packets = packets;
   return scan;
+}
+
+double rangeOf(const fastlio::PointColumns& p, std::size_t i)
+{
+  return std::hypot(p.x[i], p.y[i], p.z[i]);
+}
+
+double elevationOf(const fastlio::PointColumns& p, std::size_t i)
+{
+  return std::atan2(p.z[i], std::hypot(p.x[i], p.y[i])) / kDegree;
+}
+
+double azimuthOf(const fastlio::PointColumns& p, std::size_t i)
+{
+  const double degrees = std::atan2(-p.y[i], p.x[i]) / kDegree;
+  return degrees < 0 ? degrees + 360 : degrees;
 }
 
 }  // namespace fastlio_test

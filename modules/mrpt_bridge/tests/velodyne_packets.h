@@ -4,9 +4,12 @@
 /** \file velodyne_packets.h Velodyne packets made byte by byte, as the manuals lay them out. */
 #pragma once
 
+#include <fastlio/lidar/scan.h>
+
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstdint>
+#include <vector>
 
 namespace fastlio_test
 {
@@ -28,5 +31,15 @@ void setReturn(
 
 /** A scan of these packets with MRPT's calibration of the VLP-16. */
 mrpt::obs::CObservationVelodyneScan::Ptr makeVlp16Scan(const std::vector<Packet>& packets);
+
+constexpr double kDegree = 0.017453292519943295;
+
+/** Spherical coordinates of a point [m], [deg]; azimuth clockwise from x, as Velodyne counts, in
+ * [0, 360).
+ * @{ */
+double rangeOf(const fastlio::PointColumns& points, std::size_t i);
+double elevationOf(const fastlio::PointColumns& points, std::size_t i);
+double azimuthOf(const fastlio::PointColumns& points, std::size_t i);
+/** @} */
 
 }  // namespace fastlio_test
