@@ -98,7 +98,7 @@ Offset offsetOf(const PointColumns& points, const Indices& indices, double dista
     sum += e;
     squares += e * e;
   }
-  const double n = double(indices.size());
+  const auto n = double(indices.size());
   return {sum / n, std::sqrt((squares / n - sum * sum / n / n) / n)};
 }
 

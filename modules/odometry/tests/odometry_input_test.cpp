@@ -208,6 +208,26 @@ TEST(OdometryInput, AbsurdInertialValuesNeverMakeTheStateInfinite)
   EXPECT_TRUE(allFinite(results));
 }
 
+TEST(OdometryInput, ALongGapOfTheImuIsToldAndSurvived)
+{
+  // 0.6 s at rest without samples; imu.max_gap is 0.5 s.
+  RoomSettings settings;
+  settings.rest = 3.5;
+  settings.duration = 5.0;
+  RoomRecording recording = recordRoom(settings);
+  recording.imu.erase(recording.imu.begin() + 500, recording.imu.begin() + 620);
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
+  const auto told = std::count_if(
+      results.begin(), results.end(),
+      [](const ScanResult& r) { return r.message.find("imu.max_gap") != std::string::npos; });
+  EXPECT_GE(told, 1);
+  EXPECT_LE(told, 8);
+  EXPECT_EQ(results.back().status, ScanStatus::Tracking);
+  EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
+}
+
 TEST(OdometryInput, RefusesUnusableParametersByName)
 {
   const auto refusal = [](auto change) -> std::string

@@ -47,7 +47,8 @@ RestTruth drawTruth(const InitializationParameters& p, Random& random)
 std::vector<ImuSample> samplesAtRest(const RestTruth& truth, Random& random)
 {
   std::vector<ImuSample> samples;
-  for (int i = 0; i < kSamples; ++i)
+  samples.reserve(kSamples);
+  for (std::int64_t i = 0; i < kSamples; ++i)
     samples.push_back(
         {5'000'000 * i, truth.gyro_bias + random.vector(kGyroNoise),
          truth.accel_bias - truth.g + random.vector(kAccelNoise)});
@@ -97,6 +98,7 @@ TEST(RestStatistics, AreMeanAndUnbiasedScatter)
 TEST(RestStatistics, DoNotCancelFarFromZero)
 {
   std::vector<ImuSample> samples;
+  samples.reserve(1000);
   for (int i = 0; i < 1000; ++i)
     samples.push_back({i, Vec3::Constant(1e4 + (i % 2) * 1e-4), Vec3::Constant(1e6)});
   EXPECT_NEAR(restStatistics(samples).gyro_std.x(), 0.5e-4, 1e-7);
@@ -202,7 +204,7 @@ TEST(WhyNotAtRest, AcceptsRest)
 
 TEST(WhyNotAtRest, NamesTheCauseAndTheParameter)
 {
-  const auto expectReason = [](RestStatistics rest, std::initializer_list<const char*> words)
+  const auto expectReason = [](const RestStatistics& rest, std::initializer_list<const char*> words)
   {
     const auto reason = whyNotAtRest(rest, {});
     ASSERT_TRUE(reason);
