@@ -89,11 +89,6 @@ void growIfPresent(mrpt::aligned_std_vector<T>& column)
 
 namespace mrpt::maps
 {
-CPointsMapXYZIRT::CPointsMapXYZIRT(const CPointsMapXYZIRT& other) : CSimplePointsMap()
-{
-  CPointsMapXYZIRT::impl_copyFrom(other);
-}
-
 CPointsMapXYZIRT& CPointsMapXYZIRT::operator=(const CPointsMapXYZIRT& other)
 {
   if (this != &other) impl_copyFrom(other);
@@ -176,9 +171,9 @@ void CPointsMapXYZIRT::impl_copyFrom(const CPointsMap& other)
 {
   CPointsMap::base_copyFrom(other);
   const auto* timed = dynamic_cast<const CPointsMapXYZIRT*>(&other);
-  m_intensity = timed ? timed->m_intensity : decltype(m_intensity){};
-  m_ring = timed ? timed->m_ring : decltype(m_ring){};
-  m_time = timed ? timed->m_time : decltype(m_time){};
+  m_intensity = timed != nullptr ? timed->m_intensity : decltype(m_intensity){};
+  m_ring = timed != nullptr ? timed->m_ring : decltype(m_ring){};
+  m_time = timed != nullptr ? timed->m_time : decltype(m_time){};
 }
 
 void CPointsMapXYZIRT::addFrom_classSpecific(

@@ -34,16 +34,17 @@ const char* toString(ImuDefect defect)
   return "unknown";
 }
 
-ImuConversion toImuSample(const CObservationIMU& imu)
+ImuConversion toImuSample(const CObservationIMU& observation)
 {
-  if (imu.timestamp == INVALID_TIMESTAMP) return unusable(ImuDefect::NoStamp);
-  if (!imu.has(IMU_X_ACC) || !imu.has(IMU_Y_ACC) || !imu.has(IMU_Z_ACC))
+  if (observation.timestamp == INVALID_TIMESTAMP) return unusable(ImuDefect::NoStamp);
+  if (!observation.has(IMU_X_ACC) || !observation.has(IMU_Y_ACC) || !observation.has(IMU_Z_ACC))
     return unusable(ImuDefect::NoAcceleration);
-  if (!imu.has(IMU_WX) || !imu.has(IMU_WY) || !imu.has(IMU_WZ))
+  if (!observation.has(IMU_WX) || !observation.has(IMU_WY) || !observation.has(IMU_WZ))
     return unusable(ImuDefect::NoAngularRate);
   const ImuSample sample{
-      toNanoseconds(imu.timestamp), Vec3(imu.get(IMU_WX), imu.get(IMU_WY), imu.get(IMU_WZ)),
-      Vec3(imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC))};
+      toNanoseconds(observation.timestamp),
+      Vec3(observation.get(IMU_WX), observation.get(IMU_WY), observation.get(IMU_WZ)),
+      Vec3(observation.get(IMU_X_ACC), observation.get(IMU_Y_ACC), observation.get(IMU_Z_ACC))};
   if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return unusable(ImuDefect::NotFinite);
   return {sample, ImuDefect::None};
 }

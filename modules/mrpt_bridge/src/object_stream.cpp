@@ -147,7 +147,7 @@ std::optional<ObjectHeader> ObjectStream::lastHeaderRead() const
   {
     if (position_ - object_ < length + 2) return {};
     const std::size_t at = position_ - length - 2;
-    const auto header = headerAt(at);
+    auto header = headerAt(at);
     if (header && header->length == length + 1) return header;
   }
   return {};

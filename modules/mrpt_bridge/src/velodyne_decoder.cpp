@@ -20,7 +20,6 @@ using fastlio::FiringTiming;
 using fastlio::headerOf;
 using fastlio::intensityOf;
 using fastlio::LaserGeometry;
-using fastlio::timeOf;
 using fastlio::VelodyneModel;
 using fastlio::VelodyneSweep;
 using Scan = mrpt::obs::CObservationVelodyneScan;
@@ -99,7 +98,8 @@ double azimuthPerMicrosecond(
 
 double packetDuration(const PacketLayout& layout, const FiringTiming& timing)
 {
-  return static_cast<double>(kBlocks / layout.blocks_per_group) * timing.block_us;
+  const std::size_t groups = kBlocks / layout.blocks_per_group;
+  return static_cast<double>(groups) * timing.block_us;
 }
 
 // Packets carry microseconds past the hour. A stamp that does not follow the first packet's within
@@ -154,6 +154,22 @@ const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std
   return second ? &packet.blocks[index - banks] : nullptr;
 }
 
+// Which laser of its bank gave return i of a block, and when [us after the block's first].
+struct Firing
+{
+  std::size_t laser;
+  double since_block_us;
+};
+
+Firing firingOf(std::size_t i, const FiringTiming& timing)
+{
+  const std::size_t sequence = i / timing.lasers_per_sequence;
+  const std::size_t laser = i % timing.lasers_per_sequence;
+  return {
+      laser, static_cast<double>(sequence) * timing.sequence_us +
+                 static_cast<double>(laser) * timing.laser_us};
+}
+
 void decodeBlock(
     VelodyneSweep& sweep, const Packet& packet, const Sensor& sensor, const PacketLayout& layout,
     std::size_t index)
@@ -162,11 +178,13 @@ void decodeBlock(
   const Block* first_return = firstReturnOf(packet, layout, index);
   const FiringTiming& timing = sensor.timing;
   const std::size_t bank = headerOf(block) == Scan::LOWER_BANK ? timing.lasers_per_sequence : 0;
-  const double block_us = static_cast<double>(index / layout.blocks_per_group) * timing.block_us;
+  const std::size_t group = index / layout.blocks_per_group;
+  const double block_us = layout.offset_us + static_cast<double>(group) * timing.block_us;
   for (std::size_t i = 0; i < kReturns; ++i)
   {
     const int raw = distanceOf(block, i);
-    const LaserGeometry& laser = sensor.lasers[bank + i % timing.lasers_per_sequence];
+    const Firing firing = firingOf(i, timing);
+    const LaserGeometry& laser = sensor.lasers[bank + firing.laser];
     const double distance = raw * kMetresPerUnit + laser.distance_correction;
     if (raw == 0)
       ++sweep.counts.no_return;
@@ -176,14 +194,10 @@ void decodeBlock(
       ++sweep.counts.out_of_range;
     else
     {
-      const double since_block_us =
-          static_cast<double>(i / timing.lasers_per_sequence) * timing.sequence_us +
-          static_cast<double>(i % timing.lasers_per_sequence) * timing.laser_us;
       const double azimuth =
-          azimuthOf(block) * kRadiansPerUnit + since_block_us * layout.azimuth_per_us;
+          azimuthOf(block) * kRadiansPerUnit + firing.since_block_us * layout.azimuth_per_us;
       addPoint(
-          sweep, laser, distance, azimuth, intensityOf(block, i),
-          layout.offset_us + block_us + since_block_us);
+          sweep, laser, distance, azimuth, intensityOf(block, i), block_us + firing.since_block_us);
     }
   }
 }

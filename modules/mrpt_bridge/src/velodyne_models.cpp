@@ -77,6 +77,7 @@ LaserGeometry laserAt(double elevation_deg, double offset_z)
 std::vector<LaserGeometry> fromTable(const std::array<PuckLaser, 16>& table)
 {
   std::vector<LaserGeometry> lasers;
+  lasers.reserve(table.size());
   for (const PuckLaser& entry : table)
     lasers.push_back(laserAt(entry.elevation_deg, 1e-3 * entry.offset_mm));
   return lasers;
@@ -88,7 +89,8 @@ std::vector<LaserGeometry> hdl32eLasers()
   for (std::size_t i = 0; i < kLasersHdl32e; ++i)
   {
     const double lowest = i % 2 == 0 ? kHdl32eLowestDeg : kHdl32eOddLowestDeg;
-    lasers.push_back(laserAt(lowest + kHdl32eStepDeg * static_cast<double>(i / 2), 0.0));
+    const std::size_t steps = i / 2;
+    lasers.push_back(laserAt(lowest + kHdl32eStepDeg * static_cast<double>(steps), 0.0));
   }
   return lasers;
 }

@@ -32,7 +32,7 @@ class CPointsMapXYZIRT : public CSimplePointsMap
 
  public:
   CPointsMapXYZIRT() = default;
-  CPointsMapXYZIRT(const CPointsMapXYZIRT& other);
+  CPointsMapXYZIRT(const CPointsMapXYZIRT& other) = default;
   CPointsMapXYZIRT& operator=(const CPointsMapXYZIRT& other);
   ~CPointsMapXYZIRT() override = default;
 
