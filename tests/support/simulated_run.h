@@ -1,0 +1,51 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file simulated_run.h The odometry on a simulated recording in memory, with the truth beside
+ * every estimate. */
+#pragma once
+
+#include <fastlio/evaluation/evaluate.h>
+#include <fastlio/odometry/odometry.h>
+#include <fastlio/simulation/recording.h>
+#include <fastlio/simulation/simulation.h>
+
+#include <string>
+#include <vector>
+
+namespace fastlio::testing
+{
+/** An estimate and what is true at its stamp; the truth is in the simulator's world. */
+struct JudgedScan
+{
+  ScanResult result;
+  Kinematics truth;
+  ImuBias true_bias;
+};
+
+/** The scans of a run in their order. */
+struct SimulatedRun
+{
+  std::vector<JudgedScan> scans;
+  Pose T_est_sim;  //!< the simulator's world in the filter's, exactly: both know the start pose
+  Vec3 gravity = Vec3::Zero();  //!< true, in the simulator's world [m/s^2]
+};
+
+/** Feeds a whole recording to an odometry of its own. \param parameters mostly
+ * matchingParameters() */
+[[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters);
+
+/** The same with the parameters that match the simulated sensors, on one thread. */
+[[nodiscard]] SimulatedRun runOdometry(const SimulationSettings& settings);
+
+/** Estimate (with covariances) and truth as trajectories. */
+[[nodiscard]] Trajectory estimateOf(const SimulatedRun& run);
+[[nodiscard]] Trajectory truthOf(const SimulatedRun& run);
+
+/** Error of an estimate, truth [-] estimate in the filter's world, order of StateBlock. */
+[[nodiscard]] StateVector stateError(const SimulatedRun& run, const JudgedScan& scan);
+
+/** Number of scans with a status. */
+[[nodiscard]] std::size_t countOf(const SimulatedRun& run, ScanStatus status);
+
+}  // namespace fastlio::testing
