@@ -24,18 +24,23 @@ VoxelPlaneOptions halfMetre()
   return o;
 }
 
-/** Points on z = height, |x - x0|, |y - y0| < half, with noise, seen from above. */
+/** Points on z = height, |x - x0|, |y - y0| < half, seen from 3 m above the middle with noise along
+ * the beams. */
 Cloud patch(float x0, float y0, float height, float half, std::size_t n, float noise = 0.01F)
 {
   std::mt19937 rng(5);
   std::uniform_real_distribution<float> u(-half, half);
-  std::normal_distribution<float> e(0.0F, noise);
+  std::normal_distribution<float> e(0.0F, 1.0F);
+  const Eigen::Vector3f sensor(x0, y0, height + 3.0F);
   Cloud cloud;
   for (std::size_t i = 0; i < n; ++i)
-    cloud.add({x0 + u(rng), y0 + u(rng), height + e(rng)});
+  {
+    const Eigen::Vector3f p(x0 + u(rng), y0 + u(rng), height);
+    const Eigen::Vector3f measured = p + noise * e(rng) * (p - sensor).normalized();
+    cloud.add({measured.x(), measured.y(), measured.z()});
+  }
   return cloud;
 }
-
 }  // namespace
 
 TEST(VoxelPlaneMap, MatchesLieOnTheSurfaceWithinTheirVariance)
@@ -44,9 +49,9 @@ TEST(VoxelPlaneMap, MatchesLieOnTheSurfaceWithinTheirVariance)
   // wall would cut its points in two.
   VoxelPlaneMap map(halfMetre());
   const float height = 0.75F;
-  map.insert(worldPoints(patch(0.0F, 0.0F, height, 20.0F, 100000)), {0.0, 0.0, 9.0});
+  map.insert(worldPoints(patch(0.0F, 0.0F, height, 8.0F, 16000)), {0.0, 0.0, height + 3.0});
   double sum = 0.0;
-  const Cloud queries = patch(0.0F, 0.0F, height, 19.5F, 10000, 0.0F);
+  const Cloud queries = patch(0.0F, 0.0F, height, 7.5F, 10000, 0.0F);
   for (const Xyz& p : queries.points)
   {
     const PlaneMatch m = matchOne(map, p);
@@ -62,7 +67,7 @@ TEST(VoxelPlaneMap, MatchesLieOnTheSurfaceWithinTheirVariance)
 TEST(VoxelPlaneMap, AveragesAWallOverTheWholeBlock)
 {
   VoxelPlaneMap map(halfMetre());
-  map.insert(worldPoints(patch(1.0F, 1.0F, 0.25F, 0.99F, 2000)), {1.0, 1.0, 3.0});
+  map.insert(worldPoints(patch(1.0F, 1.0F, 0.25F, 0.99F, 2000, 0.0F)), {1.0, 1.0, 3.25});
   const PlaneMatch m = matchOne(map, {0.7F, 1.3F, 0.25F});
   ASSERT_TRUE(m.valid());
   EXPECT_LT(m.shared_variance, 3.0F * 1e-4F / 2000.0F);
