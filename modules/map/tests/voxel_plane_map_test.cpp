@@ -58,9 +58,9 @@ TEST(VoxelPlaneMap, MatchesLieOnTheSurfaceWithinTheirVariance)
     ASSERT_TRUE(m.valid());
     sum += residual(m, p) * residual(m, p) / double(m.variance);
   }
-  // About 1; below, as scatter that is there by chance counts as roughness of the surface, which
-  // the points of the test do not have.
-  EXPECT_GT(sum / double(queries.size()), 0.3);
+  // At most about 1; below, as slanted beams are less noisy across the floor than the sensor's
+  // range noise, and as scatter that is there by chance counts as roughness.
+  EXPECT_GT(sum / double(queries.size()), 0.1);
   EXPECT_LT(sum / double(queries.size()), 1.3);
 }
 
