@@ -34,7 +34,7 @@ std::vector<Object> recording(int scans)
 
 std::string BridgeTest::fileOf(const std::vector<Object>& objects)
 {
-  const std::string name = folder_.file("log.rawlog");
+  std::string name = folder_.file("log.rawlog");
   write(name, gzip(serialize(objects)));
   return name;
 }

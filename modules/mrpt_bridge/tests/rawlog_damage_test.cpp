@@ -28,6 +28,7 @@ class RawlogDamageTest : public RawlogTest
 std::vector<std::size_t> endsOf(const std::vector<Object>& objects)
 {
   std::vector<std::size_t> ends;
+  ends.reserve(objects.size());
   for (const Object& object : objects)
     ends.push_back((ends.empty() ? 0 : ends.back()) + serialize({object}).size());
   return ends;

@@ -27,6 +27,7 @@ Reading readAll(const std::vector<std::string>& files, const fastlio::RawlogSour
 std::vector<Object> samples(int count)
 {
   std::vector<Object> objects;
+  objects.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     objects.push_back(imuAt(0.005 * i));
   return objects;

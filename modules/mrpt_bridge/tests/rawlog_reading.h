@@ -35,7 +35,7 @@ class RawlogTest : public testing::Test
   /** The name of a file with these bytes. */
   std::string fileOf(const std::string& bytes)
   {
-    const std::string name = folder_.file("log.rawlog");
+    std::string name = folder_.file("log.rawlog");
     write(name, bytes);
     return name;
   }

@@ -4,6 +4,7 @@
 // Which sensors of a recording are chosen, and what is said when there are none.
 
 #include "bridge_recording.h"
+#include "rawlog_reading.h"
 #include <fastlio/mrpt_bridge/conversions.h>
 
 #include <mrpt/obs/CObservationOdometry.h>
@@ -67,9 +68,7 @@ TEST_F(SensorSelectionTest, takes_the_sensors_asked_for)
 
 TEST_F(SensorSelectionTest, looks_on_until_both_sensors_have_come)
 {
-  std::vector<Object> objects;
-  for (int i = 0; i < 2000; ++i)
-    objects.push_back(imuAt(0.005 * i));
+  std::vector<Object> objects = samples(2000);
   objects.push_back(cloudAt(9.9));
   EXPECT_EQ(select(objects).lidar.label, "lidar");
 }
