@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace fastlio
 {
@@ -17,6 +19,8 @@ constexpr std::uint32_t kGoldenSection = 0x9E3779B9U;
 // Another irrational for the start of each scan, so that it is not a mere shift of the sequence.
 constexpr std::uint32_t kScanStep = 0xB504F333U;
 constexpr float kFixedPointOne = 4294967296.0F;
+// Times any squared range this exceeds every draw.
+constexpr float kKeepAll = std::numeric_limits<float>::infinity();
 
 // Bins of a logarithmic histogram: exponent and the upper two bits of the mantissa, from 2^-16 m^2
 // on.
@@ -43,16 +47,15 @@ float binValue(std::size_t bin)
 }
 }  // namespace
 
-void ScanReducer::gateRanges(
-    const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection)
+ScanReducer::ScanReducer(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
+
+ScanReducer::Ranges ScanReducer::gateRanges(
+    const PointColumns& points, const ReductionLimits& limits, std::size_t first, std::size_t last)
 {
   const float min2 = limits.min_range * limits.min_range;
   const float max2 = limits.max_range * limits.max_range;
-  selection.dropped_invalid = selection.dropped_near = selection.dropped_far = 0;
-  squared_ranges_.resize(points.size());
-  counts_.fill(0);
-  usable_ = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  Ranges ranges;
+  for (std::size_t i = first; i < last; ++i)
   {
     const float x = points.x[i], y = points.y[i], z = points.z[i];
     const float range2 = x * x + y * y + z * z;
@@ -60,49 +63,99 @@ void ScanReducer::gateRanges(
     squared_ranges_[i] = usable ? range2 : 0.0F;
     if (usable)
     {
-      ++counts_[binOf(range2, kBins)];
-      ++usable_;
+      ++ranges.counts[binOf(range2, kBins)];
+      ++ranges.usable;
     }
     else if (!(range2 > 0.0F) || !std::isfinite(range2))
-      ++selection.dropped_invalid;
+      ++ranges.invalid;
     else
-      ++(range2 < min2 ? selection.dropped_near : selection.dropped_far);
+      ++(range2 < min2 ? ranges.near : ranges.far);
   }
+  return ranges;
 }
 
-float ScanReducer::densityFactor(std::size_t target) const
+ScanReducer::Ranges ScanReducer::gateRanges(
+    const PointColumns& points, const ReductionLimits& limits)
+{
+  squared_ranges_.resize(points.size());
+  chunk_ranges_.resize(Workers::chunks(points.size(), kChunk));
+  workers_->forEachChunk(
+      points.size(), kChunk,
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_ranges_[chunk] = gateRanges(points, limits, first, last); });
+  Ranges total;
+  for (const Ranges& part : chunk_ranges_)
+  {
+    for (std::size_t bin = 0; bin < kBins; ++bin)
+      total.counts[bin] += part.counts[bin];
+    total.usable += part.usable;
+    total.invalid += part.invalid;
+    total.near += part.near;
+    total.far += part.far;
+  }
+  return total;
+}
+
+float ScanReducer::densityFactor(const Ranges& ranges, std::size_t target)
 {
   // Bins from the farthest on are kept whole while the rest can be thinned to meet the target.
   double rest_sum = 0.0;
   for (std::size_t bin = 0; bin < kBins; ++bin)
-    rest_sum += static_cast<double>(counts_[bin]) * static_cast<double>(binValue(bin));
+    rest_sum += static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
   double whole = 0.0;
   for (std::size_t bin = kBins; bin-- > 0;)
   {
     const double factor = (static_cast<double>(target) - whole) / std::max(rest_sum, 1e-30);
     if (factor * static_cast<double>(binValue(bin)) <= 1.0) return static_cast<float>(factor);
-    whole += counts_[bin];
-    rest_sum -= static_cast<double>(counts_[bin]) * static_cast<double>(binValue(bin));
+    whole += ranges.counts[bin];
+    rest_sum -= static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
   }
-  return kFixedPointOne;
+  return kKeepAll;
+}
+
+/** Draws for the points [first, last); the chosen ones stand at kept_[first] and after it. */
+std::size_t ScanReducer::keep(float factor, std::size_t first, std::size_t last)
+{
+  const std::uint32_t start = scan_ * kScanStep;
+  std::size_t kept = 0;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    const std::uint32_t draw = start + static_cast<std::uint32_t>(i) * kGoldenSection;
+    const float range2 = squared_ranges_[i];
+    // Written always, counted when chosen: no branch that depends on the draw.
+    kept_[first + kept] = static_cast<std::uint32_t>(i);
+    kept += range2 > 0.0F && static_cast<float>(draw) < factor * range2 ? 1 : 0;
+  }
+  return kept;
+}
+
+void ScanReducer::gather(std::vector<std::uint32_t>& indices) const
+{
+  indices.clear();
+  for (std::size_t chunk = 0; chunk < kept_counts_.size(); ++chunk)
+  {
+    const auto begin = kept_.begin() + static_cast<std::ptrdiff_t>(chunk * kChunk);
+    indices.insert(indices.end(), begin, begin + static_cast<std::ptrdiff_t>(kept_counts_[chunk]));
+  }
 }
 
 void ScanReducer::select(
     const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection)
 {
-  gateRanges(points, limits, selection);
-  selection.indices.clear();
-  const bool keep_all = limits.target_points == 0 || usable_ <= limits.target_points;
-  const float factor =
-      keep_all ? kFixedPointOne : densityFactor(limits.target_points) * kFixedPointOne;
-  const std::uint32_t start = ++scan_ * kScanStep;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const std::uint32_t draw = start + static_cast<std::uint32_t>(i) * kGoldenSection;
-    const float range2 = squared_ranges_[i];
-    if (range2 > 0.0F && (keep_all || static_cast<float>(draw) < factor * range2))
-      selection.indices.push_back(static_cast<std::uint32_t>(i));
-  }
+  const Ranges ranges = gateRanges(points, limits);
+  selection.dropped_invalid = ranges.invalid;
+  selection.dropped_near = ranges.near;
+  selection.dropped_far = ranges.far;
+  const bool keep_all = limits.target_points == 0 || ranges.usable <= limits.target_points;
+  const float factor = keep_all ? kKeepAll : densityFactor(ranges, limits.target_points);
+  ++scan_;
+  kept_.resize(points.size());
+  kept_counts_.resize(chunk_ranges_.size());
+  workers_->forEachChunk(
+      points.size(), kChunk,
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { kept_counts_[chunk] = keep(factor * kFixedPointOne, first, last); });
+  gather(selection.indices);
 }
 
 }  // namespace fastlio

@@ -202,6 +202,25 @@ TEST(ScanReducer, TheSameSequenceOfScansGivesTheSameChoices)
   }
 }
 
+TEST(ScanReducer, ChoosesTheSameOnAnyNumberOfThreads)
+{
+  for (const int threads : {2, 3, 5})
+  {
+    ScanReducer serial, parallel(std::make_shared<const Workers>(threads));
+    for (std::size_t k = 0; k < 5; ++k)
+    {
+      const PointColumns points = randomScan(50 + 9000 * k, rangeLaws()[k].range);
+      ScanSelection expected, s;
+      serial.select(points, {2.0F, 60.0F, 800}, expected);
+      parallel.select(points, {2.0F, 60.0F, 800}, s);
+      EXPECT_EQ(s.indices, expected.indices);
+      EXPECT_EQ(s.dropped_invalid, expected.dropped_invalid);
+      EXPECT_EQ(s.dropped_near, expected.dropped_near);
+      EXPECT_EQ(s.dropped_far, expected.dropped_far);
+    }
+  }
+}
+
 TEST(ScanReducer, ARestingSensorUsesEveryPointInTurn)
 {
   const PointColumns points = scanAtRange(3000, 10.0);

@@ -1,43 +1,22 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "voxel_blocks.h"
 #include <fastlio/map/voxel_plane_map.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace fastlio
 {
+using namespace voxel_blocks;
+
 namespace
 {
-constexpr int kAxisBits = 21;
-constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
 // A sweep over all blocks is spread over so many calls of removeOutside().
 constexpr std::size_t kSweepCalls = 16;
-// Slots of a block: 64 finest, then 8 middle, then 1 coarse voxel.
-constexpr std::uint8_t kMiddleSlot = 64, kCoarseSlot = 72;
-
-std::uint64_t packKey(std::int64_t x, std::int64_t y, std::int64_t z)
-{
-  const auto axis = [](std::int64_t i)
-  { return static_cast<std::uint64_t>(i + kAxisBias) & kAxisMask; };
-  return (axis(x) << (2 * kAxisBits)) | (axis(y) << kAxisBits) | axis(z);
-}
-
-Eigen::Vector3f unpackKey(std::uint64_t key)
-{
-  const auto axis = [&](int shift)
-  { return static_cast<float>(static_cast<std::int64_t>((key >> shift) & kAxisMask) - kAxisBias); };
-  return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
-}
-
-/** Row-major position of a voxel among n x n x n. */
-std::uint8_t rowMajor(std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t n)
-{
-  return static_cast<std::uint8_t>((x * n + y) * n + z);
-}
 
 void requirePositive(double value, const char* name)
 {
@@ -47,7 +26,9 @@ void requirePositive(double value, const char* name)
 }
 }  // namespace
 
-VoxelPlaneMap::VoxelPlaneMap(const VoxelPlaneOptions& options) : options_(options)
+VoxelPlaneMap::VoxelPlaneMap(
+    const VoxelPlaneOptions& options, std::shared_ptr<const Workers> workers)
+    : workers_(std::move(workers)), options_(options)
 {
   requirePositive(options.voxel_size, "voxel_size");
   requirePositive(options.rules.point_noise, "rules.point_noise");
@@ -126,76 +107,6 @@ void VoxelPlaneMap::match(
     }
     matches[i] = block == nullptr ? PlaneMatch{} : bestPlane(*block, address, x, y, z);
   }
-}
-
-std::uint32_t VoxelPlaneMap::findOrAddBlock(std::uint64_t key)
-{
-  const auto it = index_.find(key);
-  if (it != index_.end()) return it->second;
-  auto block = static_cast<std::uint32_t>(blocks_.size());
-  if (free_blocks_.empty())
-    blocks_.emplace_back();
-  else
-  {
-    block = free_blocks_.back();
-    free_blocks_.pop_back();
-    blocks_[block] = Block{};
-  }
-  blocks_[block].key = key;
-  blocks_[block].used = true;
-  index_.emplace(key, block);
-  return block;
-}
-
-std::uint32_t VoxelPlaneMap::addVoxel()
-{
-  if (!free_voxels_.empty())
-  {
-    const std::uint32_t index = free_voxels_.back();
-    free_voxels_.pop_back();
-    voxelAt(index) = PlaneVoxel{};
-    return index;
-  }
-  if (pool_size_ / kPoolChunk >= pool_.size())
-    pool_.push_back(std::make_unique<std::array<PlaneVoxel, kPoolChunk>>());
-  return pool_size_++;
-}
-
-void VoxelPlaneMap::addPoint(
-    std::uint32_t block, const Address& address, const Eigen::Vector3f& point,
-    const Eigen::Vector3f& beam)
-{
-  for (const std::uint8_t slot : address.slots)
-  {
-    std::uint32_t& index = blocks_[block].voxels[slot];
-    if (index == kNone)
-    {
-      index = addVoxel();
-      finest_count_ += slot < kMiddleSlot ? 1 : 0;
-    }
-    PlaneVoxel& voxel = voxelAt(index);
-    voxel.add(point - centerOf(address.block_key, slot), beam);
-    if (voxel.claimRefit()) refits_.push_back({index, block, slot});
-  }
-}
-
-void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
-{
-  ++scan_;
-  const Eigen::Vector3f origin = sensor_origin.cast<float>();
-  std::uint64_t last_key = 0;
-  std::uint32_t block = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
-    const Address address = addressOf(point.x(), point.y(), point.z());
-    if (i == 0 || address.block_key != last_key) block = findOrAddBlock(address.block_key);
-    last_key = address.block_key;
-    addPoint(block, address, point, (point - origin).normalized());
-  }
-  for (const Refit& r : refits_)
-    voxelAt(r.voxel).fit(centerOf(blocks_[r.block].key, r.slot), options_.rules, scan_);
-  refits_.clear();
 }
 
 void VoxelPlaneMap::dropBlock(Block& block)

@@ -4,7 +4,7 @@
 #include <fastlio/odometry/deskew.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace fastlio
 {
@@ -15,14 +15,6 @@ using Vec3f = Eigen::Vector3f;
 
 // A first-order step of this angle leaves an error of angle^2/8 of the range: below 0.1 mm at 10 m.
 constexpr double kMaxStepAngle = 0.01;
-
-/** p_I_end = (M + dt N) p_L + (b + dt c) around the middle of a short step. */
-struct MotionStep
-{
-  std::int64_t begin_ns = 0, middle_ns = 0;
-  Mat3f M, N;
-  Vec3f b, c;
-};
 
 MotionStep stepAt(
     const MotionKnot& knot, std::int64_t begin_ns, std::int64_t middle_ns, const Pose& T_imu_lidar)
@@ -41,10 +33,10 @@ MotionStep stepAt(
 }
 
 /** Splits the knots' intervals so that no step turns by more than kMaxStepAngle. */
-std::vector<MotionStep> motionSteps(const std::vector<MotionKnot>& knots, const Pose& T_imu_lidar)
+void splitMotion(
+    const std::vector<MotionKnot>& knots, const Pose& T_imu_lidar, std::vector<MotionStep>& steps)
 {
-  std::vector<MotionStep> steps;
-  steps.reserve(2 * knots.size());
+  steps.clear();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
   {
     const std::int64_t length_ns = knots[i + 1].stamp_ns - knots[i].stamp_ns;
@@ -56,10 +48,10 @@ std::vector<MotionStep> motionSteps(const std::vector<MotionKnot>& knots, const 
       steps.push_back(stepAt(knots[i], begin_ns, begin_ns + length_ns / (2 * parts), T_imu_lidar));
     }
   }
-  return steps;
 }
 
-/** Walks to the step that holds a stamp; cheap when the stamps come nearly in order. */
+/** The last step that has begun at a stamp, whatever \a from; cheap when the stamps come nearly in
+ * order. */
 std::size_t walkToStep(
     const std::vector<MotionStep>& steps, std::size_t from, std::int64_t stamp_ns)
 {
@@ -80,6 +72,11 @@ void store(BodyPoints& body, std::size_t i, const Vec3f& p, const Vec3f& beam)
   body.uy[i] = beam.y() * inverse_range;
   body.uz[i] = beam.z() * inverse_range;
 }
+
+Vec3f pointOf(const PointColumns& points, std::uint32_t i)
+{
+  return {points.x[i], points.y[i], points.z[i]};
+}
 }  // namespace
 
 void BodyPoints::resize(std::size_t n)
@@ -88,40 +85,47 @@ void BodyPoints::resize(std::size_t n)
     column->resize(n);
 }
 
-void deskew(
+Deskewer::Deskewer(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
+
+void Deskewer::deskew(
     const LidarScan& scan, const std::vector<std::uint32_t>& indices,
     const std::vector<MotionKnot>& knots, BodyPoints& body)
 {
-  const std::vector<MotionStep> steps = motionSteps(knots, scan.T_imu_lidar);
-  if (steps.empty()) return transformToBody(scan, indices, body);
+  splitMotion(knots, scan.T_imu_lidar, steps_);
+  if (steps_.empty()) return transformToBody(scan, indices, body);
   body.resize(indices.size());
-  const PointColumns& points = scan.points;
-  std::size_t at = 0;
-  for (std::size_t i = 0; i < indices.size(); ++i)
+  const auto chunk = [&](std::size_t, std::size_t first, std::size_t last)
   {
-    const std::uint32_t j = indices[i];
-    const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[j];
-    at = walkToStep(steps, at, stamp_ns);
-    const MotionStep& step = steps[at];
-    const float dt = static_cast<float>(stamp_ns - step.middle_ns) * 1e-9F;
-    const Vec3f p(points.x[j], points.y[j], points.z[j]);
-    const Vec3f beam = step.M * p + dt * (step.N * p);
-    store(body, i, beam + step.b + dt * step.c, beam);
-  }
+    std::size_t at = 0;
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const std::int64_t stamp_ns = scan.stamp_ns + scan.points.time_offset_ns[indices[i]];
+      at = walkToStep(steps_, at, stamp_ns);
+      const MotionStep& step = steps_[at];
+      const float dt = static_cast<float>(stamp_ns - step.middle_ns) * 1e-9F;
+      const Vec3f p = pointOf(scan.points, indices[i]);
+      const Vec3f beam = step.M * p + dt * (step.N * p);
+      store(body, i, beam + step.b + dt * step.c, beam);
+    }
+  };
+  workers_->forEachChunk(indices.size(), chunk);
 }
 
-void transformToBody(
-    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body)
+void Deskewer::transformToBody(
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body) const
 {
   body.resize(indices.size());
   const Mat3f R = scan.T_imu_lidar.R.cast<float>();
   const Vec3f t = scan.T_imu_lidar.p.cast<float>();
-  for (std::size_t i = 0; i < indices.size(); ++i)
+  const auto chunk = [&](std::size_t, std::size_t first, std::size_t last)
   {
-    const std::uint32_t j = indices[i];
-    const Vec3f beam = R * Vec3f(scan.points.x[j], scan.points.y[j], scan.points.z[j]);
-    store(body, i, beam + t, beam);
-  }
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const Vec3f beam = R * pointOf(scan.points, indices[i]);
+      store(body, i, beam + t, beam);
+    }
+  };
+  workers_->forEachChunk(indices.size(), chunk);
 }
 
 }  // namespace fastlio

@@ -6,6 +6,8 @@
 #include <fastlio/map/knn_surface_map.h>
 #include <fastlio/map/voxel_plane_map.h>
 
+#include <utility>
+
 namespace fastlio
 {
 namespace
@@ -19,18 +21,20 @@ std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters, NeighborEng
   return std::make_unique<KnnSurfaceMap>(options);
 }
 
-std::unique_ptr<SurfaceMap> makePlaneMap(const Parameters& parameters)
+std::unique_ptr<SurfaceMap> makePlaneMap(
+    const Parameters& parameters, std::shared_ptr<const Workers> workers)
 {
   VoxelPlaneOptions options;
   options.voxel_size = parameters.map.voxel_size;
   options.rules.min_incidence = static_cast<float>(parameters.map.min_incidence);
   options.rules.max_thickness = static_cast<float>(parameters.map.max_thickness);
   options.rules.point_noise = static_cast<float>(parameters.measurement.range_noise);
-  return std::make_unique<VoxelPlaneMap>(options);
+  return std::make_unique<VoxelPlaneMap>(options, std::move(workers));
 }
 }  // namespace
 
-std::unique_ptr<SurfaceMap> makeSurfaceMap(const Parameters& parameters)
+std::unique_ptr<SurfaceMap> makeSurfaceMap(
+    const Parameters& parameters, std::shared_ptr<const Workers> workers)
 {
   switch (parameters.map.type)
   {
@@ -41,7 +45,7 @@ std::unique_ptr<SurfaceMap> makeSurfaceMap(const Parameters& parameters)
     case MapType::Planes:
       break;
   }
-  return makePlaneMap(parameters);
+  return makePlaneMap(parameters, std::move(workers));
 }
 
 }  // namespace fastlio

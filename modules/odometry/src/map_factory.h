@@ -6,11 +6,14 @@
 
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/parameters.h>
+#include <fastlio/parallel/workers.h>
 
 #include <memory>
 
 namespace fastlio
 {
-[[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(const Parameters& parameters);
+/** \param workers who share the map's insertions */
+[[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
+    const Parameters& parameters, std::shared_ptr<const Workers> workers);
 
 }  // namespace fastlio

@@ -55,7 +55,11 @@ void describeUpdate(const UpdateResult& update, ScanStatistics& statistics)
 }  // namespace
 
 ScanPipeline::ScanPipeline(const Parameters& parameters)
-    : parameters_(parameters), map_(makeSurfaceMap(parameters)), workers_(parameters.threads)
+    : parameters_(parameters),
+      workers_(std::make_shared<const Workers>(parameters.threads)),
+      map_(makeSurfaceMap(parameters, workers_)),
+      reducer_(workers_),
+      deskewer_(workers_)
 {
 }
 
@@ -79,7 +83,8 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
-  filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3) by rounding
+  filter_.x.R =
+      normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3) by rounding
   state_ns_ = span.end_ns;
   result.filter = considerMapError(predicted);
   judge(update, result);
@@ -139,17 +144,17 @@ void ScanPipeline::compensate(
   if (parameters_.lidar.deskew && scan.has_point_times)
   {
     backwardPropagate(predicted.x, span.end_ns, inputs_, knots_);
-    deskew(scan, selection_.indices, knots_, body_);
+    deskewer_.deskew(scan, selection_.indices, knots_, body_);
   }
   else
-    transformToBody(scan, selection_.indices, body_);
+    deskewer_.transformToBody(scan, selection_.indices, body_);
   timings_.deskew = watch.milliseconds();
 }
 
 void ScanPipeline::associate(const Pose& T_world_imu)
 {
   const Stopwatch watch;
-  workers_.forEachChunk(
+  workers_->forEachChunk(
       body_.size(),
       [&](std::size_t, std::size_t first, std::size_t last)
       {
@@ -163,7 +168,7 @@ MeasurementEvaluation ScanPipeline::evaluate(
     const NavState& iterate, const ResidualModel& model, int iteration)
 {
   if (iteration < parameters_.measurement.association_iterations) associate(iterate.pose());
-  workers_.forEachChunk(
+  workers_->forEachChunk(
       body_.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
       { chunk_sums_[chunk] = accumulate(iterate.pose(), body_, matches_, model, first, last); });
   MeasurementEvaluation evaluation;
@@ -246,7 +251,10 @@ FilterState ScanPipeline::considerMapError(const FilterState& predicted)
 void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
-  transformToWorld(body_, filter_.x.pose(), 0, body_.size(), world_);
+  const Pose T_world_imu = filter_.x.pose();
+  workers_->forEachChunk(
+      body_.size(), [&](std::size_t, std::size_t first, std::size_t last)
+      { transformToWorld(body_, T_world_imu, first, last, world_); });
   map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
   map_->insert(world_, filter_.x.pose() * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);

@@ -4,7 +4,6 @@
 /** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
 #pragma once
 
-#include "workers.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/lidar/scan_reduction.h>
@@ -15,6 +14,7 @@
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/odometry/scan_result.h>
+#include <fastlio/parallel/workers.h>
 
 #include <memory>
 #include <vector>
@@ -55,8 +55,8 @@ class ScanPipeline
   [[nodiscard]] FilterState considerMapError(const FilterState& predicted);
 
   Parameters parameters_;
+  std::shared_ptr<const Workers> workers_;
   std::unique_ptr<SurfaceMap> map_;
-  Workers workers_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
@@ -67,6 +67,7 @@ class ScanPipeline
 
   // Reused between scans.
   ScanReducer reducer_;
+  Deskewer deskewer_;
   ScanSelection selection_;
   std::vector<ImuSample> inputs_;
   std::vector<MotionKnot> knots_;

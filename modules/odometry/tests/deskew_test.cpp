@@ -80,6 +80,19 @@ Vec3 beamOf(const BodyPoints& body, std::size_t i)
   return {body.ux[i], body.uy[i], body.uz[i]};
 }
 
+void deskew(
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices,
+    const std::vector<MotionKnot>& knots, BodyPoints& body)
+{
+  Deskewer().deskew(scan, indices, knots, body);
+}
+
+void transformToBody(
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body)
+{
+  Deskewer().transformToBody(scan, indices, body);
+}
+
 struct WorstErrors
 {
   double position = 0.0;  // [m]
@@ -140,6 +153,29 @@ TEST(Deskew, DoesNotDependOnTheOrderOfPoints)
     EXPECT_EQ(positionOf(in_disorder, i), positionOf(in_order, indices[i]));
     EXPECT_EQ(beamOf(in_disorder, i), beamOf(in_order, indices[i]));
   }
+}
+
+void expectSameBytes(const BodyPoints& a, const BodyPoints& b)
+{
+  EXPECT_TRUE(a.x == b.x && a.y == b.y && a.z == b.z);
+  EXPECT_TRUE(a.ux == b.ux && a.uy == b.uy && a.uz == b.uz);
+}
+
+TEST(Deskew, GivesTheSameBytesOnAnyNumberOfThreads)
+{
+  const LidarScan scan = scanOver(0, std::int32_t(kLength), 3000);
+  const auto knots = motion(8.0, 5'000'000);
+  BodyPoints expected, body;
+  Deskewer().deskew(scan, allOf(scan), knots, expected);
+  for (const int threads : {2, 3, 5})
+  {
+    Deskewer deskewer(std::make_shared<const Workers>(threads));
+    deskewer.deskew(scan, allOf(scan), knots, body);
+    expectSameBytes(body, expected);
+  }
+  Deskewer().transformToBody(scan, allOf(scan), expected);
+  Deskewer(std::make_shared<const Workers>(2)).transformToBody(scan, allOf(scan), body);
+  expectSameBytes(body, expected);
 }
 
 TEST(Deskew, TakesTheChosenPointsOnly)

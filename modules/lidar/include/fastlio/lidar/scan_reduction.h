@@ -7,9 +7,11 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/parallel/workers.h>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace fastlio
@@ -45,21 +47,39 @@ struct ScanSelection
 class ScanReducer
 {
  public:
+  /** \param workers who share the loops; the choice does not depend on them */
+  explicit ScanReducer(std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
+
   /** Chooses points of the raw (not yet compensated) scan: those left out cost no compensation.
    * \param selection reused storage of the result */
   void select(const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection);
 
  private:
   static constexpr std::size_t kBins = 256;
+  static constexpr std::size_t kChunk = 4096;  // points
 
-  void gateRanges(
-      const PointColumns& points, const ReductionLimits& limits, ScanSelection& selection);
-  [[nodiscard]] float densityFactor(std::size_t target) const;
+  /** What the range gates made of some points. */
+  struct Ranges
+  {
+    std::array<std::uint32_t, kBins> counts{};  //!< of usable points, by logarithm of the range
+    std::size_t usable = 0, invalid = 0, near = 0, far = 0;
+  };
 
-  std::vector<float> squared_ranges_;          //!< 0 for points that are left out
-  std::array<std::uint32_t, kBins> counts_{};  //!< of points by logarithm of the squared range
-  std::size_t usable_ = 0;
+  [[nodiscard]] Ranges gateRanges(
+      const PointColumns& points, const ReductionLimits& limits, std::size_t first,
+      std::size_t last);
+  [[nodiscard]] Ranges gateRanges(const PointColumns& points, const ReductionLimits& limits);
+  [[nodiscard]] static float densityFactor(const Ranges& ranges, std::size_t target);
+  [[nodiscard]] std::size_t keep(float factor, std::size_t first, std::size_t last);
+  void gather(std::vector<std::uint32_t>& indices) const;
+
+  std::shared_ptr<const Workers> workers_;
   std::uint32_t scan_ = 0;
+  // Per point, and per chunk of points.
+  std::vector<float> squared_ranges_;     //!< 0 for points that are left out
+  std::vector<std::uint32_t> kept_;       //!< a chunk's chosen points, at the chunk's beginning
+  std::vector<std::size_t> kept_counts_;  //!< how many these are
+  std::vector<Ranges> chunk_ranges_;
 };
 
 }  // namespace fastlio

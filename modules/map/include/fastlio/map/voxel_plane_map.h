@@ -6,6 +6,7 @@
 
 #include <fastlio/map/plane_voxel.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/parallel/workers.h>
 
 #include <tsl/robin_map.h>
 
@@ -35,8 +36,11 @@ struct VoxelPlaneOptions
 class VoxelPlaneMap : public SurfaceMap
 {
  public:
-  /** \exception std::invalid_argument an option is out of its range (the message names it) */
-  explicit VoxelPlaneMap(const VoxelPlaneOptions& options);
+  /** \param workers who share insertions; the map does not depend on them
+   * \exception std::invalid_argument an option is out of its range (the message names it) */
+  explicit VoxelPlaneMap(
+      const VoxelPlaneOptions& options,
+      std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
 
   void match(
       const WorldPoints& points, std::size_t first, std::size_t last,
@@ -52,6 +56,7 @@ class VoxelPlaneMap : public SurfaceMap
   static constexpr int kScales = 3;
   static constexpr std::size_t kVoxelsPerBlock = 64 + 8 + 1;
   static constexpr std::uint32_t kNone = 0;
+  static constexpr std::uint32_t kNoBlock = ~0U;
 
   /** Spreads the bits of a block key over the hash. */
   struct KeyHash
@@ -78,12 +83,27 @@ class VoxelPlaneMap : public SurfaceMap
     std::array<std::uint8_t, kScales> slots{};
   };
 
-  /** A voxel to fit and the slot that says where it is. */
+  /** A point of the scan that is being inserted. */
+  struct Arrival
+  {
+    Address address;
+    std::uint32_t block = kNoBlock;
+    bool placed = false;  //!< its block has a voxel of each scale for it
+  };
+
+  /** A voxel to fit and where it is. */
   struct Refit
   {
     std::uint32_t voxel = 0;
-    std::uint32_t block = 0;
+    std::uint64_t block_key = 0;
     std::uint8_t slot = 0;
+  };
+
+  /** The points and voxels of a share of the blocks, which one thread inserts. */
+  struct Shard
+  {
+    std::vector<std::uint32_t> points;
+    std::vector<Refit> refits;
   };
 
   [[nodiscard]] Address addressOf(float x, float y, float z) const;
@@ -93,13 +113,19 @@ class VoxelPlaneMap : public SurfaceMap
   [[nodiscard]] PlaneVoxel& voxelAt(std::uint32_t index) const;
   std::uint32_t findOrAddBlock(std::uint64_t key);
   std::uint32_t addVoxel();
+  [[nodiscard]] bool hasVoxels(std::uint32_t block, const Address& address) const;
+  void locate(const WorldPoints& points, std::size_t first, std::size_t last);
+  void makeRoom(Arrival& arrival);
   void addPoint(
-      std::uint32_t block, const Address& address, const Eigen::Vector3f& point,
-      const Eigen::Vector3f& beam);
+      const Arrival& arrival, const Eigen::Vector3f& point, const Eigen::Vector3f& beam,
+      std::vector<Refit>& refits);
+  void insertShard(Shard& shard, const WorldPoints& points, const Eigen::Vector3f& origin);
   void dropBlock(Block& block);
 
   static constexpr std::size_t kPoolChunk = 1024;
+  static constexpr std::size_t kShards = 16;
 
+  std::shared_ptr<const Workers> workers_;
   VoxelPlaneOptions options_;
   float inverse_size_ = 0;
   float noise_variance_ = 0;
@@ -110,7 +136,8 @@ class VoxelPlaneMap : public SurfaceMap
   std::vector<std::unique_ptr<std::array<PlaneVoxel, kPoolChunk>>> pool_;
   std::uint32_t pool_size_ = 1;  // index 0 is kNone
   std::vector<std::uint32_t> free_voxels_;
-  std::vector<Refit> refits_;
+  std::vector<Arrival> arrivals_;  // reused between scans, like the shards
+  std::array<Shard, kShards> shards_;
   std::size_t finest_count_ = 0;
   std::size_t sweep_ = 0;
   std::uint32_t scan_ = 0;

@@ -1,0 +1,52 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "inputs.h"
+
+#include <fastlio/mrpt_bridge/observation_bridge.h>
+#include <fastlio/mrpt_bridge/rawlog_source.h>
+#include <fastlio/simulation/recording.h>
+#include <fastlio/simulation/simulation.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace fastlio::benchmarks
+{
+Inputs inputsOfRecording(const std::string& rawlog, const Parameters& parameters)
+{
+  Inputs inputs{std::filesystem::path(rawlog).stem().string(), {}, parameters};
+  const SensorPatterns patterns{
+      parameters.input.lidar_sensor_label, parameters.input.imu_sensor_label};
+  ObservationBridge bridge(selectSensors(surveySensors({rawlog}, patterns), patterns));
+  RawlogSource source({rawlog});
+  while (const auto observation = source.next())
+  {
+    BridgeOutput output = bridge.convert(*observation);
+    if (const auto* sample = std::get_if<ImuSample>(&output)) inputs.data.emplace_back(*sample);
+    if (auto* scan = std::get_if<LidarScan>(&output)) inputs.data.emplace_back(std::move(*scan));
+  }
+  if (!source.problems().empty()) throw std::runtime_error(source.problems().front().message);
+  return inputs;
+}
+
+Inputs inputsOfScenario(const std::string& scenario, double duration)
+{
+  SimulationSettings settings = defaultSettings(scenario);
+  if (duration > 0.0) settings.duration = duration;
+  const Simulation simulation(settings);
+  Inputs inputs{scenario, {}, matchingParameters(settings)};
+  std::size_t scan = 0;
+  LidarScan next = simulation.scan(scan);
+  for (const ImuSample& sample : simulation.imu().samples)
+  {
+    inputs.data.emplace_back(sample);
+    if (scan == simulation.scanCount() || sample.stamp_ns < spanOf(next).end_ns) continue;
+    inputs.data.emplace_back(std::move(next));
+    if (++scan < simulation.scanCount()) next = simulation.scan(scan);
+  }
+  return inputs;
+}
+
+}  // namespace fastlio::benchmarks

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file workers.h Loops over chunks of points on several cores, with the same result on any
+ * number. */
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace fastlio
+{
+/** Runs the chunks of a loop on several threads, in an arena of its own, so that other users of the
+ * process's threads are not disturbed.
+ *
+ * Chunks have a fixed size: what is computed per chunk and then joined in the order of the chunks
+ * does not depend on the number of threads. A loop allocates nothing. Loops of one object may not
+ * run at the same time. */
+class Workers
+{
+ public:
+  /** Points per chunk where the caller does not choose: some 10 us of work. */
+  static constexpr std::size_t kChunk = 256;
+
+  /** \param threads at most so many, the calling one included; 0 or less: all cores */
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  /** Number of chunks of a loop over n items. */
+  [[nodiscard]] static std::size_t chunks(std::size_t n, std::size_t chunk_size = kChunk)
+  {
+    return (n + chunk_size - 1) / chunk_size;
+  }
+
+  /** Calls body(chunk, first, last) once for each chunk [first, last) of [0, n), in any order and
+   * on any thread. \exception whatever the body threw, once the running chunks have ended */
+  template <typename Body>
+  void forEachChunk(std::size_t n, std::size_t chunk_size, const Body& body) const
+  {
+    const auto call = [](const void* b, std::size_t chunk, std::size_t first, std::size_t last)
+    { (*static_cast<const Body*>(b))(chunk, first, last); };
+    loop(n, chunk_size, call, &body);
+  }
+
+  template <typename Body>
+  void forEachChunk(std::size_t n, const Body& body) const
+  {
+    forEachChunk(n, kChunk, body);
+  }
+
+  /** Calls body(i) once for each i of [0, n), each a task of its own. */
+  template <typename Body>
+  void forEach(std::size_t n, const Body& body) const
+  {
+    forEachChunk(n, 1, [&](std::size_t i, std::size_t, std::size_t) { body(i); });
+  }
+
+ private:
+  using ChunkCall =
+      void (*)(const void* body, std::size_t chunk, std::size_t first, std::size_t last);
+  void loop(std::size_t n, std::size_t chunk_size, ChunkCall call, const void* body) const;
+
+  class Arena;
+  std::unique_ptr<Arena> arena_;  // none: the calling thread does it all
+};
+
+}  // namespace fastlio
