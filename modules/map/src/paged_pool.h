@@ -4,6 +4,7 @@
 /** \file paged_pool.h Numbered objects in pages that never move. */
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,24 @@ template <class T, std::uint32_t kPageBits>
 class PagedPool
 {
  public:
+  PagedPool() = default;
+  ~PagedPool() = default;
+  PagedPool(PagedPool&&) noexcept = default;
+  PagedPool& operator=(PagedPool&&) noexcept = default;
+  PagedPool(const PagedPool& other) : free_(other.free_), used_(other.used_)
+  {
+    for (const auto& page : other.pages_)
+    {
+      pages_.push_back(std::make_unique<T[]>(kPageSize));
+      std::copy_n(page.get(), kPageSize, pages_.back().get());
+    }
+  }
+  PagedPool& operator=(const PagedPool& other)
+  {
+    if (this != &other) *this = PagedPool(other);
+    return *this;
+  }
+
   [[nodiscard]] T& operator[](std::uint32_t i) { return pages_[i >> kPageBits][i & kMask]; }
   [[nodiscard]] const T& operator[](std::uint32_t i) const
   {
@@ -33,6 +52,9 @@ class PagedPool
     (*this)[i] = T{};
     return i;
   }
+
+  /** Numbers in use are below this. */
+  [[nodiscard]] std::uint32_t end() const { return used_; }
 
   void release(std::uint32_t i) { free_.push_back(i); }
 

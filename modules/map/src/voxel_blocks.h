@@ -1,40 +1,106 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file voxel_blocks.h Keys of the blocks of a VoxelPlaneMap, and the numbering of voxels in them.
- */
+/** \file voxel_blocks.h Blocks of voxels of three sizes, and where a point lies in them. */
 #pragma once
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 
-namespace fastlio::voxel_blocks
+namespace fastlio
 {
-constexpr int kAxisBits = 21;
-constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
-constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
-// Slots of a block: 64 finest, then 8 middle, then 1 coarse voxel.
+/** Slots of a block: 64 finest voxels, then 8 middle ones, then the coarse one. */
 constexpr std::uint8_t kMiddleSlot = 64, kCoarseSlot = 72;
+constexpr std::size_t kVoxelsPerBlock = 73;
+constexpr std::size_t kVoxelScales = 3;
 
-[[nodiscard]] inline std::uint64_t packKey(std::int64_t x, std::int64_t y, std::int64_t z)
+/** Where a point is: its block and its voxel of each scale in it. */
+struct VoxelAddress
 {
-  const auto axis = [](std::int64_t i)
-  { return static_cast<std::uint64_t>(i + kAxisBias) & kAxisMask; };
-  return (axis(x) << (2 * kAxisBits)) | (axis(y) << kAxisBits) | axis(z);
-}
+  std::uint64_t block_key = 0;
+  std::array<std::uint8_t, kVoxelScales> slots{};
+};
 
-[[nodiscard]] inline Eigen::Vector3f unpackKey(std::uint64_t key)
+/** Cuts space into blocks of 4 x 4 x 4 finest voxels; a key has 21 bits per axis. */
+class VoxelGrid
 {
-  const auto axis = [&](int shift)
-  { return static_cast<float>(static_cast<std::int64_t>((key >> shift) & kAxisMask) - kAxisBias); };
-  return {axis(2 * kAxisBits), axis(kAxisBits), axis(0)};
-}
+ public:
+  explicit VoxelGrid(double voxel_size)
+      : size_(static_cast<float>(voxel_size)), inverse_size_(static_cast<float>(1.0 / voxel_size))
+  {
+  }
 
-/** Row-major position of a voxel among n x n x n. */
-[[nodiscard]] inline std::uint8_t rowMajor(
-    std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t n)
-{
-  return static_cast<std::uint8_t>((x * n + y) * n + z);
-}
-}  // namespace fastlio::voxel_blocks
+  /** Whether a point is finite and inside of the numbered space. */
+  [[nodiscard]] bool contains(float x, float y, float z) const
+  {
+    const float limit = static_cast<float>(4 * (kAxisBias - 1)) * size_;
+    return std::abs(x) < limit && std::abs(y) < limit && std::abs(z) < limit;
+  }
+
+  /** Of a point that it contains(). */
+  [[nodiscard]] VoxelAddress addressOf(float x, float y, float z) const
+  {
+    // floor() and arithmetic shifts keep negative coordinates in voxels of their own.
+    const auto ix = static_cast<std::int64_t>(std::floor(x * inverse_size_));
+    const auto iy = static_cast<std::int64_t>(std::floor(y * inverse_size_));
+    const auto iz = static_cast<std::int64_t>(std::floor(z * inverse_size_));
+    const std::uint8_t finest = rowMajor(ix & 3, iy & 3, iz & 3, 4);
+    const std::uint8_t middle = rowMajor((ix >> 1) & 1, (iy >> 1) & 1, (iz >> 1) & 1, 2);
+    return {
+        keyOf(ix >> 2, iy >> 2, iz >> 2),
+        {finest, static_cast<std::uint8_t>(kMiddleSlot + middle), kCoarseSlot}};
+  }
+
+  /** Key of the block with these block coordinates. */
+  [[nodiscard]] static std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
+  {
+    const auto axis = [](std::int64_t i)
+    { return static_cast<std::uint64_t>(i + kAxisBias) & kAxisMask; };
+    return (axis(x) << (2 * kAxisBits)) | (axis(y) << kAxisBits) | axis(z);
+  }
+
+  /** Edge of a block [m]. */
+  [[nodiscard]] float blockSize() const { return 4 * size_; }
+
+  /** Lowest corner of a block [m]. */
+  [[nodiscard]] Eigen::Vector3f cornerOf(std::uint64_t block_key) const
+  {
+    const auto axis = [&](int shift)
+    {
+      const auto bits = static_cast<std::int64_t>((block_key >> shift) & kAxisMask);
+      return static_cast<float>(bits - kAxisBias);
+    };
+    return Eigen::Vector3f(axis(2 * kAxisBits), axis(kAxisBits), axis(0)) * blockSize();
+  }
+
+  /** Centre of a voxel [m]. */
+  [[nodiscard]] Eigen::Vector3f centerOf(std::uint64_t block_key, std::uint8_t slot) const
+  {
+    const Eigen::Vector3f corner = cornerOf(block_key);
+    if (slot >= kCoarseSlot) return corner + Eigen::Vector3f::Constant(2 * size_);
+    const int n = slot >= kMiddleSlot ? 2 : 4;
+    const int i = slot >= kMiddleSlot ? slot - kMiddleSlot : slot;
+    const Eigen::Vector3i cell(i / (n * n), (i / n) % n, i % n);
+    const float edge = blockSize() / static_cast<float>(n);
+    return corner + (cell.cast<float>() + Eigen::Vector3f::Constant(0.5F)) * edge;
+  }
+
+ private:
+  static constexpr int kAxisBits = 21;
+  static constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
+  static constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
+
+  /** Position of a voxel among n x n x n. */
+  [[nodiscard]] static std::uint8_t rowMajor(
+      std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t n)
+  {
+    return static_cast<std::uint8_t>((x * n + y) * n + z);
+  }
+
+  float size_, inverse_size_;
+};
+
+}  // namespace fastlio

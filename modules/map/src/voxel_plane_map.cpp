@@ -1,18 +1,16 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "voxel_blocks.h"
+#include "voxel_match.h"
+#include "voxel_plane_map_impl.h"
 #include <fastlio/map/voxel_plane_map.h>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace fastlio
 {
-using namespace voxel_blocks;
-
 namespace
 {
 // A sweep over all blocks is spread over so many calls of removeOutside().
@@ -24,130 +22,94 @@ void requirePositive(double value, const char* name)
     throw std::invalid_argument(
         std::string("VoxelPlaneMap: ") + name + " must be positive, got " + std::to_string(value));
 }
-}  // namespace
 
-VoxelPlaneMap::VoxelPlaneMap(
-    const VoxelPlaneOptions& options, std::shared_ptr<const Workers> workers)
-    : workers_(std::move(workers)), options_(options)
+const VoxelPlaneOptions& validated(const VoxelPlaneOptions& options)
 {
   requirePositive(options.voxel_size, "voxel_size");
   requirePositive(options.rules.point_noise, "rules.point_noise");
   requirePositive(options.rules.max_thickness, "rules.max_thickness");
-  inverse_size_ = static_cast<float>(1.0 / options.voxel_size);
-  noise_variance_ = options.rules.point_noise * options.rules.point_noise;
+  return options;
+}
+}  // namespace
+
+VoxelPlaneMap::VoxelPlaneMap(
+    const VoxelPlaneOptions& options, std::shared_ptr<const Workers> workers)
+    : impl_(std::make_unique<Impl>(
+          Impl{validated(options), std::move(workers), VoxelGrid(options.voxel_size), {}, {}}))
+{
 }
 
-VoxelPlaneMap::Address VoxelPlaneMap::addressOf(float x, float y, float z) const
+VoxelPlaneMap::~VoxelPlaneMap() = default;
+VoxelPlaneMap::VoxelPlaneMap(const VoxelPlaneMap& other)
+    : SurfaceMap(other), impl_(std::make_unique<Impl>(*other.impl_))
 {
-  // floor() and arithmetic shifts keep negative coordinates in voxels of their own.
-  const auto ix = static_cast<std::int64_t>(std::floor(x * inverse_size_));
-  const auto iy = static_cast<std::int64_t>(std::floor(y * inverse_size_));
-  const auto iz = static_cast<std::int64_t>(std::floor(z * inverse_size_));
-  Address a;
-  a.block_key = packKey(ix >> 2, iy >> 2, iz >> 2);
-  a.slots[0] = rowMajor(ix & 3, iy & 3, iz & 3, 4);
-  a.slots[1] = static_cast<std::uint8_t>(
-      kMiddleSlot + rowMajor((ix >> 1) & 1, (iy >> 1) & 1, (iz >> 1) & 1, 2));
-  a.slots[2] = kCoarseSlot;
-  return a;
 }
 
-Eigen::Vector3f VoxelPlaneMap::centerOf(std::uint64_t block_key, std::uint8_t slot) const
+VoxelPlaneMap& VoxelPlaneMap::operator=(const VoxelPlaneMap& other)
 {
-  const auto size = static_cast<float>(options_.voxel_size);
-  const Eigen::Vector3f corner = unpackKey(block_key) * (4 * size);
-  if (slot >= kCoarseSlot) return corner + Eigen::Vector3f::Constant(2 * size);
-  const int n = slot >= kMiddleSlot ? 2 : 4;
-  const int i = slot >= kMiddleSlot ? slot - kMiddleSlot : slot;
-  const Eigen::Vector3i cell(i / (n * n), (i / n) % n, i % n);
-  const float edge = 4 * size / static_cast<float>(n);
-  return corner + (cell.cast<float>() + Eigen::Vector3f::Constant(0.5F)) * edge;
+  if (this != &other) impl_ = std::make_unique<Impl>(*other.impl_);
+  return *this;
 }
 
-PlaneVoxel& VoxelPlaneMap::voxelAt(std::uint32_t index) const
+const VoxelPlaneOptions& VoxelPlaneMap::options() const
 {
-  return (*pool_[index / kPoolChunk])[index % kPoolChunk];
+  return impl_->options;
 }
 
-PlaneMatch VoxelPlaneMap::bestPlane(
-    const Block& block, const Address& address, float x, float y, float z) const
+std::size_t VoxelPlaneMap::memoryBytes() const
 {
-  PlaneMatch best;
-  for (const std::uint8_t slot : address.slots)
-  {
-    const std::uint32_t index = block.voxels[slot];
-    if (index == kNone) continue;
-    const VoxelPlane& plane = voxelAt(index).plane();
-    if (!plane.valid()) continue;
-    const float shared = plane.offsetVariance(x, y, z);
-    // Roughness that the sensor's noise does not explain belongs to each point.
-    const float variance = shared + plane.variance - noise_variance_;
-    if (best.valid() && variance >= best.variance) continue;
-    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, shared, index, plane.born};
-  }
-  return best;
+  return impl_->storage.memoryBytes();
+}
+
+std::size_t VoxelPlaneMap::pointCount() const
+{
+  return impl_->storage.finestCount();
 }
 
 void VoxelPlaneMap::match(
     const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches) const
 {
-  std::uint64_t last_key = 0;
-  const Block* block = nullptr;
-  for (std::size_t i = first; i < last; ++i)
-  {
-    const float x = points.x[i], y = points.y[i], z = points.z[i];
-    const Address address = addressOf(x, y, z);
-    // Neighbours in the scan mostly share the block.
-    if (i == first || address.block_key != last_key)
-    {
-      const auto it = index_.find(address.block_key);
-      block = it == index_.end() ? nullptr : &blocks_[it->second];
-      last_key = address.block_key;
-    }
-    matches[i] = block == nullptr ? PlaneMatch{} : bestPlane(*block, address, x, y, z);
-  }
+  const float noise = impl_->options.rules.point_noise;
+  matchPlanes(impl_->storage, impl_->grid, noise * noise, points, first, last, matches);
 }
 
-void VoxelPlaneMap::dropBlock(Block& block)
+void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
 {
-  index_.erase(block.key);
-  for (std::size_t slot = 0; slot < kVoxelsPerBlock; ++slot)
-  {
-    if (block.voxels[slot] == kNone) continue;
-    free_voxels_.push_back(block.voxels[slot]);
-    finest_count_ -= slot < kMiddleSlot ? 1 : 0;
-  }
-  block.used = false;
+  impl_->inserter.insert(
+      points, sensor_origin.cast<float>(), impl_->grid, impl_->options.rules, ++impl_->scan,
+      *impl_->workers, impl_->storage);
 }
 
 void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
 {
+  VoxelStorage& storage = impl_->storage;
   const Eigen::Vector3f origin = center.cast<float>();
   const auto limit = static_cast<float>(radius * radius);
-  const std::size_t share = blocks_.size() / kSweepCalls + 1;
-  for (std::size_t k = 0; k < share && !blocks_.empty(); ++k)
+  const std::size_t share = storage.blocksEnd() / kSweepCalls + 1;
+  for (std::size_t k = 0; k < share && storage.blocksEnd() > 0; ++k)
   {
-    sweep_ = sweep_ + 1 < blocks_.size() ? sweep_ + 1 : 0;
-    Block& block = blocks_[sweep_];
+    impl_->sweep = impl_->sweep + 1 < storage.blocksEnd() ? impl_->sweep + 1 : 0;
+    const VoxelBlock& block = storage.block(impl_->sweep);
     if (!block.used) continue;
-    if ((centerOf(block.key, kCoarseSlot) - origin).squaredNorm() <= limit) continue;
-    dropBlock(block);
-    free_blocks_.push_back(static_cast<std::uint32_t>(sweep_));
+    const Eigen::Vector3f middle = impl_->grid.centerOf(block.key, kCoarseSlot);
+    if ((middle - origin).squaredNorm() > limit) storage.drop(impl_->sweep);
   }
 }
 
 mrpt::maps::CSimplePointsMap::Ptr VoxelPlaneMap::toPointsMap() const
 {
+  const VoxelStorage& storage = impl_->storage;
   auto map = mrpt::maps::CSimplePointsMap::Create();
-  map->reserve(finest_count_);
-  for (const Block& block : blocks_)
+  map->reserve(storage.finestCount());
+  for (std::uint32_t i = 0; i < storage.blocksEnd(); ++i)
   {
+    const VoxelBlock& block = storage.block(i);
     for (std::uint8_t slot = 0; block.used && slot < kMiddleSlot; ++slot)
     {
-      if (block.voxels[slot] == kNone) continue;
+      if (block.voxels[slot] == VoxelStorage::kNoVoxel) continue;
       const Eigen::Vector3f p =
-          centerOf(block.key, slot) + voxelAt(block.voxels[slot]).meanOffset();
+          impl_->grid.centerOf(block.key, slot) + storage.voxel(block.voxels[slot]).meanOffset();
       map->insertPoint(p.x(), p.y(), p.z());
     }
   }

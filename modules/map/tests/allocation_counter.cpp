@@ -22,6 +22,16 @@ void* countedAllocation(std::size_t size)
   return p;
 }
 
+void* countedAllocation(std::size_t size, std::align_val_t alignment)
+{
+  ++calls;
+  const auto multiple = static_cast<std::size_t>(alignment);
+  void* p = std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple);
+  if (p == nullptr) throw std::bad_alloc();
+  live_bytes += malloc_usable_size(p);
+  return p;
+}
+
 void countedFree(void* p)
 {
   if (p != nullptr) live_bytes -= malloc_usable_size(p);
@@ -60,6 +70,30 @@ void operator delete(void* p, std::size_t) noexcept
   countedFree(p);
 }
 void operator delete[](void* p, std::size_t) noexcept
+{
+  countedFree(p);
+}
+void* operator new(std::size_t size, std::align_val_t alignment)
+{
+  return countedAllocation(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment)
+{
+  return countedAllocation(size, alignment);
+}
+void operator delete(void* p, std::align_val_t) noexcept
+{
+  countedFree(p);
+}
+void operator delete[](void* p, std::align_val_t) noexcept
+{
+  countedFree(p);
+}
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept
+{
+  countedFree(p);
+}
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept
 {
   countedFree(p);
 }

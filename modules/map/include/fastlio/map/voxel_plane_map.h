@@ -8,10 +8,7 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/parallel/workers.h>
 
-#include <tsl/robin_map.h>
-
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -42,105 +39,28 @@ class VoxelPlaneMap : public SurfaceMap
       const VoxelPlaneOptions& options,
       std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
 
+  ~VoxelPlaneMap() override;
+  VoxelPlaneMap(const VoxelPlaneMap& other);
+  VoxelPlaneMap& operator=(const VoxelPlaneMap& other);
+
   void match(
       const WorldPoints& points, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
   /** Number of finest voxels with points. */
-  [[nodiscard]] std::size_t pointCount() const override { return finest_count_; }
+  [[nodiscard]] std::size_t pointCount() const override;
   /** The mean point of each finest voxel. */
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;
 
+  /** The options that it was made with. */
+  [[nodiscard]] const VoxelPlaneOptions& options() const;
+  /** Bytes held by blocks, voxels and their index. */
+  [[nodiscard]] std::size_t memoryBytes() const;
+
  private:
-  static constexpr int kScales = 3;
-  static constexpr std::size_t kVoxelsPerBlock = 64 + 8 + 1;
-  static constexpr std::uint32_t kNone = 0;
-  static constexpr std::uint32_t kNoBlock = ~0U;
-
-  /** Spreads the bits of a block key over the hash. */
-  struct KeyHash
-  {
-    std::size_t operator()(std::uint64_t key) const
-    {
-      key *= 0x9E3779B97F4A7C15ULL;
-      return static_cast<std::size_t>(key ^ (key >> 32U));
-    }
-  };
-
-  /** The voxels of 4 x 4 x 4 finest cells, as indices into the pool; kNone where there is none. */
-  struct Block
-  {
-    std::uint64_t key = 0;
-    bool used = false;
-    std::array<std::uint32_t, kVoxelsPerBlock> voxels{};
-  };
-
-  /** Where a point is: its block and its voxel of each scale in it. */
-  struct Address
-  {
-    std::uint64_t block_key = 0;
-    std::array<std::uint8_t, kScales> slots{};
-  };
-
-  /** A point of the scan that is being inserted. */
-  struct Arrival
-  {
-    Address address;
-    std::uint32_t block = kNoBlock;
-    bool placed = false;  //!< its block has a voxel of each scale for it
-  };
-
-  /** A voxel to fit and where it is. */
-  struct Refit
-  {
-    std::uint32_t voxel = 0;
-    std::uint64_t block_key = 0;
-    std::uint8_t slot = 0;
-  };
-
-  /** The points and voxels of a share of the blocks, which one thread inserts. */
-  struct Shard
-  {
-    std::vector<std::uint32_t> points;
-    std::vector<Refit> refits;
-  };
-
-  [[nodiscard]] Address addressOf(float x, float y, float z) const;
-  [[nodiscard]] Eigen::Vector3f centerOf(std::uint64_t block_key, std::uint8_t slot) const;
-  [[nodiscard]] PlaneMatch bestPlane(
-      const Block& block, const Address& address, float x, float y, float z) const;
-  [[nodiscard]] PlaneVoxel& voxelAt(std::uint32_t index) const;
-  std::uint32_t findOrAddBlock(std::uint64_t key);
-  std::uint32_t addVoxel();
-  [[nodiscard]] bool hasVoxels(std::uint32_t block, const Address& address) const;
-  void locate(const WorldPoints& points, std::size_t first, std::size_t last);
-  void makeRoom(Arrival& arrival);
-  void addPoint(
-      const Arrival& arrival, const Eigen::Vector3f& point, const Eigen::Vector3f& beam,
-      std::vector<Refit>& refits);
-  void insertShard(Shard& shard, const WorldPoints& points, const Eigen::Vector3f& origin);
-  void dropBlock(Block& block);
-
-  static constexpr std::size_t kPoolChunk = 1024;
-  static constexpr std::size_t kShards = 16;
-
-  std::shared_ptr<const Workers> workers_;
-  VoxelPlaneOptions options_;
-  float inverse_size_ = 0;
-  float noise_variance_ = 0;
-  tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash> index_;
-  std::vector<Block> blocks_;
-  std::vector<std::uint32_t> free_blocks_;
-  // Chunks, so that growth moves nothing and costs the same at any size.
-  std::vector<std::unique_ptr<std::array<PlaneVoxel, kPoolChunk>>> pool_;
-  std::uint32_t pool_size_ = 1;  // index 0 is kNone
-  std::vector<std::uint32_t> free_voxels_;
-  std::vector<Arrival> arrivals_;  // reused between scans, like the shards
-  std::array<Shard, kShards> shards_;
-  std::size_t finest_count_ = 0;
-  std::size_t sweep_ = 0;
-  std::uint32_t scan_ = 0;
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace fastlio

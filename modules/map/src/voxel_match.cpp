@@ -1,0 +1,100 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "voxel_match.h"
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+// Blocks, voxels and planes of so many points are fetched into the cache together: most of them
+// come from the memory, and waiting for one at a time would take most of the time.
+constexpr std::size_t kBatch = 32;
+
+/** A point on its way to its plane. */
+struct Query
+{
+  VoxelAddress address;
+  const VoxelBlock* block = nullptr;
+  std::array<std::uint32_t, kVoxelScales> voxels{};
+};
+
+using Batch = std::array<Query, kBatch>;
+
+void findBlocks(
+    const VoxelStorage& storage, const VoxelGrid& grid, const WorldPoints& points,
+    std::size_t first, std::size_t count, Batch& batch)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Query& query = batch[i];
+    query.address = grid.addressOf(points.x[first + i], points.y[first + i], points.z[first + i]);
+    // Neighbours in the scan mostly share the block.
+    if (i > 0 && batch[i - 1].address.block_key == query.address.block_key)
+      query.block = batch[i - 1].block;
+    else
+    {
+      const std::uint32_t number = storage.find(query.address.block_key);
+      query.block = number == VoxelStorage::kNoBlock ? nullptr : &storage.block(number);
+    }
+    if (query.block != nullptr)
+      for (const std::uint8_t slot : query.address.slots)
+        __builtin_prefetch(&query.block->voxels[slot]);
+  }
+}
+
+void findVoxels(const VoxelStorage& storage, std::size_t count, Batch& batch)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Query& query = batch[i];
+    for (std::size_t s = 0; s < kVoxelScales; ++s)
+    {
+      query.voxels[s] = query.block == nullptr ? VoxelStorage::kNoVoxel
+                                               : query.block->voxels[query.address.slots[s]];
+      __builtin_prefetch(&storage.voxel(query.voxels[s]));
+    }
+  }
+}
+
+PlaneMatch bestPlane(
+    const VoxelStorage& storage, const Query& query, float noise_variance, float x, float y,
+    float z)
+{
+  PlaneMatch best;
+  for (const std::uint32_t number : query.voxels)
+  {
+    // Voxel number kNoVoxel exists and has no plane.
+    const VoxelPlane& plane = storage.voxel(number).plane();
+    if (!plane.valid()) continue;
+    const float shared = plane.offsetVariance(x, y, z);
+    // Roughness that the sensor's noise does not explain belongs to each point.
+    const float variance = shared + plane.variance - noise_variance;
+    if (best.valid() && variance >= best.variance) continue;
+    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, shared, number, plane.born};
+  }
+  return best;
+}
+}  // namespace
+
+void matchPlanes(
+    const VoxelStorage& storage, const VoxelGrid& grid, float noise_variance,
+    const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches)
+{
+  Batch batch;
+  for (std::size_t begin = first; begin < last; begin += kBatch)
+  {
+    const std::size_t count = std::min(kBatch, last - begin);
+    findBlocks(storage, grid, points, begin, count, batch);
+    findVoxels(storage, count, batch);
+    for (std::size_t i = 0; i < count; ++i)
+      matches[begin + i] = bestPlane(
+          storage, batch[i], noise_variance, points.x[begin + i], points.y[begin + i],
+          points.z[begin + i]);
+  }
+}
+
+}  // namespace fastlio

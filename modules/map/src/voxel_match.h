@@ -1,0 +1,23 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file voxel_match.h The best plane at each point: one lookup of a block, at most three planes.
+ */
+#pragma once
+
+#include "voxel_storage.h"
+#include <fastlio/map/surface_map.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace fastlio
+{
+/** Writes matches[first..last). \param noise_variance what the sensor's noise explains of the
+ * scatter of points across a plane [m^2] */
+void matchPlanes(
+    const VoxelStorage& storage, const VoxelGrid& grid, float noise_variance,
+    const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches);
+
+}  // namespace fastlio

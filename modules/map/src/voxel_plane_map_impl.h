@@ -1,0 +1,28 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file voxel_plane_map_impl.h What a VoxelPlaneMap owns. */
+#pragma once
+
+#include "voxel_inserter.h"
+#include "voxel_storage.h"
+#include <fastlio/map/voxel_plane_map.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace fastlio
+{
+class VoxelPlaneMap::Impl
+{
+ public:
+  VoxelPlaneOptions options;
+  std::shared_ptr<const Workers> workers;
+  VoxelGrid grid;
+  VoxelStorage storage;
+  VoxelInserter inserter;
+  std::uint32_t scan = 0;   //!< insertions so far
+  std::uint32_t sweep = 0;  //!< block that removeOutside() looked at last
+};
+
+}  // namespace fastlio

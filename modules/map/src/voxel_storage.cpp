@@ -1,0 +1,58 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "voxel_storage.h"
+
+#include <algorithm>
+
+namespace fastlio
+{
+VoxelStorage::VoxelStorage()
+{
+  (void)voxels_.acquire();  // number 0 means that there is none
+}
+
+std::uint32_t VoxelStorage::findOrAdd(std::uint64_t key)
+{
+  const std::uint32_t found = find(key);
+  if (found != kNoBlock) return found;
+  const std::uint32_t number = blocks_.acquire();
+  blocks_[number].key = key;
+  blocks_[number].used = true;
+  index_[indexOf(key)].emplace(key, number);
+  ++block_count_;
+  return number;
+}
+
+std::uint32_t VoxelStorage::addVoxel(std::uint32_t block, std::uint8_t slot)
+{
+  const std::uint32_t number = voxels_.acquire();
+  blocks_[block].voxels[slot] = number;
+  finest_count_ += slot < kMiddleSlot ? 1 : 0;
+  return number;
+}
+
+void VoxelStorage::drop(std::uint32_t number)
+{
+  VoxelBlock& block = blocks_[number];
+  index_[indexOf(block.key)].erase(block.key);
+  for (std::size_t slot = 0; slot < kVoxelsPerBlock; ++slot)
+  {
+    if (block.voxels[slot] == kNoVoxel) continue;
+    voxels_.release(block.voxels[slot]);
+    finest_count_ -= slot < kMiddleSlot ? 1 : 0;
+  }
+  block.used = false;
+  blocks_.release(number);
+  --block_count_;
+}
+
+std::size_t VoxelStorage::memoryBytes() const
+{
+  std::size_t bytes = blocks_.memoryBytes() + voxels_.memoryBytes();
+  for (const auto& index : index_)
+    bytes += index.bucket_count() * (sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t));
+  return bytes;
+}
+
+}  // namespace fastlio
