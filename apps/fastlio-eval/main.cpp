@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include <fastlio/evaluation/report.h>
+#include <fastlio/files/atomic_file.h>
 
 #include <algorithm>
 #include <cstdlib>

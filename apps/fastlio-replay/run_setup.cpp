@@ -3,7 +3,7 @@
 
 #include "run_setup.h"
 
-#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/files/atomic_file.h>
 #include <fastlio/odometry/parameter_yaml.h>
 
 #include <filesystem>

@@ -225,8 +225,8 @@ TEST_F(FastlioEval, UnusableInputExitsWithOneAndSaysWhere)
 TEST_F(FastlioEval, UnwritableOutputExitsWithOne)
 {
   const std::string evaluate = "truth.tum estimate.tum -a first ";
-  expectOutcome(evaluate + "--json none/r.json", 1, {"none/r.json", "cannot be written"});
-  expectOutcome(evaluate + "--plot none/p.svg", 1, {"none/p.svg", "cannot be written"});
+  expectOutcome(evaluate + "--json none/r.json", 1, {"none/r.json", "cannot write"});
+  expectOutcome(evaluate + "--plot none/p.svg", 1, {"none/p.svg", "cannot write"});
   expectOutcome(evaluate + ">/dev/full", 1, {});
 }
 

@@ -187,22 +187,5 @@ TEST(Svg, TextIsEscaped)
   EXPECT_EQ(escapeXml("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
 }
 
-TEST(AtomicFile, ReplacesAndLeavesNothingBehind)
-{
-  const samples::TemporaryFolder folder;
-  const auto file = folder.write("report.json", "old");
-  writeFileAtomically(file, "new");
-  std::ifstream in(file);
-  std::string text;
-  in >> text;
-  EXPECT_EQ(text, "new");
-  const auto entries = std::distance(
-      std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
-  EXPECT_EQ(entries, 1);
-  expectThrows<std::runtime_error>(
-      [&] { writeFileAtomically(folder.path() / "none" / "x", ""); },
-      {"none/x", "cannot be written"});
-}
-
 }  // namespace
 }  // namespace fastlio

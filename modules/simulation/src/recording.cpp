@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/files/atomic_file.h>
 #include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/number_text.h>
 #include <fastlio/mrpt_bridge/register_classes.h>
 #include <fastlio/odometry/parameter_yaml.h>

@@ -6,8 +6,6 @@
 
 #include <fastlio/evaluation/gates.h>
 
-#include <filesystem>
-
 namespace fastlio
 {
 /** A table with units, a few dozen lines of at most 100 columns. */
@@ -20,9 +18,5 @@ namespace fastlio
 
 /** A self-contained SVG picture: both paths from above and the errors over time. */
 [[nodiscard]] std::string toSvg(const EvaluationReport& report);
-
-/** Writes a temporary file beside \a file and renames it, so that no half-written file is ever
- * seen. \exception std::runtime_error the file cannot be written */
-void writeFileAtomically(const std::filesystem::path& file, const std::string& content);
 
 }  // namespace fastlio

@@ -4,7 +4,7 @@
 /** \file exporter.h What writes results: one class per file format, fed scan by scan. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/files/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/run_summary.h>
 #include <fastlio/odometry/scan_result.h>
 

@@ -4,7 +4,7 @@
 /** \file run_summary.h Everything that is worth knowing about a run after its end. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/files/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/run_statistics.h>
 #include <fastlio/odometry/parameters.h>
 

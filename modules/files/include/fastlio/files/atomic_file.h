@@ -54,4 +54,7 @@ class AtomicFile
   std::ofstream out_;
 };
 
+/** A whole file in one go. \exception std::runtime_error the file cannot be written */
+OutputFile writeFileAtomically(const std::string& path, std::string_view content);
+
 }  // namespace fastlio

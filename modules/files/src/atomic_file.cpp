@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/mrpt_bridge/output/atomic_file.h>
+#include <fastlio/files/atomic_file.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace
 {
   throw std::runtime_error(
       "cannot write '" + path + "': " + reason +
-      "; check permissions and free space or choose another place with --output-dir");
+      "; check that the folder exists, permissions and free space, or choose another place");
 }
 
 std::string lastError()
@@ -70,6 +70,13 @@ OutputFile AtomicFile::commit()
   out_.close();
   if (!out_) failWriting(temporaryPathOf(path_), lastError());
   return renameIntoPlace(path_);
+}
+
+OutputFile writeFileAtomically(const std::string& path, std::string_view content)
+{
+  AtomicFile file(path);
+  file.write(content);
+  return file.commit();
 }
 
 }  // namespace fastlio
