@@ -84,6 +84,9 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--output-tum-path", arguments.output_tum_path,
          "Write the trajectory (TUM format) to this file, with or without --output-dir")
       ->type_name("FILE");
+  app.add_flag(
+      "--imu-rate", arguments.imu_rate,
+      "Also write imu_rate.csv: the state at each inertial sample (sets output.imu_rate)");
   app.add_option("--frame", arguments.frame, "Body whose pose is written: vehicle or imu")
       ->check(CLI::IsMember({"vehicle", "imu"}))
       ->capture_default_str();
@@ -109,6 +112,8 @@ void requireOutput(const ReplayArguments& arguments)
 {
   if (arguments.output_directory.empty() && arguments.output_tum_path.empty())
     throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
+  if (arguments.imu_rate && arguments.output_directory.empty())
+    throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
 }
 }  // namespace
 

@@ -64,7 +64,8 @@ ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
       logger_(logger),
       odometry_(setup_.parameters),
       exporters_(makeStandardExporters(
-          {setup_.arguments.output_directory, setup_.arguments.output_tum_path, setup_.frame})),
+          {setup_.arguments.output_directory, setup_.arguments.output_tum_path, setup_.frame,
+           setup_.parameters.output.imu_rate})),
       output_map_(outputMapOptions(setup_.parameters.map)),
       progress_(logger)
 {
@@ -136,7 +137,7 @@ void ReplayRun::take(const ScanResult& result)
 {
   statistics_.add(result);
   extendOutputMap();
-  exporters_.onScan(result);
+  exporters_.onScan(result, odometry_.imuRateStates());
   reportChange(result);
   reportExporters();
 }

@@ -27,6 +27,7 @@ Parameters loadConfiguration(const ReplayArguments& arguments)
     throw SetupError(ExitStatus::Usage, e.what());
   }
   if (arguments.threads) parameters.threads = *arguments.threads;
+  if (arguments.imu_rate) parameters.output.imu_rate = true;
   auto& input = parameters.input;
   input.lidar_sensor_label = arguments.lidar_sensor_label.value_or(input.lidar_sensor_label);
   input.imu_sensor_label = arguments.imu_sensor_label.value_or(input.imu_sensor_label);

@@ -87,6 +87,20 @@ TEST_F(GoodInput, TumPathEqualToTheFolderOwnIsWrittenOnce)
   expectAllFiles();
 }
 
+TEST_F(GoodInput, StatesAtTheRateOfTheImuOnRequest)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  ASSERT_EQ(replayFile(rawlog).exit_status, 0);
+  EXPECT_FALSE(std::filesystem::exists(file("out/imu_rate.csv")));
+  const auto result = replayFile(rawlog, {"--imu-rate"});
+  expectEnd(result, 0, "imu_rate.csv");
+  // 100 Hz, from the first scan's begin to the last one's end; four lines of explanation
+  EXPECT_NEAR(static_cast<double>(linesOf(file("out/imu_rate.csv"))), 393.0, 15.0);
+  expectEnd(
+      replay({"--input-rawlog", rawlog, "--output-tum-path", file("t.tum"), "--imu-rate"}), 1,
+      "--output-dir");
+}
+
 TEST_F(GoodInput, NumberOfThreadsDoesNotChangeTheResult)
 {
   const std::string rawlog = record("a.rawlog", {});
@@ -181,7 +195,8 @@ TEST_P(InterruptionBy, FinishesTheFiles)
   recording.seconds = 100.0;
   const std::string rawlog = record("long.rawlog", recording);
   Process process(
-      command({"--input-rawlog", rawlog, "--output-dir", file("out"), "--threads", "1"}),
+      command(
+          {"--input-rawlog", rawlog, "--output-dir", file("out"), "--threads", "1", "--imu-rate"}),
       file("log.txt"));
   ASSERT_TRUE(waitForRows(file("out/states.csv.tmp")));
   process.signal(GetParam());
@@ -191,6 +206,7 @@ TEST_P(InterruptionBy, FinishesTheFiles)
   EXPECT_EQ(summary["status"], "interrupted");
   EXPECT_EQ(summary["scans"]["with_pose"], linesOf(file("out/trajectory.tum")));
   EXPECT_LT(summary["scans"]["processed"], 1000);
+  EXPECT_GT(linesOf(file("out/imu_rate.csv")), linesOf(file("out/trajectory.tum")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptionBy, ::testing::Values(SIGINT, SIGTERM));

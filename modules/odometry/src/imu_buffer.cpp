@@ -88,6 +88,13 @@ std::vector<ImuSample> ImuBuffer::samplesBetween(std::int64_t begin_ns, std::int
   return {at(firstAfter(begin_ns - 1)), at(firstAfter(end_ns))};
 }
 
+const ImuSample* ImuBuffer::sampleAt(std::int64_t stamp_ns) const
+{
+  const std::size_t next = firstAfter(stamp_ns);
+  const bool found = next > head_ && samples_[next - 1].stamp_ns == stamp_ns;
+  return found ? &samples_[next - 1] : nullptr;
+}
+
 void ImuBuffer::forgetBefore(std::int64_t stamp_ns)
 {
   const std::size_t next = firstAfter(stamp_ns);

@@ -133,6 +133,11 @@ Matrix6 MapErrorModel::update(
   return poseCovariance(E_, T_world_imu);
 }
 
+Matrix6 MapErrorModel::shareAt(const Pose& T_world_imu) const
+{
+  return poseCovariance(E_, T_world_imu);
+}
+
 void MapErrorModel::recordInsertion(
     std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu)
 {

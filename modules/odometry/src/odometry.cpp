@@ -53,6 +53,7 @@ class Odometry::Impl
   void addImu(const ImuSample& sample);
   void addScan(LidarScan scan);
   std::optional<ScanResult> next(bool at_end);
+  [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
 
   const Parameters parameters_;
   InputStatistics statistics_;
@@ -152,6 +153,12 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
   return std::nullopt;
 }
 
+std::optional<ImuRateState> Odometry::Impl::stateAtNewestSample()
+{
+  if (imu_.empty() || !pipeline_.started()) return std::nullopt;
+  return pipeline_.stateAtNewestSample(imu_);
+}
+
 Odometry::Odometry(const Parameters& parameters) : impl_(std::make_unique<Impl>(parameters)) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
@@ -180,6 +187,14 @@ const SurfaceMap& Odometry::map() const
 const WorldPoints& Odometry::registeredPoints() const
 {
   return impl_->pipeline_.registeredPoints();
+}
+const std::vector<ImuRateState>& Odometry::imuRateStates() const
+{
+  return impl_->pipeline_.imuRateStates();
+}
+std::optional<ImuRateState> Odometry::stateAtNewestSample()
+{
+  return impl_->stateAtNewestSample();
 }
 const Parameters& Odometry::parameters() const
 {

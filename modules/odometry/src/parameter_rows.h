@@ -23,6 +23,7 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows measurementRows();
 [[nodiscard]] ParameterRows mapRows();
 [[nodiscard]] ParameterRows updateRows();
+[[nodiscard]] ParameterRows outputRows();
 [[nodiscard]] ParameterRows generalRows();
 
 }  // namespace fastlio

@@ -15,7 +15,7 @@ ParameterRows allRows()
   ParameterRows all;
   for (const auto& rows :
        {inputRows(), initializationRows(), imuRows(), lidarRows(), reductionRows(),
-        measurementRows(), mapRows(), updateRows(), generalRows()})
+        measurementRows(), mapRows(), updateRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -40,6 +40,22 @@ Vector6 eigenvalues(const Matrix6& m)
       .eigenvalues();
 }
 
+/** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, state) after each step. */
+template <typename Visit>
+FilterState propagateThrough(
+    FilterState s, const std::vector<ImuSample>& inputs, std::int64_t end_ns, const ImuNoise& noise,
+    const Visit& visit)
+{
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    const std::int64_t stop_ns = i + 1 < inputs.size() ? inputs[i + 1].stamp_ns : end_ns;
+    const double dt = static_cast<double>(stop_ns - inputs[i].stamp_ns) * kNsToS;
+    s = propagate(s, inputs[i].gyro, inputs[i].accel, dt, noise);
+    visit(stop_ns, s);
+  }
+  return s;
+}
+
 void describeUpdate(const UpdateResult& update, ScanStatistics& statistics)
 {
   const InformationSums& sums = update.last;
@@ -88,6 +104,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   state_ns_ = span.end_ns;
   result.filter = considerMapError(predicted);
   judge(update, result);
+  pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
     growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
   else
@@ -118,21 +135,39 @@ void ScanPipeline::reduce(const LidarScan& scan)
   timings_.reduce = watch.milliseconds();
 }
 
+std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& imu)
+{
+  const std::int64_t stamp_ns = imu.newestStamp();
+  if (!pose_trusted_ || stamp_ns <= state_ns_) return std::nullopt;
+  imu.inputsBetween(state_ns_, stamp_ns, parameters_.imu.hold, inputs_);
+  const FilterState s = propagateThrough(
+      filter_, inputs_, stamp_ns, parameters_.imu.noise, [](std::int64_t, const FilterState&) {});
+  if (!isFinite(s.x) || !s.P.allFinite()) return std::nullopt;
+  return imuRateState(stamp_ns, s, map_error_.shareAt(s.x.pose()), imu);
+}
+
 FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
-  imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
   imu_gap_s_ = static_cast<double>(imu.longestGap(state_ns_, end_ns)) * kNsToS;
-  FilterState s = filter_;
-  for (std::size_t i = 0; i < inputs_.size(); ++i)
-  {
-    const std::int64_t stop_ns = i + 1 < inputs_.size() ? inputs_[i + 1].stamp_ns : end_ns;
-    const double dt = static_cast<double>(stop_ns - inputs_[i].stamp_ns) * kNsToS;
-    s = propagate(s, inputs_[i].gyro, inputs_[i].accel, dt, parameters_.imu.noise);
-  }
+  imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
+  imu_rate_.clear();
+  FilterState s = propagateThrough(
+      filter_, inputs_, end_ns, parameters_.imu.noise,
+      [&](std::int64_t stamp_ns, const FilterState& state)
+      {
+        if (!parameters_.output.imu_rate || !pose_trusted_) return;
+        const Matrix6 map_share = map_error_.shareAt(state.x.pose());
+        const auto at_sample = imuRateState(stamp_ns, state, map_share, imu);
+        if (at_sample) imu_rate_.push_back(*at_sample);
+      });
   // Absurd but finite inertial samples may overflow; such a number never enters the state.
   prediction_finite_ = isFinite(s.x) && s.P.allFinite();
-  if (!prediction_finite_) s = filter_;
+  if (!prediction_finite_)
+  {
+    s = filter_;
+    imu_rate_.clear();
+  }
   timings_.propagate = watch.milliseconds();
   return s;
 }

@@ -10,6 +10,7 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_plane.h>
@@ -17,6 +18,7 @@
 #include <fastlio/parallel/workers.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace fastlio
@@ -35,6 +37,13 @@ class ScanPipeline
 
   /** What the last scan added to the map; empty when nothing. */
   [[nodiscard]] const WorldPoints& registeredPoints() const { return world_; }
+
+  /** The prediction of the last scan at each inertial sample on the way (output.imu_rate). */
+  [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const { return imu_rate_; }
+
+  /** The state at the newest inertial sample, from the latest scan; nothing before the start, while
+   * the pose is not trusted, and when the latest scan is newer. */
+  [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample(const ImuBuffer& imu);
 
   /** One scan, from prediction to map growth (section III of the paper). */
   [[nodiscard]] ScanResult process(
@@ -61,6 +70,7 @@ class ScanPipeline
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
   bool prediction_finite_ = true;
+  bool pose_trusted_ = true;
   double imu_gap_s_ = 0.0;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;
@@ -71,6 +81,7 @@ class ScanPipeline
   ScanSelection selection_;
   std::vector<ImuSample> inputs_;
   std::vector<MotionKnot> knots_;
+  std::vector<ImuRateState> imu_rate_;
   BodyPoints body_;
   WorldPoints world_;
   std::vector<PlaneMatch> matches_;

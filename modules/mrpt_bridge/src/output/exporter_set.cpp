@@ -12,13 +12,14 @@ void ExporterSet::add(std::unique_ptr<Exporter> exporter)
   exporters_.push_back(std::move(exporter));
 }
 
-void ExporterSet::onScan(const ScanResult& result)
+void ExporterSet::onScan(const ScanResult& result, const std::vector<ImuRateState>& before)
 {
   for (auto& exporter : exporters_)
   {
     if (!exporter) continue;
     try
     {
+      exporter->onImuRate(before);
       exporter->onScan(result);
     }
     catch (const std::exception& e)

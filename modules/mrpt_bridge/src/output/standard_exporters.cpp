@@ -17,6 +17,7 @@ ExporterSet makeStandardExporters(const OutputOptions& options)
   set.add(makeTumExporter(path("trajectory.tum"), options.frame));
   set.add(makeStatesExporter(path("states.csv")));
   set.add(makeCovarianceExporter(path("covariance.csv"), options.frame));
+  if (options.imu_rate) set.add(makeImuRateExporter(path("imu_rate.csv"), options.frame));
   set.add(makeTimingExporter(path("timing.csv")));
   set.add(makePlyMapExporter(path("map.ply")));
   set.add(makeMetricMapExporter(path("map.metricmap")));

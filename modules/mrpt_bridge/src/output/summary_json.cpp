@@ -70,13 +70,12 @@ Json scansJson(const RunStatistics& statistics)
 
 Json pointsJson(const PointTotals& points)
 {
-  return {
-      {"in", points.in},
-      {"dropped_invalid", points.invalid},
-      {"dropped_near", points.near},
-      {"dropped_far", points.far},
-      {"after_reduction", points.reduced},
-      {"effective", points.effective}};
+  return {{"in", points.in},
+          {"dropped_invalid", points.invalid},
+          {"dropped_near", points.near},
+          {"dropped_far", points.far},
+          {"after_reduction", points.reduced},
+          {"effective", points.effective}};
 }
 
 Json troubleJson(const Trouble& trouble)

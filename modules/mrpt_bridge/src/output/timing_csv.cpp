@@ -22,8 +22,8 @@ std::string counts(const ScanStatistics& s)
 {
   std::string text;
   for (const std::size_t n :
-       {s.points_in, s.dropped_invalid, s.dropped_near, s.dropped_far,
-        s.points_reduced, s.points_effective, s.imu_samples, s.map_points})
+       {s.points_in, s.dropped_invalid, s.dropped_near, s.dropped_far, s.points_reduced,
+        s.points_effective, s.imu_samples, s.map_points})
     text += "," + std::to_string(n);
   return text + "," + std::to_string(s.iterations) + "," + (s.converged ? "1" : "0");
 }

@@ -51,6 +51,9 @@ class ImuBuffer
   [[nodiscard]] std::vector<ImuSample> samplesBetween(
       std::int64_t begin_ns, std::int64_t end_ns) const;
 
+  /** The sample with this very stamp, or null; valid until the next change of the buffer. */
+  [[nodiscard]] const ImuSample* sampleAt(std::int64_t stamp_ns) const;
+
   /** Forgets samples that no interval starting at or after stamp_ns needs. */
   void forgetBefore(std::int64_t stamp_ns);
 

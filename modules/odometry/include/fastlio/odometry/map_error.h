@@ -56,6 +56,10 @@ class MapErrorModel
       const Pose& T_world_imu, const Matrix6& filter_covariance, const BodyPoints& body,
       const std::vector<PlaneMatch>& matches, const ResidualModel& model);
 
+  /** E after the last update, as the share of a pose covariance at T_world_imu: errors of the map
+   * stay what they are while the platform moves on. */
+  [[nodiscard]] Matrix6 shareAt(const Pose& T_world_imu) const;
+
   /** Remembers with what total pose covariance insertion number \a scan was made. */
   void recordInsertion(std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu);
 

@@ -8,6 +8,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/scan_result.h>
 
@@ -57,6 +58,18 @@ class Odometry
   /** The points of the last scan that was used, in the world frame; empty when the last scan did
    * not join the map. Valid until the next call of next() or flush(). */
   [[nodiscard]] const WorldPoints& registeredPoints() const;
+
+  /** With output.imu_rate: the states at the inertial samples after the scan before the last one up
+   * to the last one's end, predicted from the former: what was known at those instants. Stamps
+   * ascend over all calls. Empty while the pose is not trusted. Valid until the next call of next()
+   * or flush(). */
+  [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const;
+
+  /** For programs that react at the rate of the inertial sensor: the state at the newest sample,
+   * predicted from the latest scan that next() has given. Call it after addImu(); nothing before
+   * the start and while the pose is not trusted. Each call propagates anew from that scan. */
+  [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
+
   [[nodiscard]] const Parameters& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;
 

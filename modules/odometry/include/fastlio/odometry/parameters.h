@@ -19,12 +19,12 @@ namespace fastlio
 /** Group `initialization`. */
 struct InitializationParameters
 {
-  double duration = 2.0;           //!< resting time that is averaged [s]
-  double max_gyro_std = 0.1;       //!< above: the platform does not rest [rad/s] (YAML: deg/s)
-  double max_accel_std = 1.0;      //!< above: the platform does not rest [m/s^2]
-  double max_gyro_mean = 0.2;      //!< above: the platform does not rest [rad/s] (YAML: deg/s)
-  double gravity = 9.81;           //!< |g| [m/s^2]
-  double gravity_std = 0.02;       //!< how well |g| is known [m/s^2]
+  double duration = 2.0;                       //!< resting time that is averaged [s]
+  double max_gyro_std = 0.10471975511965978;   //!< above: no rest [rad/s]; 6 deg/s
+  double max_accel_std = 1.0;                  //!< above: the platform does not rest [m/s^2]
+  double max_gyro_mean = 0.20943951023931956;  //!< above: no rest [rad/s]; 12 deg/s
+  double gravity = 9.81;                       //!< |g| [m/s^2]
+  double gravity_std = 0.02;                   //!< how well |g| is known [m/s^2]
   double max_gravity_error = 1.0;  //!< largest |mean specific force| - |g| taken as rest [m/s^2]
   double gyro_bias_std = 1e-5;     //!< added to the uncertainty of the averaged bias [rad/s]
   double accel_bias_std = 0.1;     //!< prior of the accelerometer bias, zero mean [m/s^2]
@@ -96,6 +96,12 @@ struct InputParameters
   std::optional<Pose> T_vehicle_lidar;  //!< LiDAR in the vehicle frame, instead of the recording's
 };
 
+/** Group `output`. */
+struct OutputParameters
+{
+  bool imu_rate = false;  //!< states between scans, at each inertial sample
+};
+
 /** Everything that configures an Odometry. */
 struct Parameters
 {
@@ -107,6 +113,7 @@ struct Parameters
   MeasurementParameters measurement;
   MapParameters map;
   IterationLimits update;
+  OutputParameters output;
   GainForm gain = GainForm::Information;
   int threads = 0;  //!< worker threads; 0 = all cores
 };

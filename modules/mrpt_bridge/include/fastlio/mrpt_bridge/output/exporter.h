@@ -6,6 +6,7 @@
 
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <mrpt/maps/CPointsMap.h>
@@ -37,6 +38,11 @@ class Exporter
    * \exception std::runtime_error the file cannot be written */
   virtual void onScan(const ScanResult& result) = 0;
 
+  /** Takes the states between the scan before and the one that onScan() gets next, in time order;
+   * for files at the rate of the inertial sensor.
+   * \exception std::runtime_error the file cannot be written */
+  virtual void onImuRate(const std::vector<ImuRateState>& /*states*/) {}
+
   /** Completes the files and gives them their final names.
    * \exception std::runtime_error the file cannot be written */
   virtual std::vector<OutputFile> finish(const RunEnd& end) = 0;
@@ -48,7 +54,8 @@ class ExporterSet
 {
  public:
   void add(std::unique_ptr<Exporter> exporter);
-  void onScan(const ScanResult& result);
+  /** One scan, and the states at the inertial samples before it (Odometry::imuRateStates()). */
+  void onScan(const ScanResult& result, const std::vector<ImuRateState>& before = {});
 
   /** Finishes all, in the order they were added.
    * \return the summary, completed with outputs and output_problems */

@@ -32,6 +32,17 @@ struct PoseEstimate
  */
 [[nodiscard]] PoseEstimate poseEstimateOf(const FilterState& filter, const Pose& T_imu_body);
 
+/** The same for a pose covariance of the IMU body (attitude in the IMU frame, position in the
+ * world frame). */
+[[nodiscard]] PoseEstimate poseEstimateOf(
+    const Pose& T_world_imu, const Matrix6& imu_covariance, const Pose& T_imu_body);
+
+/** ",c_rx_rx,...,c_pz_pz": names of the upper triangle of a pose covariance, row by row. */
+[[nodiscard]] std::string covarianceNames();
+
+/** ",v,...": the values in that order, in the shortest text that reads back. */
+[[nodiscard]] std::string covarianceText(const Matrix6& covariance);
+
 /** "x,y,z,qx,qy,qz,qw" with the given separator: position with 6 decimals [m], unit quaternion with
  * 9 decimals and qw >= 0. */
 [[nodiscard]] std::string poseText(const Pose& pose, char separator);

@@ -16,7 +16,8 @@ struct OutputOptions
 {
   std::string directory;  //!< exists; receives all files of docs/outputs.md
   std::string tum_path;   //!< one more trajectory in TUM format
-  OutputFrame frame;      //!< body of trajectory.tum and covariance.csv
+  OutputFrame frame;      //!< body of trajectory.tum, covariance.csv and imu_rate.csv
+  bool imu_rate = false;  //!< also writes imu_rate.csv
 };
 
 /** Every exporter of docs/outputs.md. A new one is a line in this function.
@@ -32,6 +33,10 @@ struct OutputOptions
 
 /** `covariance.csv`: pose and the upper triangle of its 6x6 covariance. */
 [[nodiscard]] std::unique_ptr<Exporter> makeCovarianceExporter(
+    const std::string& path, const OutputFrame& frame);
+
+/** `imu_rate.csv`: pose, velocity and pose covariance at each inertial sample. */
+[[nodiscard]] std::unique_ptr<Exporter> makeImuRateExporter(
     const std::string& path, const OutputFrame& frame);
 
 /** `timing.csv`: status, counts and milliseconds per stage of every scan. */

@@ -1,0 +1,19 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/odometry/imu_rate.h>
+
+namespace fastlio
+{
+std::optional<ImuRateState> imuRateState(
+    std::int64_t stamp_ns, const FilterState& propagated, const Matrix6& map_share,
+    const ImuBuffer& imu)
+{
+  const ImuSample* sample = imu.sampleAt(stamp_ns);
+  if (sample == nullptr) return std::nullopt;
+  return ImuRateState{
+      stamp_ns, propagated.x, sample->gyro - propagated.x.gyro_bias,
+      propagated.P.topLeftCorner<6, 6>() + map_share};
+}
+
+}  // namespace fastlio
