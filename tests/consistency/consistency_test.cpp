@@ -121,7 +121,7 @@ void add(Samples& samples, const StateVector& error, const StateMatrix& P)
 {
   samples.attitude.push_back(nees(error, P, kAttitude));
   samples.position.push_back(nees(error, P, kPosition));
-  for (int i = kGyroBias; i < kStateDim; ++i, ++samples.components)
+  for (int i = kGyroBias; i < kNavigationDim; ++i, ++samples.components)
     samples.within_3_sigma += std::abs(error[i]) <= 3.0 * std::sqrt(P(i, i)) ? 1 : 0;
 }
 

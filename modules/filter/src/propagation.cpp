@@ -35,7 +35,7 @@ constexpr int kMotionDim = 9;  //!< attitude, position, velocity: the rows of Fx
 using MotionRows = Eigen::Matrix<double, kMotionDim, kStateDim>;
 using MotionSquare = Eigen::Matrix<double, kMotionDim, kMotionDim>;
 
-/** The first nine rows of Fx P. */
+/** The first nine rows of Fx P, for P a covariance or a product of such Fx. */
 MotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
 {
   MotionRows m;
@@ -99,13 +99,12 @@ StateMatrix propagateCovariance(
 NavState propagateMean(
     const NavState& x, const Vec3& gyro, const Vec3& accel, double dt, const NoiseVector& w)
 {
-  StateVector f;
+  StateVector f = StateVector::Zero();
   f.segment<3>(kAttitude) = gyro - x.gyro_bias - w.segment<3>(0);
   f.segment<3>(kPosition) = x.v;
   f.segment<3>(kVelocity) = x.R * (accel - x.accel_bias - w.segment<3>(3)) + x.g;
   f.segment<3>(kGyroBias) = w.segment<3>(6);
   f.segment<3>(kAccelBias) = w.segment<3>(9);
-  f.segment<3>(kGravity).setZero();
   return boxplus(x, dt * f);
 }
 
@@ -126,6 +125,15 @@ ProcessJacobians processJacobians(const NavState& x, const Vec3& gyro, const Vec
   j.Fw.block<3, 3>(kGyroBias, 6) = I_dt;
   j.Fw.block<3, 3>(kAccelBias, 9) = I_dt;
   return j;
+}
+
+StateMatrix chainTransition(
+    const StateMatrix& transition, const NavState& x, const Vec3& gyro, const Vec3& accel,
+    double dt)
+{
+  StateMatrix next = transition;
+  next.topRows<kMotionDim>() = leftMultiply(processBlocks(x, gyro, accel, dt), transition, dt);
+  return next;
 }
 
 // Eq. 4 (mean, w = 0) and eq. 8 (covariance).

@@ -14,16 +14,24 @@ namespace fastlio
 {
 namespace
 {
-constexpr int kPoseDim = 6;                     //!< attitude and position: the columns H has
-constexpr int kRestDim = kStateDim - kPoseDim;  //!< the columns where H is zero
+constexpr int kPoseDim = 6;                     //!< of the scan pose, and of attitude and position
+constexpr int kRestDim = kStateDim - kPoseDim;  //!< of the rest of the error state
 
-/** A covariance moved from the tangent space of one state to that of another, eq. 16:
- * P = J^-1 P_hat J^-T with J^-1 = diag(A(rotation)^T, I), rotation = Log(R_from^T R_to). */
-StateMatrix moveToTangentSpace(StateMatrix P, const Vec3& rotation)
+/** Moves the rows and columns of one rotation, eq. 16: J^-1 = A(rotation)^T. */
+void moveRotation(StateMatrix& P, StateBlock block, const Vec3& rotation)
 {
   const Mat3 J_inv = leftJacobianSO3(rotation).transpose();
-  P.topRows<3>() = J_inv.lazyProduct(P.topRows<3>()).eval();
-  P.leftCols<3>() = P.leftCols<3>().lazyProduct(J_inv.transpose()).eval();
+  P.middleRows<3>(block) = J_inv.lazyProduct(P.middleRows<3>(block)).eval();
+  P.middleCols<3>(block) = P.middleCols<3>(block).lazyProduct(J_inv.transpose()).eval();
+}
+
+/** A covariance moved from the tangent space of one state to that of another, eq. 16:
+ * P = J^-1 P_hat J^-T, step = (state moved to) [-] (state moved from). */
+StateMatrix moveToTangentSpace(StateMatrix P, const StateVector& step)
+{
+  moveRotation(P, kAttitude, step.segment<3>(kAttitude));
+  const Vec3 extrinsic = step.segment<3>(kExtrinsicRotation);
+  if (!extrinsic.isZero(0.0)) moveRotation(P, kExtrinsicRotation, extrinsic);
   return P;
 }
 
@@ -38,7 +46,7 @@ struct TangentPrior
 TangentPrior priorAt(const FilterState& prior, const NavState& iterate)
 {
   const StateVector d = boxminus(iterate, prior.x);
-  return {d, moveToTangentSpace(prior.P, d.segment<3>(kAttitude))};
+  return {d, moveToTangentSpace(prior.P, d)};
 }
 
 void requireConsistent(const StackedMeasurements& m)
@@ -98,14 +106,17 @@ bool isConverged(const StateVector& dx, const IterationLimits& limits)
   { return dx.segment<3>(block).cwiseAbs().maxCoeff() < limit; };
   return below(kAttitude, limits.attitude) && below(kPosition, limits.position) &&
          below(kVelocity, limits.velocity) && below(kGyroBias, limits.gyro_bias) &&
-         below(kAccelBias, limits.accel_bias) && below(kGravity, limits.gravity);
+         below(kAccelBias, limits.accel_bias) && below(kGravity, limits.gravity) &&
+         below(kExtrinsicRotation, limits.attitude) &&
+         below(kExtrinsicTranslation, limits.position);
 }
 
 UpdateStep stepWith(
     GainForm gain, const FilterState& prior, const NavState& iterate,
     const MeasurementEvaluation& evaluation)
 {
-  if (gain == GainForm::Information) return informationStep(prior, iterate, evaluation.sums);
+  if (gain == GainForm::Information)
+    return informationStep(prior, iterate, evaluation.sums, evaluation.by_state);
   if (evaluation.stacked.h.size() != evaluation.sums.count)
   {
     throw std::invalid_argument(
@@ -113,7 +124,7 @@ UpdateStep stepWith(
         " measurements stacked, but the model stacked " +
         std::to_string(evaluation.stacked.h.size()));
   }
-  return standardStep(prior, iterate, evaluation.stacked);
+  return standardStep(prior, iterate, evaluation.stacked, evaluation.by_state);
 }
 
 /** The filter state at the end. (I - K H) P refers to the tangent space of the iterate that the
@@ -121,76 +132,88 @@ UpdateStep stepWith(
  * the limits an identity, if converged). */
 FilterState posteriorAt(const NavState& x, const UpdateStep& last)
 {
-  FilterState s{x, moveToTangentSpace(last.P, last.dx.segment<3>(kAttitude))};
+  FilterState s{x, moveToTangentSpace(last.P, last.dx)};
   s.x.R = normalizeRotation(s.x.R);
+  s.x.extrinsic_correction.R = normalizeRotation(s.x.extrinsic_correction.R);
   s.P = 0.5 * (s.P + s.P.transpose()).eval();
   return s;
 }
 }  // namespace
 
-// Eq. 16: J = diag(A(Log(R_hat^T R_kappa))^-T, I_15).
+// Eq. 16: J = diag(A(Log(R_hat^T R_kappa))^-T, I_15), and the same for the extrinsic's rotation.
 StateMatrix priorJacobianInverse(const NavState& iterate, const NavState& prior)
 {
+  const StateVector d = boxminus(iterate, prior);
   StateMatrix J_inv = StateMatrix::Identity();
-  J_inv.topLeftCorner<3, 3>() =
-      leftJacobianSO3(logSO3(prior.R.transpose() * iterate.R)).transpose();
+  for (const StateBlock block : {kAttitude, kExtrinsicRotation})
+    J_inv.block<3, 3>(block, block) = leftJacobianSO3(d.segment<3>(block)).transpose();
   return J_inv;
 }
 
-/* Eq. 18-20 with K = (H^T R^-1 H + P^-1)^-1 H^T R^-1. H is zero outside the pose columns, so
- * H^T R^-1 H = E S E^T with E = [I_6; 0] and S the 6x6 sum. The inversion lemma, applied to this
- * inverse, needs neither P^-1 (P may be singular: attitude or biases known exactly) nor anything
- * larger than 6x6. With P_6 the first six columns of P and P_66 its pose block:
+/* Eq. 18-20 with K = (H^T R^-1 H + P^-1)^-1 H^T R^-1. The measurements depend on the state through
+ * the scan pose only, H = H_6 B, so H^T R^-1 H = B^T S B with S the 6x6 sum. The inversion lemma,
+ * applied to this inverse, needs neither P^-1 (P may be singular: attitude, biases or calibration
+ * known exactly) nor anything larger than 6x6. With C = B P and M = B P B^T:
  *
- *   (E S E^T + P^-1)^-1       = P - P_6 (I + S P_66)^-1 S P_6^T
- *   (E S E^T + P^-1)^-1 E     = P_6 (I + S P_66)^-1 =: G
- *   K = G H^T R^-1,   K z     = G (sum h^T z / r),   K H = G S E^T
- *   (I - K H) P               = [ G | its remaining columns P - G S P_6^T ]
+ *   (B^T S B + P^-1)^-1       = P - C^T S (I + M S)^-1 C
+ *   B (B^T S B + P^-1)^-1     = (I + M S)^-1 C =: G
+ *   K z = G^T (sum h z / r),   K H = G^T S B,   (I - K H) P = P - C^T S G
  *
- * I + S P_66 is always regular, its eigenvalues being 1 or more. Reading the pose columns of the
- * posterior from G rather than from the difference avoids the cancellation when a weak prior meets
- * strong measurements. */
+ * I + M S is always regular, its eigenvalues being 1 or more. The difference would cancel where a
+ * weak prior meets strong measurements; the pose is therefore read from G = B (I - K H) P itself,
+ * with B = [B_p, B_r] split in pose and rest: pose rows = B_p^-1 (G - B_r rest rows). */
 UpdateStep informationStep(
-    const FilterState& prior, const NavState& iterate, const InformationSums& sums)
+    const FilterState& prior, const NavState& iterate, const InformationSums& sums,
+    const ScanPoseJacobian& by_state)
 {
   using Square6 = Eigen::Matrix<double, kPoseDim, kPoseDim>;
+  using Rows6 = Eigen::Matrix<double, kPoseDim, kStateDim>;
+  using Rest = Eigen::Matrix<double, kPoseDim, kRestDim>;
   const auto [d, P] = priorAt(prior, iterate);
   const Square6 S = sums.HtRinvH;
-  const Square6 system = Square6::Identity() + P.topLeftCorner<kPoseDim, kPoseDim>().lazyProduct(S);
-  const Eigen::Matrix<double, kPoseDim, kStateDim> Gt =
-      system.partialPivLu().solve(P.topRows<kPoseDim>());
+  const Rows6 B = by_state;
+  const Rows6 C = B.lazyProduct(P);
+  const Square6 M = C.lazyProduct(B.transpose());
+  const Square6 system = Square6::Identity() + M.lazyProduct(S);
+  const Rows6 G = system.partialPivLu().solve(C);
 
   UpdateStep step;
-  const Vector6 b = sums.HtRinvz - S.lazyProduct(d.head<kPoseDim>());
-  step.dx = -d - Gt.transpose().lazyProduct(b);
+  const Vector6 b = sums.HtRinvz - S.lazyProduct(B.lazyProduct(d));
+  step.dx = -d - G.transpose().lazyProduct(b);
 
-  const Eigen::Matrix<double, kPoseDim, kRestDim> S_P6r =
-      S.lazyProduct(P.topRightCorner<kPoseDim, kRestDim>());
-  step.P.topRows<kPoseDim>() = Gt;
-  step.P.bottomLeftCorner<kRestDim, kPoseDim>() = Gt.rightCols<kRestDim>().transpose();
-  step.P.bottomRightCorner<kRestDim, kRestDim>() =
-      P.bottomRightCorner<kRestDim, kRestDim>() -
-      Gt.rightCols<kRestDim>().transpose().lazyProduct(S_P6r);
+  const Rest S_G = S.lazyProduct(G.rightCols<kRestDim>());
+  auto rest = step.P.bottomRightCorner<kRestDim, kRestDim>();
+  rest = P.bottomRightCorner<kRestDim, kRestDim>() -
+         C.rightCols<kRestDim>().transpose().lazyProduct(S_G);
+  const Eigen::PartialPivLU<Square6> B_pose(B.leftCols<kPoseDim>());
+  const Rest B_rest = B.rightCols<kRestDim>();
+  const Rest cross = B_pose.solve(G.rightCols<kRestDim>() - B_rest.lazyProduct(rest));
+  step.P.topRightCorner<kPoseDim, kRestDim>() = cross;
+  step.P.bottomLeftCorner<kRestDim, kPoseDim>() = cross.transpose();
+  step.P.topLeftCorner<kPoseDim, kPoseDim>() =
+      B_pose.solve(G.leftCols<kPoseDim>() - B_rest.lazyProduct(cross.transpose()));
   step.P = 0.5 * (step.P + step.P.transpose()).eval();
   return step;
 }
 
 // Eq. 18: K = P H^T (H P H^T + R)^-1, an m x m system for m measurements.
 UpdateStep standardStep(
-    const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements)
+    const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements,
+    const ScanPoseJacobian& by_state)
 {
   requireConsistent(measurements);
   const auto [d, P] = priorAt(prior, iterate);
   if (measurements.h.empty()) return {-d, P};
   const StackedMatrices s = stack(measurements);
   using Wide = Eigen::Matrix<double, kStateDim, Eigen::Dynamic>;
-  const Wide PHt = P.leftCols<kPoseDim>() * s.H.transpose();
-  Eigen::MatrixXd innovation = s.H * PHt.topRows<kPoseDim>();
+  const Wide Ht = by_state.transpose() * s.H.transpose();
+  const Wide PHt = P * Ht;
+  Eigen::MatrixXd innovation = Ht.transpose() * PHt;
   innovation.diagonal() += s.R;
   const Wide K = innovation.llt().solve(PHt.transpose()).transpose();
 
   UpdateStep step;
-  step.dx = -d - K * (s.z - s.H * d.head<kPoseDim>());
+  step.dx = -d - K * (s.z - Ht.transpose() * d);
   step.P = P - K * PHt.transpose();
   step.P = 0.5 * (step.P + step.P.transpose()).eval();
   return step;

@@ -46,6 +46,8 @@ class Random
     x.gyro_bias = vector(0.05);
     x.accel_bias = vector(0.3);
     x.g = 9.81 * axis();
+    x.extrinsic_correction = {expSO3(vector(0.1)), vector(0.1)};
+    x.time_offset = 0.01 * normal();
     return x;
   }
 

@@ -15,11 +15,12 @@ namespace fastlio
 {
 namespace
 {
-/** A step whose attitude part is a rotation of less than pi, where boxminus inverts boxplus. */
+/** A step whose rotations are less than pi, where boxminus inverts boxplus. */
 StateVector randomStep(test::Random& random)
 {
   StateVector dx = random.stateVector(1.0);
-  dx.segment<3>(kAttitude) = random.uniform(0.0, 3.14) * random.axis();
+  for (const StateBlock block : {kAttitude, kExtrinsicRotation})
+    dx.segment<3>(block) = random.uniform(0.0, 3.14) * random.axis();
   return dx;
 }
 
@@ -27,7 +28,7 @@ TEST(State, boxplusOfZeroIsTheSameState)
 {
   test::Random random(1);
   const NavState x = random.state();
-  EXPECT_EQ(boxminus(boxplus(x, StateVector::Zero()), x).tail<15>().norm(), 0.0);
+  EXPECT_EQ(boxminus(boxplus(x, StateVector::Zero()), x).segment<15>(kPosition).norm(), 0.0);
   EXPECT_LT(boxminus(x, x).norm(), 1e-15);
 }
 
@@ -91,6 +92,9 @@ TEST(State, blocksAreWhereTheErrorStateSaysTheyAre)
   EXPECT_EQ(x.gyro_bias, Vec3(dx.segment<3>(9)));
   EXPECT_EQ(x.accel_bias, Vec3(dx.segment<3>(12)));
   EXPECT_EQ(x.g, Vec3(dx.segment<3>(15)));
+  EXPECT_LT((logSO3(x.extrinsic_correction.R) - dx.segment<3>(18)).norm(), 1e-15);
+  EXPECT_EQ(x.extrinsic_correction.p, Vec3(dx.segment<3>(21)));
+  EXPECT_EQ(x.time_offset, dx[24]);
 }
 
 TEST(State, nonFiniteNumbersAreSeenInEveryComponent)
@@ -110,6 +114,12 @@ TEST(State, nonFiniteNumbersAreSeenInEveryComponent)
       (y.*member).z() = bad;
       EXPECT_FALSE(isFinite(y));
     }
+    NavState rotation, translation, time;
+    rotation.extrinsic_correction.R(0, 1) = bad;
+    translation.extrinsic_correction.p.y() = bad;
+    time.time_offset = bad;
+    for (const NavState& y : {rotation, translation, time})
+      EXPECT_FALSE(isFinite(y));
   }
 }
 
@@ -133,15 +143,15 @@ constexpr bool hasPlainLayout(std::size_t doubles)
 TEST(State, layoutOfPublicTypesDoesNotDependOnCompilerFlags)
 {
   EXPECT_TRUE(hasPlainLayout<Pose>(12));
-  EXPECT_TRUE(hasPlainLayout<NavState>(24));
-  EXPECT_TRUE(hasPlainLayout<FilterState>(24 + 324));
+  EXPECT_TRUE(hasPlainLayout<NavState>(24 + 13));
+  EXPECT_TRUE(hasPlainLayout<FilterState>(24 + 13 + 625));
   EXPECT_TRUE(hasPlainLayout<ImuSample>(7));
   EXPECT_TRUE(hasPlainLayout<ImuNoise>(4));
   EXPECT_TRUE(hasPlainLayout<MotionKnot>(1 + 9 + 12));
-  EXPECT_TRUE(hasPlainLayout<ProcessJacobians>(324 + 18 * 12));
+  EXPECT_TRUE(hasPlainLayout<ProcessJacobians>(625 + 25 * 12));
   EXPECT_TRUE(hasPlainLayout<NoiseVector>(12));
   EXPECT_TRUE(hasPlainLayout<InformationSums>(36 + 6 + 3));
-  EXPECT_TRUE(hasPlainLayout<UpdateStep>(18 + 324));
+  EXPECT_TRUE(hasPlainLayout<UpdateStep>(25 + 625));
   EXPECT_LE(alignof(StackedMeasurements), 8u);
   EXPECT_LE(alignof(MeasurementEvaluation), 8u);
   EXPECT_LE(alignof(UpdateResult), 8u);

@@ -117,7 +117,7 @@ TEST(StatesCsv, HoldsStateAndDeviationsByName)
   EXPECT_EQ(std::stod(row["baz"]), x.accel_bias.z());
   EXPECT_EQ(std::stod(row["gz"]), x.g.z());
   const std::array<const char*, 6> blocks = {"rot", "pos", "vel", "bg", "ba", "g"};
-  for (int i = 0; i < kStateDim; ++i)
+  for (int i = 0; i < kNavigationDim; ++i)
   {
     const std::string name =
         std::string("sigma_") + blocks.at(static_cast<std::size_t>(i / 3)) + "_" + "xyz"[i % 3];

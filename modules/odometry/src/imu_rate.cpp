@@ -6,14 +6,14 @@
 namespace fastlio
 {
 std::optional<ImuRateState> imuRateState(
-    std::int64_t stamp_ns, const FilterState& propagated, const Matrix6& map_share,
+    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_share,
     const ImuBuffer& imu)
 {
   const ImuSample* sample = imu.sampleAt(stamp_ns);
   if (sample == nullptr) return std::nullopt;
   return ImuRateState{
       stamp_ns, propagated.x, sample->gyro - propagated.x.gyro_bias,
-      propagated.P.topLeftCorner<6, 6>() + map_share};
+      propagated.P.topLeftCorner<6, 6>() + map_share.topLeftCorner<6, 6>()};
 }
 
 }  // namespace fastlio

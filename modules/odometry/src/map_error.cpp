@@ -3,7 +3,7 @@
 
 #include <fastlio/odometry/map_error.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 
@@ -16,6 +16,8 @@ namespace
 constexpr std::size_t kMaxFoundings = 256;
 
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
+using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
+using AlignedStateBy6 = Eigen::Matrix<double, kStateDim, 6>;
 
 /** d(phi, rho) / d(dtheta, dp): phi = R dtheta, rho = dp + [p]x phi. */
 AlignedMatrix6 twistJacobian(const Pose& T_world_imu)
@@ -33,13 +35,26 @@ AlignedMatrix6 twistJacobianInverse(const Pose& T_world_imu)
   L.bottomLeftCorner<3, 3>() = -skew(T_world_imu.p);
   return L;
 }
-/** The nearest positive semi-definite matrix: B changes a little between scans, so E may miss it by
- * a little. */
-AlignedMatrix6 positivePart(const AlignedMatrix6& m)
+
+/** C with C C^T = m for a positive semi-definite m. */
+AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
 {
-  const Eigen::SelfAdjointEigenSolver<AlignedMatrix6> eigen(0.5 * (m + m.transpose()));
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         eigen.eigenvectors().transpose();
+  // Keeps the factor finite where some direction has no error at all.
+  constexpr double kRelativeFloor = 1e-12;
+  const AlignedMatrix6 floor =
+      (kRelativeFloor * m.diagonal().array() + 1e-300).matrix().asDiagonal();
+  const Eigen::LLT<AlignedMatrix6> llt(m + floor);
+  return llt.info() == Eigen::Success ? AlignedMatrix6(llt.matrixL())
+                                      : AlignedMatrix6(AlignedMatrix6::Zero());
+}
+
+/** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
+AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
+{
+  AlignedMatrix6 Q = AlignedMatrix6::Zero();
+  for (const PlaneGroup& group : groups)
+    Q.noalias() += group.shared_variance * group.g * group.g.transpose();
+  return Q;
 }
 }  // namespace
 
@@ -55,45 +70,10 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
   return L * covariance * L.transpose();
 }
 
-MapErrorModel::PlaneGroup& MapErrorModel::groupOf(const PlaneMatch& match)
-{
-  if (match.plane >= table_.size()) table_.resize(match.plane + match.plane / 2 + 1);
-  Entry& entry = table_[match.plane];
-  if (entry.epoch != epoch_)
-  {
-    entry = {epoch_, static_cast<std::uint32_t>(groups_.size())};
-    groups_.emplace_back();
-    groups_.back().born = match.born;
-  }
-  return groups_[entry.group];
-}
-
-Matrix6 MapErrorModel::groupPoints(
-    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model)
-{
-  ++epoch_;
-  groups_.clear();
-  Matrix6 M = Matrix6::Zero();
-  for (std::size_t i = 0; i < body.size(); ++i)
-  {
-    if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    const double weight = 1.0 / m.variance;
-    M.noalias() += weight * m.h * m.h.transpose();
-    PlaneGroup& group = groupOf(matches[i]);
-    group.g += weight * m.h;
-    group.shared_variance += weight * static_cast<double>(matches[i].shared_variance);
-    group.weight += weight;
-  }
-  return M;
-}
-
-TwistCovariance MapErrorModel::foundingCovariance()
+TwistCovariance MapErrorModel::foundingCovariance(const std::vector<PlaneGroup>& groups)
 {
   double total = 0.0;
-  for (const PlaneGroup& group : groups_)
+  for (const PlaneGroup& group : groups)
   {
     total += group.weight;
     // The last founding at or before the plane's own; older ones may have been thinned out.
@@ -111,31 +91,54 @@ TwistCovariance MapErrorModel::foundingCovariance()
   return mean;
 }
 
-Matrix6 MapErrorModel::update(
-    const Pose& T_world_imu, const Matrix6& filter_covariance, const BodyPoints& body,
-    const std::vector<PlaneMatch>& matches, const ResidualModel& model)
+void MapErrorModel::propagate(const StateMatrix& transition)
 {
-  const AlignedMatrix6 M_pose = groupPoints(T_world_imu, body, matches, model);
-  if (groups_.empty()) return poseCovariance(E_, T_world_imu);
-  AlignedMatrix6 B_pose = AlignedMatrix6::Zero();
-  for (const PlaneGroup& group : groups_)
-    B_pose.noalias() += group.shared_variance / group.weight * group.g * group.g.transpose();
-
-  const AlignedMatrix6 to_pose = twistJacobianInverse(T_world_imu);
-  const AlignedMatrix6 M = to_pose.transpose() * M_pose * to_pose;
-  const AlignedMatrix6 A = foundingCovariance();
-  const AlignedMatrix6 B = to_pose.transpose() * B_pose * to_pose + M * A * M;
-  const AlignedMatrix6 P = twistCovariance(filter_covariance, T_world_imu);
-  const AlignedMatrix6 keep = AlignedMatrix6::Identity() - P * M;
-  const AlignedMatrix6 cross = keep * X_ * P;
-  E_ = positivePart(keep * E_ * keep.transpose() + P * B * P + cross + cross.transpose());
-  X_ = keep * X_ + P * B;
-  return poseCovariance(E_, T_world_imu);
+  const AlignedStateMatrix Phi = transition;
+  E_ = Phi * E_ * Phi.transpose();
+  counted_twice_ = Phi * counted_twice_ * Phi.transpose();
+  Y_planes_ = Phi * Y_planes_;
+  Y_founding_ = Phi * Y_founding_;
 }
 
-Matrix6 MapErrorModel::shareAt(const Pose& T_world_imu) const
+void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurements& scan)
 {
-  return poseCovariance(E_, T_world_imu);
+  if (scan.groups.empty()) return;
+  const AlignedMatrix6 L = twistJacobian(update.T_world_scan);
+  const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
+  const AlignedMatrix6 C_planes =
+      squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
+  const AlignedMatrix6 C_founding = M * squareRoot(foundingCovariance(scan.groups));
+
+  const AlignedStateBy6 PBt =
+      update.posterior * update.by_state.transpose() * update.constrained.transpose();
+  const AlignedStateMatrix keep = AlignedStateMatrix::Identity() -
+                                  PBt * scan.information * (update.constrained * update.by_state);
+  const AlignedStateBy6 G = PBt * L.transpose();
+  const AlignedStateBy6 in_planes = G * C_planes, in_founding = G * C_founding;
+  const AlignedStateBy6 kept_planes = scan.persistence * (keep * Y_planes_);
+  const AlignedStateBy6 kept_founding = keep * Y_founding_;
+
+  const AlignedStateMatrix cross =
+      kept_planes * in_planes.transpose() + kept_founding * in_founding.transpose();
+  E_ = keep * E_ * keep.transpose() + in_planes * in_planes.transpose() +
+       in_founding * in_founding.transpose() + cross + cross.transpose();
+  Y_planes_ = kept_planes + in_planes;
+  Y_founding_ = kept_founding + in_founding;
+  counted_twice_ =
+      keep * counted_twice_ * keep.transpose() + PBt * scan.shared_noise * PBt.transpose();
+}
+
+StateMatrix MapErrorModel::addition() const
+{
+  const StateMatrix m = E_ - counted_twice_;
+  return 0.5 * (m + m.transpose());
+}
+
+StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const
+{
+  const AlignedStateMatrix Phi = transition;
+  return Phi * addition() * Phi.transpose();
 }
 
 void MapErrorModel::recordInsertion(

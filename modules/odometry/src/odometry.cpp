@@ -142,12 +142,12 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
   }
   while (pipeline_.started() && !scans_.empty())
   {
-    const ScanSpan span = scans_.front().span;
-    if (span.end_ns > imu_.newestStamp() && !at_end) break;
-    const QueuedScan queued = popScan();
-    if (!usable(span)) continue;
-    ScanResult result = pipeline_.process(queued.scan, span, imu_);
-    imu_.forgetBefore(span.end_ns);
+    if (scans_.front().span.end_ns + pipeline_.timeShift() > imu_.newestStamp() && !at_end) break;
+    QueuedScan queued = popScan();
+    pipeline_.applyCalibration(queued.scan, queued.span);
+    if (!usable(queued.span)) continue;
+    ScanResult result = pipeline_.process(queued.scan, queued.span, imu_);
+    imu_.forgetBefore(queued.span.end_ns);
     return result;
   }
   return std::nullopt;

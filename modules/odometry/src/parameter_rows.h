@@ -17,6 +17,7 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows initializationRows();
 [[nodiscard]] ParameterRows imuRows();
 [[nodiscard]] ParameterRows lidarRows();
+[[nodiscard]] ParameterRows calibrationRows();
 
 // Defined in parameter_rows_estimation.cpp.
 [[nodiscard]] ParameterRows reductionRows();

@@ -112,4 +112,29 @@ ParameterRows lidarRows()
   };
 }
 
+ParameterRows calibrationRows()
+{
+  return {
+      {"calibration.estimate_extrinsic", "",
+       BooleanValue{[](auto& p) { return &p.calibration.estimate_extrinsic; }},
+       "true: the pose of the LiDAR in the IMU frame is part of the state; what the motion does "
+       "not "
+       "excite stays as given"},
+      {"calibration.extrinsic_rotation_std", "deg",
+       RealValue{
+           [](auto& p) { return &p.calibration.extrinsic_rotation_std; }, 0.0, 180.0, kRadPerDeg},
+       "uncertainty of the given rotation of the LiDAR, per axis"},
+      {"calibration.extrinsic_translation_std", "m",
+       RealValue{[](auto& p) { return &p.calibration.extrinsic_translation_std; }, 0.0, 10.0},
+       "uncertainty of the given position of the LiDAR, per axis"},
+      {"calibration.estimate_time_offset", "",
+       BooleanValue{[](auto& p) { return &p.calibration.estimate_time_offset; }},
+       "true: the time offset between LiDAR and IMU is part of the state, starting at "
+       "lidar.time_offset"},
+      {"calibration.time_offset_std", "s",
+       RealValue{[](auto& p) { return &p.calibration.time_offset_std; }, 0.0, 1.0},
+       "uncertainty of lidar.time_offset"},
+  };
+}
+
 }  // namespace fastlio

@@ -14,8 +14,8 @@ ParameterRows allRows()
 {
   ParameterRows all;
   for (const auto& rows :
-       {inputRows(), initializationRows(), imuRows(), lidarRows(), reductionRows(),
-        measurementRows(), mapRows(), updateRows(), outputRows(), generalRows()})
+       {inputRows(), initializationRows(), imuRows(), lidarRows(), calibrationRows(),
+        reductionRows(), measurementRows(), mapRows(), updateRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

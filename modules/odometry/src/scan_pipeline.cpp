@@ -24,14 +24,17 @@ ReductionLimits reductionLimits(const Parameters& p)
       static_cast<std::size_t>(p.reduction.target_points)};
 }
 
-ResidualModel residualModel(const MeasurementParameters& p, const FilterState& predicted)
+/** The calibration's prior; what is not estimated is known exactly. */
+void addCalibrationPrior(StateMatrix& P, const CalibrationParameters& p)
 {
-  ResidualModel model;
-  model.range_variance = p.range_noise * p.range_noise;
-  model.gate = p.max_normalized_residual;
-  model.prior_position_variance = predicted.P.block<3, 3>(kPosition, kPosition).trace();
-  model.prior_attitude_variance = predicted.P.block<3, 3>(kAttitude, kAttitude).trace();
-  return model;
+  const auto set = [&P](StateBlock block, int size, double std)
+  { P.diagonal().segment(block, size).setConstant(std * std); };
+  if (p.estimate_extrinsic)
+  {
+    set(kExtrinsicRotation, 3, p.extrinsic_rotation_std);
+    set(kExtrinsicTranslation, 3, p.extrinsic_translation_std);
+  }
+  if (p.estimate_time_offset) set(kTimeOffset, 1, p.time_offset_std);
 }
 
 Vector6 eigenvalues(const Matrix6& m)
@@ -40,20 +43,32 @@ Vector6 eigenvalues(const Matrix6& m)
       .eigenvalues();
 }
 
-/** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, state) after each step. */
-template <typename Visit>
-FilterState propagateThrough(
-    FilterState s, const std::vector<ImuSample>& inputs, std::int64_t end_ns, const ImuNoise& noise,
-    const Visit& visit)
+/** A propagated state and the product of the Fx on the way to it. */
+struct Prediction
 {
+  FilterState state;
+  StateMatrix transition = StateMatrix::Identity();
+};
+
+/** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
+ */
+template <typename Visit>
+Prediction propagateThrough(
+    const FilterState& from, const std::vector<ImuSample>& inputs, std::int64_t end_ns,
+    const ImuNoise& noise, const Visit& visit)
+{
+  Prediction p;
+  p.state = from;
   for (std::size_t i = 0; i < inputs.size(); ++i)
   {
     const std::int64_t stop_ns = i + 1 < inputs.size() ? inputs[i + 1].stamp_ns : end_ns;
     const double dt = static_cast<double>(stop_ns - inputs[i].stamp_ns) * kNsToS;
-    s = propagate(s, inputs[i].gyro, inputs[i].accel, dt, noise);
-    visit(stop_ns, s);
+    const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
+    p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
+    p.state = propagate(p.state, gyro, accel, dt, noise);
+    visit(stop_ns, p);
   }
-  return s;
+  return p;
 }
 
 void describeUpdate(const UpdateResult& update, ScanStatistics& statistics)
@@ -74,6 +89,7 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
     : parameters_(parameters),
       workers_(std::make_shared<const Workers>(parameters.threads)),
       map_(makeSurfaceMap(parameters, workers_)),
+      update_(parameters_, workers_),
       reducer_(workers_),
       deskewer_(workers_)
 {
@@ -82,8 +98,23 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
 void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns)
 {
   filter_ = state;
+  addCalibrationPrior(filter_.P, parameters_.calibration);
   state_ns_ = stamp_ns;
   last_update_ns_ = stamp_ns;
+}
+
+std::int64_t ScanPipeline::timeShift() const
+{
+  return static_cast<std::int64_t>(std::llround(filter_.x.time_offset / kNsToS));
+}
+
+void ScanPipeline::applyCalibration(LidarScan& scan, ScanSpan& span) const
+{
+  const std::int64_t shift_ns = timeShift();
+  scan.stamp_ns += shift_ns;
+  span.begin_ns += shift_ns;
+  span.end_ns += shift_ns;
+  scan.T_imu_lidar = filter_.x.extrinsic_correction * scan.T_imu_lidar;
 }
 
 ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu)
@@ -102,7 +133,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   filter_.x.R =
       normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3) by rounding
   state_ns_ = span.end_ns;
-  result.filter = considerMapError(predicted);
+  result.filter = considerMapError();
   judge(update, result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
@@ -140,10 +171,10 @@ std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& i
   const std::int64_t stamp_ns = imu.newestStamp();
   if (!pose_trusted_ || stamp_ns <= state_ns_) return std::nullopt;
   imu.inputsBetween(state_ns_, stamp_ns, parameters_.imu.hold, inputs_);
-  const FilterState s = propagateThrough(
-      filter_, inputs_, stamp_ns, parameters_.imu.noise, [](std::int64_t, const FilterState&) {});
+  const auto [s, transition] = propagateThrough(
+      filter_, inputs_, stamp_ns, parameters_.imu.noise, [](std::int64_t, const Prediction&) {});
   if (!isFinite(s.x) || !s.P.allFinite()) return std::nullopt;
-  return imuRateState(stamp_ns, s, map_error_.shareAt(s.x.pose()), imu);
+  return imuRateState(stamp_ns, s, map_error_.additionAfter(transition), imu);
 }
 
 FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
@@ -152,13 +183,13 @@ FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
   imu_gap_s_ = static_cast<double>(imu.longestGap(state_ns_, end_ns)) * kNsToS;
   imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
   imu_rate_.clear();
-  FilterState s = propagateThrough(
+  auto [s, transition] = propagateThrough(
       filter_, inputs_, end_ns, parameters_.imu.noise,
-      [&](std::int64_t stamp_ns, const FilterState& state)
+      [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!parameters_.output.imu_rate || !pose_trusted_) return;
-        const Matrix6 map_share = map_error_.shareAt(state.x.pose());
-        const auto at_sample = imuRateState(stamp_ns, state, map_share, imu);
+        const StateMatrix map_share = map_error_.additionAfter(prediction.transition);
+        const auto at_sample = imuRateState(stamp_ns, prediction.state, map_share, imu);
         if (at_sample) imu_rate_.push_back(*at_sample);
       });
   // Absurd but finite inertial samples may overflow; such a number never enters the state.
@@ -166,8 +197,10 @@ FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
   if (!prediction_finite_)
   {
     s = filter_;
+    transition.setIdentity();
     imu_rate_.clear();
   }
+  map_error_.propagate(transition);
   timings_.propagate = watch.milliseconds();
   return s;
 }
@@ -179,59 +212,21 @@ void ScanPipeline::compensate(
   if (parameters_.lidar.deskew && scan.has_point_times)
   {
     backwardPropagate(predicted.x, span.end_ns, inputs_, knots_);
-    deskewer_.deskew(scan, selection_.indices, knots_, body_);
+    deskewer_.deskew(scan, selection_.indices, knots_, compensated_.points);
   }
   else
-    deskewer_.transformToBody(scan, selection_.indices, body_);
+    deskewer_.transformToBody(scan, selection_.indices, compensated_.points);
+  compensated_.compensation = {
+      predicted.x.extrinsic_correction, predicted.x.time_offset,
+      inputs_.empty() ? Vec3::Zero() : Vec3(inputs_.back().gyro - predicted.x.gyro_bias)};
   timings_.deskew = watch.milliseconds();
-}
-
-void ScanPipeline::associate(const Pose& T_world_imu)
-{
-  const Stopwatch watch;
-  workers_->forEachChunk(
-      body_.size(),
-      [&](std::size_t, std::size_t first, std::size_t last)
-      {
-        transformToWorld(body_, T_world_imu, first, last, world_);
-        map_->match(world_, first, last, matches_);
-      });
-  timings_.associate += watch.milliseconds();
-}
-
-MeasurementEvaluation ScanPipeline::evaluate(
-    const NavState& iterate, const ResidualModel& model, int iteration)
-{
-  if (iteration < parameters_.measurement.association_iterations) associate(iterate.pose());
-  workers_->forEachChunk(
-      body_.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
-      { chunk_sums_[chunk] = accumulate(iterate.pose(), body_, matches_, model, first, last); });
-  MeasurementEvaluation evaluation;
-  for (const InformationSums& sums : chunk_sums_)
-    addSums(evaluation.sums, sums);
-  if (parameters_.gain == GainForm::Standard)
-    evaluation.stacked = stack(iterate.pose(), body_, matches_, model);
-  return evaluation;
 }
 
 UpdateResult ScanPipeline::updateWithScan(const FilterState& predicted)
 {
   const Stopwatch watch;
-  world_.resize(body_.size());
-  matches_.resize(body_.size());
-  chunk_sums_.resize(Workers::chunks(body_.size()));
-  const ResidualModel residuals = residualModel(parameters_.measurement, predicted);
-  const auto minimum = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
-  std::size_t effective = 0;
-  const auto model = [&](const NavState& iterate, int iteration)
-  {
-    MeasurementEvaluation e = evaluate(iterate, residuals, iteration);
-    effective = e.sums.count;
-    // An evaluation without measurements makes the update leave the prediction alone.
-    return effective < minimum ? MeasurementEvaluation{} : e;
-  };
-  UpdateResult update = iteratedUpdate(predicted, model, parameters_.update, parameters_.gain);
-  update.last.count = effective;
+  UpdateResult update = update_.run(predicted, compensated_, *map_);
+  timings_.associate = update_.associationMilliseconds();
   timings_.update = watch.milliseconds() - timings_.associate;
   return update;
 }
@@ -260,8 +255,9 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
         "%zu of %zu points match the map, at least %i are needed "
         "(measurement.min_effective_points); "
         "%.2f s on inertial data alone, position uncertain by %.3f m%s",
-        update.last.count, body_.size(), parameters_.measurement.min_effective_points, unaided_s,
-        position_std, prediction_finite_ ? "" : "; the inertial data overflowed the prediction");
+        update.last.count, compensated_.points.size(), parameters_.measurement.min_effective_points,
+        unaided_s, position_std,
+        prediction_finite_ ? "" : "; the inertial data overflowed the prediction");
 }
 
 bool ScanPipeline::mayGrowMap(const ScanResult& result) const
@@ -274,24 +270,32 @@ bool ScanPipeline::mayGrowMap(const ScanResult& result) const
   return position_variance < std::pow(parameters_.map.max_insertion_std, 2);
 }
 
-FilterState ScanPipeline::considerMapError(const FilterState& predicted)
+FilterState ScanPipeline::considerMapError()
 {
+  LinearizedUpdate update;
+  update.T_world_scan = scanPose(filter_.x, compensated_.compensation);
+  update.by_state = scanPoseJacobian(filter_.x, compensated_.compensation);
+  update.posterior = filter_.P;
+  map_error_.update(
+      update,
+      planes_.group(
+          update.T_world_scan, compensated_.points, update_.matches(), update_.residualModel()));
   FilterState total = filter_;
-  total.P.topLeftCorner<6, 6>() += map_error_.update(
-      filter_.x.pose(), filter_.P.topLeftCorner<6, 6>(), body_, matches_,
-      residualModel(parameters_.measurement, predicted));
+  total.P += map_error_.addition();
   return total;
 }
 
 void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
-  const Pose T_world_imu = filter_.x.pose();
+  const BodyPoints& points = compensated_.points;
+  const Pose T_world_scan = scanPose(filter_.x, compensated_.compensation);
+  world_.resize(points.size());
   workers_->forEachChunk(
-      body_.size(), [&](std::size_t, std::size_t first, std::size_t last)
-      { transformToWorld(body_, T_world_imu, first, last, world_); });
+      points.size(), [&](std::size_t, std::size_t first, std::size_t last)
+      { transformToWorld(points, T_world_scan, first, last, world_); });
   map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
-  map_->insert(world_, filter_.x.pose() * p_imu_lidar);
+  map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);
   timings_.insert = watch.milliseconds();
 }

@@ -4,16 +4,15 @@
 /** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
 #pragma once
 
+#include "scan_update.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/lidar/scan_reduction.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/imu_buffer.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/parameters.h>
-#include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/odometry/scan_result.h>
 #include <fastlio/parallel/workers.h>
 
@@ -35,6 +34,11 @@ class ScanPipeline
   [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
   [[nodiscard]] const SurfaceMap& map() const { return *map_; }
 
+  /** The estimated time offset, to be added to the stamps of scans [ns]. */
+  [[nodiscard]] std::int64_t timeShift() const;
+  /** Moves stamps and extrinsic of a scan by the calibration as it is estimated now. */
+  void applyCalibration(LidarScan& scan, ScanSpan& span) const;
+
   /** What the last scan added to the map; empty when nothing. */
   [[nodiscard]] const WorldPoints& registeredPoints() const { return world_; }
 
@@ -52,26 +56,25 @@ class ScanPipeline
  private:
   [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
-  void associate(const Pose& T_world_imu);
-  [[nodiscard]] MeasurementEvaluation evaluate(
-      const NavState& iterate, const ResidualModel& model, int iteration);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
   void reduce(const LidarScan& scan);
   void judge(const UpdateResult& update, ScanResult& result);
   [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
   void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
   void growMap(const Vec3& p_imu_lidar, const FilterState& total);
-  [[nodiscard]] FilterState considerMapError(const FilterState& predicted);
+  [[nodiscard]] FilterState considerMapError();
 
   Parameters parameters_;
   std::shared_ptr<const Workers> workers_;
   std::unique_ptr<SurfaceMap> map_;
+  ScanUpdate update_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
   bool prediction_finite_ = true;
   bool pose_trusted_ = true;
   double imu_gap_s_ = 0.0;
+  PlaneGrouping planes_;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;
 
@@ -82,10 +85,8 @@ class ScanPipeline
   std::vector<ImuSample> inputs_;
   std::vector<MotionKnot> knots_;
   std::vector<ImuRateState> imu_rate_;
-  BodyPoints body_;
+  CompensatedScan compensated_;
   WorldPoints world_;
-  std::vector<PlaneMatch> matches_;
-  std::vector<InformationSums> chunk_sums_;
   StageTimings timings_;
 };
 

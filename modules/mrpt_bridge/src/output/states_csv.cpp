@@ -28,7 +28,7 @@ std::string stateRow(const ScanResult& result)
   for (const Vec3& v : {x.v, x.gyro_bias, x.accel_bias, x.g})
     for (int i = 0; i < 3; ++i)
       row += "," + roundTripText(v[i]);
-  for (int i = 0; i < kStateDim; ++i)
+  for (int i = 0; i < kNavigationDim; ++i)
     row += "," + roundTripText(std::sqrt(std::max(0.0, result.filter.P(i, i))));
   return row + "\n";
 }

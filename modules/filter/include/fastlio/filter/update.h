@@ -4,6 +4,7 @@
 /** \file update.h The iterated Kalman update (eq. 15-20) with both forms of the gain. */
 #pragma once
 
+#include <fastlio/filter/scan_pose.h>
 #include <fastlio/filter/state.h>
 
 #include <functional>
@@ -11,7 +12,8 @@
 
 namespace fastlio
 {
-/** Sums over all scalar measurements, H's only non-zero columns being attitude and position. */
+/** Sums over all scalar measurements, whose rows h are derivatives by the scan pose (attitude in
+ * its own frame, position in the world). */
 struct InformationSums
 {
   Matrix6 HtRinvH = Matrix6::Zero();  //!< sum of h_j^T h_j / r_j
@@ -24,7 +26,7 @@ struct InformationSums
 /** The scalar measurements themselves, needed by the standard gain only. */
 struct StackedMeasurements
 {
-  std::vector<Vector6> h;        //!< rows of H (attitude, position columns)
+  std::vector<Vector6> h;        //!< rows of H by the scan pose (attitude, position)
   std::vector<double> z;         //!< residuals
   std::vector<double> variance;  //!< R_jj
 };
@@ -32,8 +34,9 @@ struct StackedMeasurements
 /** What an iteration of the update needs to know of the measurements at an iterate. */
 struct MeasurementEvaluation
 {
-  InformationSums sums;         //!< always filled
-  StackedMeasurements stacked;  //!< filled when the standard gain is chosen
+  InformationSums sums;                            //!< always filled
+  StackedMeasurements stacked;                     //!< filled when the standard gain is chosen
+  ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B: the row of H is h^T B
 };
 
 /** Which form of the Kalman gain is used; algebraically equal (appendix B of the paper). */
@@ -43,7 +46,8 @@ enum class GainForm
   Standard      //!< eq. 18: cost grows with the cube of the measurement count
 };
 
-/** Convergence rules of the iterated update. */
+/** Convergence rules of the iterated update; those of attitude and position also hold for rotation
+ * and translation of the extrinsic. */
 struct IterationLimits
 {
   int max_iterations = 5;
@@ -77,17 +81,21 @@ struct UpdateStep
   StateMatrix P = StateMatrix::Zero();
 };
 
-/** J^-1 of eq. 16: blockdiag(A(Log(R_hat^T R_kappa))^T, I_15). */
+/** J^-1 of eq. 16: blockdiag(A(Log(R_hat^T R_kappa))^T, I_15), and the same for the rotation of the
+ * calibration. */
 [[nodiscard]] StateMatrix priorJacobianInverse(const NavState& iterate, const NavState& prior);
 
-/** One step with the gain of eq. 20, from the 6x6 sums alone; P may be singular. */
+/** One step with the gain of eq. 20, from the 6x6 sums alone; P may be singular.
+ * \param by_state B, with regular pose columns: H = (rows h^T) B */
 [[nodiscard]] UpdateStep informationStep(
-    const FilterState& prior, const NavState& iterate, const InformationSums& sums);
+    const FilterState& prior, const NavState& iterate, const InformationSums& sums,
+    const ScanPoseJacobian& by_state = bodyPoseJacobian());
 
 /** One step with the gain of eq. 18, which solves an m x m system for m measurements.
  * \throw std::invalid_argument when the three columns of the measurements differ in length */
 [[nodiscard]] UpdateStep standardStep(
-    const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements);
+    const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements,
+    const ScanPoseJacobian& by_state = bodyPoseJacobian());
 
 /** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. The
  * posterior's covariance is symmetric and refers to the posterior's own tangent space.

@@ -26,9 +26,9 @@ struct ImuRateState
 };
 
 /** The propagated state at \a stamp_ns as an ImuRateState; nothing when \a imu has no sample with
- * this very stamp. \param map_share what the map's errors add to the pose covariance */
+ * this very stamp. \param map_share what the map's errors add to the covariance */
 [[nodiscard]] std::optional<ImuRateState> imuRateState(
-    std::int64_t stamp_ns, const FilterState& propagated, const Matrix6& map_share,
+    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_share,
     const ImuBuffer& imu);
 
 }  // namespace fastlio

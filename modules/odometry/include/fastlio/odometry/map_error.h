@@ -1,35 +1,33 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file map_error.h The share of the pose error that comes from the map: errors that do not
+/** \file map_error.h The share of the state's error that comes from the map: errors that do not
  * average out.
  *
- * The iterated update takes the map's planes as known up to noise that is new in every scan. It is
- * not: the error of a plane stays while the plane is in view, all points on it share it, and planes
- * founded from an uncertain pose inherit that pose's error together. Such errors are *considered*
- * (Schmidt): they do not change the estimate, but they belong to its covariance, P = P_filter + E.
+ * The iterated update takes the map's planes as known up to noise that is new for every point. It
+ * is not: the error of a plane is shared by all points on it and stays while the plane is in view,
+ * and planes founded from an uncertain pose inherit that pose's error together. Such errors are
+ * *considered* (Schmidt): they do not change the estimate, but they belong to its covariance.
  *
- * All 6x6 matrices here are of a rigid motion (phi, rho) of the world, p -> p + rho + phi x p,
- * because in these coordinates an error of the map stays what it is while the sensor moves. One
- * scan with weights w_j, rows h_j, M = sum_j w_j h_j h_j^T, gain P = P_filter and k = P M passes
- * the planes' errors b on to the pose as
+ * The filter's update with gain K passes the planes' errors b on to the state's error,
  *
- *     e_k = (I - k) e_{k-1} + P q_k,      q_k = sum_j w_j h_j b_j
+ *     e_k = (I - K H) Phi e_{k-1} + G q_k,     G = P B^T L^T,  q_k = sum_j w_j h_j b_j
  *
- *     cov q = B = sum_i s_i g_i g_i^T + M A M
+ * with h_j by a rigid motion (phi, rho) of the world, p -> p + rho + phi x p, because in these
+ * coordinates an error of the map stays what it is while the sensor moves; B is the Jacobian of the
+ * scan pose by the state, L that of the motion by the scan pose. The covariance of q is
  *
- * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, and A the
- * covariance of the poses from which the planes in view were founded, averaged with their weights.
- * q hardly changes from scan to scan, so that X = cov(e, q) is carried along: X_k = (I - k) X_{k-1}
- * + P B and E_k = (I - k) E_{k-1} (I - k)^T + P B P + (I - k) X_{k-1} P + (...)^T. See
- * docs/covariance.md.
- */
+ *     cov q = Q_s + Q_a = sum_i s_i g_i g_i^T + M A M
+ *
+ * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, M = sum
+ * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were founded,
+ * averaged with their weights. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
+ * founding poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
+ * eta), E = cov(e) follows without any approximation. See docs/covariance.md. */
 #pragma once
 
-#include <fastlio/filter/state.h>
-#include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/deskew.h>
-#include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/filter/scan_pose.h>
+#include <fastlio/odometry/plane_groups.h>
 
 #include <cstdint>
 #include <vector>
@@ -45,20 +43,31 @@ using TwistCovariance = Matrix6;
     const Matrix6& pose_covariance, const Pose& T_world_imu);
 [[nodiscard]] Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_imu);
 
-/** Keeps the covariances of the poses that founded the map's planes, and adds their effect. */
+/** What the last update of the filter did, linearised. */
+struct LinearizedUpdate
+{
+  Pose T_world_scan;                               //!< scan pose of the posterior
+  ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B there
+  Matrix6 constrained = Matrix6::Identity();    //!< projection of the scan pose on what was updated
+  StateMatrix posterior = StateMatrix::Zero();  //!< the filter's own P after the update
+};
+
+/** Tracks what the map's errors do to the whole state. */
 class MapErrorModel
 {
  public:
-  /** E after a scan matched at T_world_imu, as attitude and position block of a pose covariance
-   * [rad^2, rad m, m^2]; as it was when nothing matched. \param filter_covariance attitude and
-   * position block of the filter's posterior */
-  [[nodiscard]] Matrix6 update(
-      const Pose& T_world_imu, const Matrix6& filter_covariance, const BodyPoints& body,
-      const std::vector<PlaneMatch>& matches, const ResidualModel& model);
+  /** Carries the error over the way from scan to scan. \param transition product of the Fx */
+  void propagate(const StateMatrix& transition);
 
-  /** E after the last update, as the share of a pose covariance at T_world_imu: errors of the map
-   * stay what they are while the platform moves on. */
-  [[nodiscard]] Matrix6 shareAt(const Pose& T_world_imu) const;
+  /** Takes in an update of the filter with the measurements \a scan. */
+  void update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
+
+  /** What is to be added to the filter's own covariance: the map's error, less the share of it that
+   * the filter has counted as noise of the points. */
+  [[nodiscard]] StateMatrix addition() const;
+
+  /** The same, some way after the last scan. \param transition product of the Fx since then */
+  [[nodiscard]] StateMatrix additionAfter(const StateMatrix& transition) const;
 
   /** Remembers with what total pose covariance insertion number \a scan was made. */
   void recordInsertion(std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu);
@@ -70,33 +79,15 @@ class MapErrorModel
     TwistCovariance covariance = TwistCovariance::Zero();
     double share = 0.0;
   };
+  using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
-  /** The points of a scan on one plane. */
-  struct PlaneGroup
-  {
-    Vector6 g = Vector6::Zero();
-    double shared_variance = 0.0;  // weighted sum, then mean
-    double weight = 0.0;
-    std::uint32_t born = 0;
-  };
+  [[nodiscard]] TwistCovariance foundingCovariance(const std::vector<PlaneGroup>& groups);
 
-  PlaneGroup& groupOf(const PlaneMatch& match);
-  [[nodiscard]] Matrix6 groupPoints(
-      const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-      const ResidualModel& model);
-  [[nodiscard]] TwistCovariance foundingCovariance();
-
-  TwistCovariance E_ = TwistCovariance::Zero();
-  Matrix6 X_ = Matrix6::Zero();
-  std::vector<Founding> foundings_;  // ascending by scan
-  std::vector<PlaneGroup> groups_;
-  // Plane number to group, valid where the epoch is the current one.
-  struct Entry
-  {
-    std::uint32_t epoch = 0, group = 0;
-  };
-  std::vector<Entry> table_;
-  std::uint32_t epoch_ = 0;
+  StateMatrix E_ = StateMatrix::Zero();              //!< cov e
+  StateMatrix counted_twice_ = StateMatrix::Zero();  //!< of the points' noise in P, the shared part
+  StateBy6 Y_planes_ = StateBy6::Zero();             //!< cov(e, eta) of the planes' own errors
+  StateBy6 Y_founding_ = StateBy6::Zero();           //!< the same of the founding poses'
+  std::vector<Founding> foundings_;                  // ascending by scan
 };
 
 }  // namespace fastlio

@@ -49,6 +49,16 @@ struct LidarParameters
   bool deskew = true;        //!< motion compensation (eq. 9-10)
 };
 
+/** Group `calibration`: what the filter estimates about the LiDAR along the way. */
+struct CalibrationParameters
+{
+  bool estimate_extrinsic = false;
+  double extrinsic_rotation_std = 0.017453292519943295;  //!< of the given one [rad] (YAML: deg)
+  double extrinsic_translation_std = 0.05;               //!< of the given one [m]
+  bool estimate_time_offset = false;
+  double time_offset_std = 0.01;  //!< of the given lidar.time_offset [s]
+};
+
 /** Group `reduction`. */
 struct ReductionParameters
 {
@@ -109,6 +119,7 @@ struct Parameters
   InitializationParameters initialization;
   ImuParameters imu;
   LidarParameters lidar;
+  CalibrationParameters calibration;
   ReductionParameters reduction;
   MeasurementParameters measurement;
   MapParameters map;

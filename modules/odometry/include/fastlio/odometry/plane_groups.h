@@ -1,0 +1,61 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file plane_groups.h The measurements of a scan, put together by the plane of the map that they
+ * lie on: points on one plane share its error. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/deskew.h>
+#include <fastlio/odometry/point_to_plane.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** The points of a scan on one plane; rows h by the scan pose, weights w = 1 / variance. */
+struct PlaneGroup
+{
+  Vector6 g = Vector6::Zero();   //!< sum of w h
+  double shared_variance = 0.0;  //!< of the plane's offset, weighted mean over the points [m^2]
+  double weight = 0.0;           //!< sum of w
+  std::uint32_t born = 0;        //!< insertion that founded the plane
+  bool seen_before = false;      //!< the scan before had points on it, too
+};
+
+/** A scan's measurements by plane. */
+struct GroupedMeasurements
+{
+  Matrix6 information = Matrix6::Zero();   //!< sum of w h h^T
+  Matrix6 shared_noise = Matrix6::Zero();  //!< sum of w^2 s h h^T, s the points' shared variance
+  double persistence = 0.0;                //!< share of the weight on planes seen before
+  std::vector<PlaneGroup> groups;          //!< in the order of their first point
+};
+
+/** Groups scan after scan; remembers which planes the scan before has seen. */
+class PlaneGrouping
+{
+ public:
+  /** The consistent matches of a scan at a pose, by plane; valid until the next call. */
+  const GroupedMeasurements& group(
+      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+      const ResidualModel& model);
+
+ private:
+  /** Plane number to group; valid where the epoch is the current one. */
+  struct Entry
+  {
+    std::uint32_t epoch = 0, group = 0;
+  };
+
+  PlaneGroup& groupOf(const PlaneMatch& match);
+  void finishGroups();
+
+  GroupedMeasurements result_;
+  std::vector<Entry> table_;
+  std::uint32_t epoch_ = 1;
+};
+
+}  // namespace fastlio

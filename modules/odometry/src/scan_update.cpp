@@ -1,0 +1,86 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scan_update.h"
+
+#include "stopwatch.h"
+
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+ResidualModel residualModelOf(const MeasurementParameters& p, const FilterState& predicted)
+{
+  ResidualModel model;
+  model.range_variance = p.range_noise * p.range_noise;
+  model.gate = p.max_normalized_residual;
+  model.prior_position_variance = predicted.P.block<3, 3>(kPosition, kPosition).trace();
+  model.prior_attitude_variance = predicted.P.block<3, 3>(kAttitude, kAttitude).trace();
+  return model;
+}
+}  // namespace
+
+ScanUpdate::ScanUpdate(const Parameters& parameters, std::shared_ptr<const Workers> workers)
+    : parameters_(parameters), workers_(std::move(workers))
+{
+}
+
+void ScanUpdate::associate(
+    const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map)
+{
+  const Stopwatch watch;
+  workers_->forEachChunk(
+      points.size(),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        transformToWorld(points, T_world_scan, first, last, world_);
+        map.match(world_, first, last, matches_);
+      });
+  association_ms_ += watch.milliseconds();
+}
+
+MeasurementEvaluation ScanUpdate::evaluate(
+    const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map)
+{
+  const Pose T_world_scan = scanPose(iterate, scan.compensation);
+  const BodyPoints& points = scan.points;
+  if (iteration < parameters_.measurement.association_iterations)
+    associate(T_world_scan, points, map);
+  workers_->forEachChunk(
+      points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_sums_[chunk] = accumulate(T_world_scan, points, matches_, model_, first, last); });
+  MeasurementEvaluation evaluation;
+  for (const InformationSums& sums : chunk_sums_)
+    addSums(evaluation.sums, sums);
+  if (parameters_.gain == GainForm::Standard)
+    evaluation.stacked = stack(T_world_scan, points, matches_, model_);
+  evaluation.by_state = scanPoseJacobian(iterate, scan.compensation);
+  return evaluation;
+}
+
+UpdateResult ScanUpdate::run(
+    const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map)
+{
+  association_ms_ = 0.0;
+  world_.resize(scan.points.size());
+  matches_.resize(scan.points.size());
+  chunk_sums_.resize(Workers::chunks(scan.points.size()));
+  model_ = residualModelOf(parameters_.measurement, predicted);
+  const auto minimum = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
+  std::size_t effective = 0;
+  const auto measurements = [&](const NavState& iterate, int iteration)
+  {
+    MeasurementEvaluation e = evaluate(iterate, iteration, scan, map);
+    effective = e.sums.count;
+    // An evaluation without measurements makes the update leave the prediction alone.
+    return effective < minimum ? MeasurementEvaluation{} : e;
+  };
+  UpdateResult update =
+      iteratedUpdate(predicted, measurements, parameters_.update, parameters_.gain);
+  update.last.count = effective;
+  return update;
+}
+
+}  // namespace fastlio

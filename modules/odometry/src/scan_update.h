@@ -1,0 +1,60 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_update.h The iterated update of the filter by one scan (eq. 12-20). */
+#pragma once
+
+#include <fastlio/filter/scan_pose.h>
+#include <fastlio/filter/update.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/deskew.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/parallel/workers.h>
+
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** A scan ready to be matched: its points in the body frame at its end, and how they got there. */
+struct CompensatedScan
+{
+  BodyPoints points;
+  CompensatedWith compensation;
+};
+
+/** Matches a scan with the map and updates the filter; keeps the storage between scans. */
+class ScanUpdate
+{
+ public:
+  ScanUpdate(const Parameters& parameters, std::shared_ptr<const Workers> workers);
+
+  /** Iterates matching and update from a prediction. The scan does not correct it when fewer than
+   * measurement.min_effective_points match. */
+  [[nodiscard]] UpdateResult run(
+      const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map);
+
+  /** The matches of the last association. */
+  [[nodiscard]] const std::vector<PlaneMatch>& matches() const { return matches_; }
+  /** What decided on the matches of the last run. */
+  [[nodiscard]] const ResidualModel& residualModel() const { return model_; }
+  /** Time spent on searching the map in the last run [ms]. */
+  [[nodiscard]] double associationMilliseconds() const { return association_ms_; }
+
+ private:
+  void associate(const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map);
+  [[nodiscard]] MeasurementEvaluation evaluate(
+      const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map);
+
+  const Parameters& parameters_;
+  std::shared_ptr<const Workers> workers_;
+  ResidualModel model_;
+  double association_ms_ = 0.0;
+  // Reused between scans.
+  WorldPoints world_;
+  std::vector<PlaneMatch> matches_;
+  std::vector<InformationSums> chunk_sums_;
+};
+
+}  // namespace fastlio
