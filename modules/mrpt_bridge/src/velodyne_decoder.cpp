@@ -44,6 +44,14 @@ struct Sensor
   double min_range, max_range;  // [m]
 };
 
+// A return of a block: which laser gave it, when and in which direction after the block's first.
+struct Firing
+{
+  const LaserGeometry* laser = nullptr;
+  double since_block_us = 0;
+  double sin_azimuth = 0, cos_azimuth = 1;  // of its angle to the block's azimuth
+};
+
 // One packet, understood: blocks of one group fire at the same time (banks, or the two returns of a
 // dual return packet).
 struct PacketLayout
@@ -52,6 +60,7 @@ struct PacketLayout
   bool dual = false;
   double azimuth_per_us = 0;  // [rad/us]
   double offset_us = 0;       // of the packet's first firing to that of the sweep
+  std::array<std::array<Firing, kReturns>, 2> firings;  // of a block, by its bank
 };
 
 bool isGood(const Block& block, const FiringTiming& timing)
@@ -131,19 +140,41 @@ class PacketClock
   bool started_ = false;
 };
 
-// Velodyne's azimuth runs clockwise from its +y axis, which is forward: our +x.
-void addPoint(
-    VelodyneSweep& sweep, const LaserGeometry& laser, double distance, double azimuth,
-    std::uint8_t intensity, double time_us)
+// Makes room for n points, or leaves n of them.
+void resize(fastlio::PointColumns& points, std::size_t n)
 {
-  const double a = azimuth - laser.azimuth_correction;
-  const double sin_a = std::sin(a), cos_a = std::cos(a);
+  for (auto* column : {&points.x, &points.y, &points.z, &points.intensity})
+    column->resize(n);
+  points.time_offset_ns.resize(n);
+  points.ring.resize(n);
+}
+
+// A block's azimuth and the time of its first firing.
+struct BlockStart
+{
+  double sin_azimuth, cos_azimuth;
+  double time_us;
+};
+
+// Velodyne's azimuth runs clockwise from its +y axis, which is forward: our +x.
+void storePoint(
+    fastlio::PointColumns& points, std::size_t at, const BlockStart& start, const Firing& firing,
+    double distance, std::uint8_t intensity)
+{
+  const LaserGeometry& laser = *firing.laser;
+  // Sine and cosine of the sum: these functions once per block and per firing, not per point.
+  const double sin_a =
+      start.sin_azimuth * firing.cos_azimuth + start.cos_azimuth * firing.sin_azimuth;
+  const double cos_a =
+      start.cos_azimuth * firing.cos_azimuth - start.sin_azimuth * firing.sin_azimuth;
   const double xy = distance * laser.cos_elevation + laser.offset_xy;
-  sweep.points.push_back(
-      static_cast<float>(xy * cos_a + laser.horizontal_offset * sin_a),
-      static_cast<float>(-xy * sin_a + laser.horizontal_offset * cos_a),
-      static_cast<float>(distance * laser.sin_elevation + laser.offset_z), intensity,
-      static_cast<std::int32_t>(std::lround(time_us * kNanosecondsPerMicrosecond)), laser.ring);
+  const double time_ns = (start.time_us + firing.since_block_us) * kNanosecondsPerMicrosecond;
+  points.x[at] = static_cast<float>(xy * cos_a + laser.horizontal_offset * sin_a);
+  points.y[at] = static_cast<float>(-xy * sin_a + laser.horizontal_offset * cos_a);
+  points.z[at] = static_cast<float>(distance * laser.sin_elevation + laser.offset_z);
+  points.intensity[at] = intensity;
+  points.time_offset_ns[at] = static_cast<std::int32_t>(std::floor(time_ns + 0.5));
+  points.ring[at] = laser.ring;
 }
 
 // The block of the same lasers that a dual return packet holds for the first of both returns.
@@ -154,38 +185,44 @@ const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std
   return second ? &packet.blocks[index - banks] : nullptr;
 }
 
-// Which laser of its bank gave return i of a block, and when [us after the block's first].
-struct Firing
+std::array<Firing, kReturns> firingsOf(
+    const Sensor& sensor, std::size_t bank, double azimuth_per_us)
 {
-  std::size_t laser;
-  double since_block_us;
-};
-
-Firing firingOf(std::size_t i, const FiringTiming& timing)
-{
-  const std::size_t sequence = i / timing.lasers_per_sequence;
-  const std::size_t laser = i % timing.lasers_per_sequence;
-  return {
-      laser, static_cast<double>(sequence) * timing.sequence_us +
-                 static_cast<double>(laser) * timing.laser_us};
+  const FiringTiming& timing = sensor.timing;
+  std::array<Firing, kReturns> firings;
+  for (std::size_t i = 0; i < kReturns; ++i)
+  {
+    const std::size_t sequence = i / timing.lasers_per_sequence;
+    const std::size_t laser = i % timing.lasers_per_sequence;
+    Firing& firing = firings[i];
+    firing.laser = &sensor.lasers[bank * timing.lasers_per_sequence + laser];
+    firing.since_block_us = static_cast<double>(sequence) * timing.sequence_us +
+                            static_cast<double>(laser) * timing.laser_us;
+    const double azimuth =
+        firing.since_block_us * azimuth_per_us - firing.laser->azimuth_correction;
+    firing.sin_azimuth = std::sin(azimuth);
+    firing.cos_azimuth = std::cos(azimuth);
+  }
+  return firings;
 }
 
-void decodeBlock(
-    VelodyneSweep& sweep, const Packet& packet, const Sensor& sensor, const PacketLayout& layout,
-    std::size_t index)
+// Returns the number of points now stored.
+std::size_t decodeBlock(
+    VelodyneSweep& sweep, std::size_t points, const Packet& packet, const Sensor& sensor,
+    const PacketLayout& layout, std::size_t index)
 {
   const Block& block = packet.blocks[index];
   const Block* first_return = firstReturnOf(packet, layout, index);
-  const FiringTiming& timing = sensor.timing;
-  const std::size_t bank = headerOf(block) == Scan::LOWER_BANK ? timing.lasers_per_sequence : 0;
+  const auto& firings = layout.firings[headerOf(block) == Scan::LOWER_BANK ? 1 : 0];
   const std::size_t group = index / layout.blocks_per_group;
-  const double block_us = layout.offset_us + static_cast<double>(group) * timing.block_us;
+  const double azimuth = azimuthOf(block) * kRadiansPerUnit;
+  const BlockStart start{
+      std::sin(azimuth), std::cos(azimuth),
+      layout.offset_us + static_cast<double>(group) * sensor.timing.block_us};
   for (std::size_t i = 0; i < kReturns; ++i)
   {
     const int raw = distanceOf(block, i);
-    const Firing firing = firingOf(i, timing);
-    const LaserGeometry& laser = sensor.lasers[bank + firing.laser];
-    const double distance = raw * kMetresPerUnit + laser.distance_correction;
+    const double distance = raw * kMetresPerUnit + firings[i].laser->distance_correction;
     if (raw == 0)
       ++sweep.counts.no_return;
     else if (first_return != nullptr && distanceOf(*first_return, i) == raw)
@@ -193,13 +230,9 @@ void decodeBlock(
     else if (!(distance >= sensor.min_range && distance <= sensor.max_range))
       ++sweep.counts.out_of_range;
     else
-    {
-      const double azimuth =
-          azimuthOf(block) * kRadiansPerUnit + firing.since_block_us * layout.azimuth_per_us;
-      addPoint(
-          sweep, laser, distance, azimuth, intensityOf(block, i), block_us + firing.since_block_us);
-    }
+      storePoint(sweep.points, points++, start, firings[i], distance, intensityOf(block, i));
   }
+  return points;
 }
 
 PacketLayout layoutOf(const Packet& packet, const Sensor& sensor)
@@ -208,6 +241,8 @@ PacketLayout layoutOf(const Packet& packet, const Sensor& sensor)
   layout.dual = isDual(packet, sensor);
   layout.blocks_per_group = sensor.timing.blocks_at_once * (layout.dual ? 2 : 1);
   layout.azimuth_per_us = azimuthPerMicrosecond(packet, sensor.timing, layout.blocks_per_group);
+  for (std::size_t bank = 0; bank < sensor.timing.blocks_at_once; ++bank)
+    layout.firings[bank] = firingsOf(sensor, bank, layout.azimuth_per_us);
   return layout;
 }
 
@@ -238,7 +273,8 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   VelodyneSweep sweep;
   if (scan.scan_packets.empty()) return sweep;
   const Sensor sensor = sensorOf(scan);
-  sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturns);
+  resize(sweep.points, scan.scan_packets.size() * kBlocks * kReturns);
+  std::size_t points = 0;
   PacketClock clock(timeOf(scan.scan_packets.front()));
   for (const Packet& packet : scan.scan_packets)
   {
@@ -248,11 +284,12 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
     for (std::size_t i = 0; i < kBlocks; ++i)
     {
       if (isGood(packet.blocks[i], sensor.timing))
-        decodeBlock(sweep, packet, sensor, layout, i);
+        points = decodeBlock(sweep, points, packet, sensor, layout, i);
       else
         ++sweep.counts.bad_blocks;
     }
   }
+  resize(sweep.points, points);
   return sweep;
 }
 
