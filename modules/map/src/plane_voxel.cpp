@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace fastlio
 {
@@ -72,6 +73,34 @@ bool PlaneVoxel::claimRefit()
   if (refit_pending_ || count_ < kRefitGrowth * fitted_count_ + 1.0F) return false;
   refit_pending_ = true;
   return true;
+}
+
+PlaneVoxel::Contents PlaneVoxel::contents() const
+{
+  return {plane_, count_, fitted_count_, sum_, products_, beams_};
+}
+
+void PlaneVoxel::setContents(const Contents& c)
+{
+  const VoxelPlane& p = c.plane;
+  float all = p.nx + p.ny + p.nz + p.d + p.qx + p.qy + p.qz + p.variance + p.inverse_count;
+  all += c.count + c.fitted_count;
+  for (const float number : p.leverage)
+    all += number;
+  for (const float number : c.products)
+    all += number;
+  for (std::size_t i = 0; i < c.sum.size(); ++i)
+    all += c.sum[i] + c.beams[i];
+  // One number that is not finite makes the sum so.
+  if (!std::isfinite(all) || c.count < 1 || c.fitted_count < 0)
+    throw std::invalid_argument("PlaneVoxel: the sums of a voxel make no sense");
+  plane_ = p;
+  count_ = c.count;
+  fitted_count_ = c.fitted_count;
+  sum_ = c.sum;
+  products_ = c.products;
+  beams_ = c.beams;
+  refit_pending_ = false;
 }
 
 Eigen::Vector3f PlaneVoxel::meanOffset() const

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/map/register_classes.h>
 
 #include <mrpt/core/initializer.h>
@@ -17,6 +18,7 @@ namespace fastlio
 void registerMapClasses()
 {
   mrpt::rtti::registerClass(CLASS_ID(fastlio::CIncrementalPointsMap));
+  mrpt::rtti::registerClass(CLASS_ID(fastlio::CVoxelPlanesMap));
 }
 
 }  // namespace fastlio

@@ -13,9 +13,6 @@ namespace fastlio
 {
 namespace
 {
-// A sweep over all blocks is spread over so many calls of removeOutside().
-constexpr std::size_t kSweepCalls = 16;
-
 void requirePositive(double value, const char* name)
 {
   if (!(value > 0.0))
@@ -56,6 +53,17 @@ const VoxelPlaneOptions& VoxelPlaneMap::options() const
   return impl_->options;
 }
 
+bool VoxelPlaneMap::accepts(float x, float y, float z) const
+{
+  return impl_->grid.contains(x, y, z);
+}
+
+void VoxelPlaneMap::clear()
+{
+  impl_->storage = VoxelStorage();
+  impl_->scan = impl_->sweep = 0;
+}
+
 std::size_t VoxelPlaneMap::memoryBytes() const
 {
   return impl_->storage.memoryBytes();
@@ -86,7 +94,7 @@ void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
   VoxelStorage& storage = impl_->storage;
   const Eigen::Vector3f origin = center.cast<float>();
   const auto limit = static_cast<float>(radius * radius);
-  const std::size_t share = storage.blocksEnd() / kSweepCalls + 1;
+  const std::size_t share = storage.blocksEnd() / kCallsPerSweep + 1;
   for (std::size_t k = 0; k < share && storage.blocksEnd() > 0; ++k)
   {
     impl_->sweep = impl_->sweep + 1 < storage.blocksEnd() ? impl_->sweep + 1 : 0;
@@ -95,6 +103,32 @@ void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
     const Eigen::Vector3f middle = impl_->grid.centerOf(block.key, kCoarseSlot);
     if ((middle - origin).squaredNorm() > limit) storage.drop(impl_->sweep);
   }
+}
+
+std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
+{
+  const VoxelStorage& storage = impl_->storage;
+  std::vector<std::uint32_t> numbers;
+  WorldPoints centroids;
+  for (std::uint32_t i = 0; i < storage.blocksEnd(); ++i)
+  {
+    if (!storage.block(i).used) continue;
+    for (const std::uint32_t number : storage.block(i).voxels)
+    {
+      const VoxelPlane& plane = storage.voxel(number).plane();
+      if (!plane.valid()) continue;
+      numbers.push_back(number);
+      centroids.x.push_back(plane.qx);
+      centroids.y.push_back(plane.qy);
+      centroids.z.push_back(plane.qz);
+    }
+  }
+  std::vector<PlaneMatch> matches(numbers.size());
+  match(centroids, 0, numbers.size(), matches);
+  std::vector<VoxelPlane> best;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (matches[i].plane == numbers[i]) best.push_back(storage.voxel(numbers[i]).plane());
+  return best;
 }
 
 mrpt::maps::CSimplePointsMap::Ptr VoxelPlaneMap::toPointsMap() const

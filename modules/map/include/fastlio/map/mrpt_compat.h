@@ -14,6 +14,7 @@
 /** CPointsMap implements mrpt::maps::NearestNeighborsCapable: the nn_*() methods are virtual. */
 #define FASTLIO_MRPT_HAS_NN_INTERFACE 1
 #define FASTLIO_NN_OVERRIDE override
+#include <mrpt/maps/NearestNeighborsCapable.h>
 #else
 #define FASTLIO_MRPT_HAS_NN_INTERFACE 0
 #define FASTLIO_NN_OVERRIDE
@@ -22,9 +23,15 @@
 namespace fastlio
 {
 #if MRPT_VERSION >= 0x20b03
+/** Base of maps that are searched by MRPT's names. */
+using NearestNeighborsInterface = mrpt::maps::NearestNeighborsCapable;
 /** What a map definition's factory hands over. */
 using CreatedMap = std::shared_ptr<mrpt::maps::CMetricMap>;
 #else
+/** Base of maps that are searched by MRPT's names: nothing is virtual yet. */
+struct NearestNeighborsInterface
+{
+};
 /** What a map definition's factory hands over; the caller owns it. */
 using CreatedMap = mrpt::maps::CMetricMap*;
 #endif

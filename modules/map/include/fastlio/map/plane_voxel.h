@@ -32,8 +32,8 @@ struct VoxelPlane
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
 
-  /** Variance of the plane's offset at a point, as of a regression's prediction: of its mean, and of its
-   * tilt with the distance from the centroid [m^2]. */
+  /** Variance of the plane's offset at a point, as of a regression's prediction: of its mean, and
+   * of its tilt with the distance from the centroid [m^2]. */
   [[nodiscard]] float offsetVariance(float x, float y, float z) const;
 };
 
@@ -53,6 +53,19 @@ class PlaneVoxel
 
   [[nodiscard]] const VoxelPlane& plane() const { return plane_; }
   [[nodiscard]] float count() const { return count_; }
+  /** Everything that it holds, in the order of its members, for archives. */
+  struct Contents
+  {
+    VoxelPlane plane;
+    float count = 0, fitted_count = 0;
+    std::array<float, 3> sum{};
+    std::array<float, 6> products{};
+    std::array<float, 3> beams{};
+  };
+  [[nodiscard]] Contents contents() const;
+  /** \exception std::invalid_argument a number is not finite, or a count negative */
+  void setContents(const Contents& contents);
+
   /** Mean of the points minus the voxel's centre [m]. */
   [[nodiscard]] Eigen::Vector3f meanOffset() const;
 

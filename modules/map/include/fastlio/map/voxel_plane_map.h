@@ -8,6 +8,8 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/parallel/workers.h>
 
+#include <mrpt/serialization/CArchive.h>
+
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -33,6 +35,9 @@ struct VoxelPlaneOptions
 class VoxelPlaneMap : public SurfaceMap
 {
  public:
+  /** removeOutside() has looked at every block after so many calls. */
+  static constexpr std::size_t kCallsPerSweep = 16;
+
   /** \param workers who share insertions; the map does not depend on them
    * \exception std::invalid_argument an option is out of its range (the message names it) */
   explicit VoxelPlaneMap(
@@ -55,6 +60,21 @@ class VoxelPlaneMap : public SurfaceMap
 
   /** The options that it was made with. */
   [[nodiscard]] const VoxelPlaneOptions& options() const;
+  /** Planes that are the best known ones at their own centroid: each surface once, at the scale
+   * that fits it. */
+  [[nodiscard]] std::vector<VoxelPlane> bestPlanes() const;
+  /** Whether a point can be inserted: finite, and in numbered space. */
+  [[nodiscard]] bool accepts(float x, float y, float z) const;
+
+  /** Forgets everything; the options stay. */
+  void clear();
+
+  /** Writes and reads all voxels: a map that is read goes on as the one that was written. The
+   * options come from the archive too. \exception std::exception corrupt or truncated content; the
+   * map is then as it was */
+  void writeTo(mrpt::serialization::CArchive& out) const;
+  void readFrom(mrpt::serialization::CArchive& in);
+
   /** Bytes held by blocks, voxels and their index. */
   [[nodiscard]] std::size_t memoryBytes() const;
 

@@ -1,0 +1,242 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The map of planes in archives, files, copies and map definitions.
+
+#include "surface_map_test_tools.h"
+#include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/map/register_classes.h>
+
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/maps/CMultiMetricMap.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fastlio;
+using namespace fastlio::test;
+using mrpt::serialization::archiveFrom;
+
+namespace
+{
+CVoxelPlanesMap unusualMap()
+{
+  CVoxelPlanesMap::TCreationOptions options;
+  options.planes.voxel_size = 0.7;
+  options.planes.rules.point_noise = 0.011F;
+  options.planes.rules.min_points = 5.0F;
+  CVoxelPlanesMap map(options);
+  for (unsigned i = 0; i < 4; ++i)
+    map.insertPoints(worldPoints(roomCloud(i, 3000)), {0.1 * i, 0.0, 0.0});
+  map.insertionOptions.radius = 77.0;
+  map.likelihoodOptions.sigma_dist = 0.5;
+  map.renderOptions.point_size = 5.0F;
+  map.genericMapParams.enableObservationInsertion = false;
+  return map;
+}
+
+void expectSameMatches(const CVoxelPlanesMap& a, const CVoxelPlanesMap& b)
+{
+  const WorldPoints queries = worldPoints(roomCloud(9, 2000));
+  std::vector<PlaneMatch> of_a(queries.size()), of_b(queries.size());
+  a.planes().match(queries, 0, queries.size(), of_a);
+  b.planes().match(queries, 0, queries.size(), of_b);
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i)
+  {
+    valid += of_a[i].valid() ? 1 : 0;
+    ASSERT_TRUE(
+        of_a[i].nx == of_b[i].nx && of_a[i].d == of_b[i].d && of_a[i].born == of_b[i].born &&
+        of_a[i].variance == of_b[i].variance)
+        << i;
+  }
+  EXPECT_GT(valid, 500U);
+}
+
+void expectSameMap(CVoxelPlanesMap a, CVoxelPlanesMap b)
+{
+  EXPECT_EQ(a.planes().options().voxel_size, b.planes().options().voxel_size);
+  EXPECT_EQ(a.planes().options().rules.point_noise, b.planes().options().rules.point_noise);
+  EXPECT_EQ(a.planes().options().rules.min_points, b.planes().options().rules.min_points);
+  EXPECT_EQ(a.insertionOptions.radius, b.insertionOptions.radius);
+  EXPECT_EQ(a.likelihoodOptions.sigma_dist, b.likelihoodOptions.sigma_dist);
+  EXPECT_EQ(a.renderOptions.point_size, b.renderOptions.point_size);
+  EXPECT_EQ(
+      a.genericMapParams.enableObservationInsertion, b.genericMapParams.enableObservationInsertion);
+  EXPECT_EQ(a.points().size(), b.points().size());
+  expectSameMatches(a, b);
+  // And it goes on alike.
+  for (auto* map : {&a, &b})
+    map->insertPoints(worldPoints(roomCloud(20, 3000)), Vec3::Zero());
+  expectSameMatches(a, b);
+}
+
+std::vector<std::uint8_t> archived(const CVoxelPlanesMap& map)
+{
+  mrpt::io::CMemoryStream stream;
+  archiveFrom(stream) << map;
+  const auto* bytes = static_cast<const std::uint8_t*>(stream.getRawBufferData());
+  return {bytes, bytes + stream.getTotalBytesCount()};
+}
+
+void load(const std::vector<std::uint8_t>& content, CVoxelPlanesMap& map)
+{
+  mrpt::io::CMemoryStream stream(content.data(), content.size());
+  auto in = archiveFrom(stream);
+  in >> map;
+}
+
+/** The message of what it throws. */
+template <typename Action>
+std::string messageOf(const Action& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const std::exception& e)
+  {
+    return e.what();
+  }
+  return "";
+}
+
+class VoxelPlanesMapFile : public ::testing::Test
+{
+ protected:
+  VoxelPlanesMapFile()
+      : path_(
+            ::testing::TempDir() + "fastlio_" + std::to_string(::getpid()) + "_" +
+            ::testing::UnitTest::GetInstance()->current_test_info()->name())
+  {
+  }
+  ~VoxelPlanesMapFile() override
+  {
+    for (const char* ending : {"", ".ply", ".metricmap"})
+      std::filesystem::remove(path_ + ending);
+  }
+  std::string path_;
+};
+
+// Header: flag, class name, version; then the options: a double and four floats; then the scan.
+constexpr std::size_t kOptions = 1 + 24 + 1;
+constexpr std::size_t kBlockCount = kOptions + 8 + 4 * 4 + 4;
+}  // namespace
+
+TEST(VoxelPlanesMapIo, ArchivesGoOnAsTheOriginal)
+{
+  ASSERT_EQ(std::strlen("fastlio::CVoxelPlanesMap"), 24U);
+  const CVoxelPlanesMap map = unusualMap();
+  CVoxelPlanesMap loaded;
+  load(archived(map), loaded);
+  expectSameMap(map, loaded);
+  load(archived(CVoxelPlanesMap()), loaded);
+  EXPECT_TRUE(loaded.isEmpty());
+}
+
+TEST(VoxelPlanesMapIo, CorruptArchivesThrowAndLeaveTheMapAlone)
+{
+  const std::vector<std::uint8_t> original = archived(unusualMap());
+  CVoxelPlanesMap map = unusualMap();
+  for (const std::size_t length : {original.size() / 100, original.size() / 2})
+    EXPECT_ANY_THROW(load({original.begin(), original.begin() + std::ptrdiff_t(length)}, map));
+  std::vector<std::uint8_t> changed = original;
+  std::memset(&changed[kBlockCount], 0xFF, 4);  // many more blocks than there are
+  EXPECT_ANY_THROW(load(changed, map));
+  changed = original;
+  std::memset(&changed[kOptions], 0, 8);  // voxels without size
+  EXPECT_ANY_THROW(load(changed, map));
+  changed = original;
+  std::memset(&changed[kBlockCount + 4 + 8 + 1 + 1], 0xFF, 4);  // a plane that is not a number
+  EXPECT_ANY_THROW(load(changed, map));
+  changed = original;
+  changed[kBlockCount + 4 + 8 + 1] = 73;  // a voxel outside of its block
+  EXPECT_ANY_THROW(load(changed, map));
+  changed = original;
+  changed[kOptions - 1] = 9;  // from the future
+  EXPECT_ANY_THROW(load(changed, map));
+  expectSameMap(map, unusualMap());
+}
+
+TEST(VoxelPlanesMapIo, CopiesAreIndependent)
+{
+  const CVoxelPlanesMap map = unusualMap();
+  CVoxelPlanesMap copy(map), assigned;
+  assigned = map;
+  (void)assigned.points();
+  copy.clear();
+  assigned.removeOutside({100.0, 0.0, 0.0}, 1.0);
+  EXPECT_TRUE(assigned.isEmpty());
+  expectSameMap(map, unusualMap());
+}
+
+TEST_F(VoxelPlanesMapFile, IsSavedAndLoaded)
+{
+  registerMapClasses();
+  const CVoxelPlanesMap map = unusualMap();
+  map.saveToFile(path_);
+  CVoxelPlanesMap loaded;
+  loaded.loadFromFile(path_);
+  expectSameMap(map, loaded);
+}
+
+TEST_F(VoxelPlanesMapFile, RepresentationIsPointsAndArchive)
+{
+  const CVoxelPlanesMap map = unusualMap();
+  map.saveMetricMapRepresentationToFile(path_);
+  mrpt::maps::CSimplePointsMap points;
+  ASSERT_TRUE(points.loadFromPlyFile(path_ + ".ply"));
+  EXPECT_EQ(points.size(), map.points().size());
+  CVoxelPlanesMap loaded;
+  loaded.loadFromFile(path_ + ".metricmap");
+  expectSameMap(map, loaded);
+}
+
+TEST_F(VoxelPlanesMapFile, TroubleIsToldWithTheFilesName)
+{
+  const CVoxelPlanesMap map = unusualMap();
+  EXPECT_NE(
+      messageOf([&] { map.saveToFile("/nowhere/map"); }).find("/nowhere/map"), std::string::npos);
+  CVoxelPlanesMap loaded;
+  EXPECT_NE(
+      messageOf([&] { loaded.loadFromFile("/nowhere/map"); }).find("/nowhere/map"),
+      std::string::npos);
+  std::ofstream(path_) << "this is no map";
+  EXPECT_NE(messageOf([&] { loaded.loadFromFile(path_); }).find(path_), std::string::npos);
+}
+
+TEST(VoxelPlanesMapIo, IsMadeFromAMapDefinition)
+{
+  for (const std::string name : {"fastlio::CVoxelPlanesMap", "voxelPlanesMap"})
+  {
+    mrpt::config::CConfigFileMemory config;
+    config.write("Maps", name + "_count", 1);
+    config.write("Maps_" + name + "_00_creationOpts", "voxel_size", 0.9);
+    config.write("Maps_" + name + "_00_creationOpts", "min_points", 9);
+    config.write("Maps_" + name + "_00_insertOpts", "radius", 70.0);
+    config.write("Maps_" + name + "_00_renderOpts", "planes", false);
+    mrpt::maps::TSetOfMetricMapInitializers definitions;
+    definitions.loadFromConfigFile(config, "Maps");
+    ASSERT_EQ(definitions.size(), 1U);
+    mrpt::maps::CMultiMetricMap maps;
+    maps.setListOfMaps(definitions);
+    const auto map = maps.mapByClass<CVoxelPlanesMap>();
+    ASSERT_TRUE(map) << name;
+    EXPECT_EQ(map->planes().options().voxel_size, 0.9);
+    EXPECT_EQ(map->planes().options().rules.min_points, 9.0F);
+    EXPECT_EQ(map->insertionOptions.radius, 70.0);
+    EXPECT_FALSE(map->renderOptions.planes);
+  }
+}
+
+TEST(VoxelPlanesMapIo, SenselessMapDefinitionSaysWhatIsWrong)
+{
+  CVoxelPlanesMap::TCreationOptions options;
+  options.planes.voxel_size = -1.0;
+  EXPECT_NE(messageOf([&] { CVoxelPlanesMap map(options); }).find("voxel_size"), std::string::npos);
+}
