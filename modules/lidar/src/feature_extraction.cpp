@@ -13,11 +13,10 @@ namespace fastlio
 {
 namespace
 {
-/** Whether a surface that runs along \a direction is met by a beam at no less than an angle. */
-bool isWellMet(const Vec3& direction, const Vec3& point, double min_incidence)
+/** Whether a surface that runs along \a direction is met at no less than the least incidence. */
+bool isWellMet(const Vec3& direction, const Vec3& beam, double max_cosine)
 {
-  const double cosine = direction.dot(point) / (direction.norm() * point.norm());
-  return std::abs(cosine) <= std::cos(min_incidence);
+  return std::abs(direction.dot(beam)) <= max_cosine * direction.norm();
 }
 
 /** The smoothness c of the file's head, from the vectors to the neighbours' centroids; infinite
@@ -75,13 +74,12 @@ void FeatureExtractor::loadLine(const PointColumns& points, std::size_t line)
 /** Whether points k - 1 and k of the line lie on one surface. */
 bool FeatureExtractor::isConnected(std::size_t k, const FeatureLimits& limits) const
 {
-  const Vec3 &a = point_[k - 1], &b = point_[k];
-  if ((b - a).norm() > limits.max_spacing) return false;
-  const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-  if (angle > limits.max_beam_gap) return false;
-  const double step = std::min(range_[k - 1], range_[k]) * angle;
-  return std::abs(range_[k] - range_[k - 1]) <=
-         step / std::tan(limits.min_incidence) + limits.range_jump;
+  const double beam_gap2 = (beam_[k] - beam_[k - 1]).squaredNorm();
+  if (beam_gap2 > bounds_.beam_chord * bounds_.beam_chord) return false;
+  if ((point_[k] - point_[k - 1]).squaredNorm() > limits.max_spacing * limits.max_spacing)
+    return false;
+  const double step = std::min(range_[k - 1], range_[k]) * std::sqrt(beam_gap2);
+  return std::abs(range_[k] - range_[k - 1]) <= step * bounds_.jump_per_step + limits.range_jump;
 }
 
 bool FeatureExtractor::isComplete(
@@ -133,9 +131,8 @@ FeatureExtractor::Shape FeatureExtractor::shapeOf(
   const Sides points = sidesOf(i, window, point_, point_sum_);
   Shape shape;
   shape.smoothness = smoothnessOf(points.left, points.right);
-  shape.usable = shape.smoothness <= 1.0 &&
-                 isWellMet(points.left, point_[i], limits.min_incidence) &&
-                 isWellMet(points.right, point_[i], limits.min_incidence);
+  shape.usable = shape.smoothness <= 1.0 && isWellMet(points.left, beam_[i], bounds_.max_cosine) &&
+                 isWellMet(points.right, beam_[i], bounds_.max_cosine);
   return shape;
 }
 
@@ -183,6 +180,9 @@ void FeatureExtractor::extract(
   features.planar.clear();
   features.edges.clear();
   features.dropped_invalid = features.dropped_near = features.dropped_far = 0;
+  bounds_ = {
+      2.0 * std::sin(0.5 * limits.max_beam_gap), 1.0 / std::tan(limits.min_incidence),
+      std::cos(limits.min_incidence)};
   gateRanges(points, limits, features);
   features.line_order = sorter_.sort(points, usable_, limits.line_order, lines_);
   for (std::size_t line = 0; line < lines_.count(); ++line)

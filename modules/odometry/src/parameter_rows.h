@@ -19,6 +19,9 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows lidarRows();
 [[nodiscard]] ParameterRows calibrationRows();
 
+// Defined in parameter_rows_features.cpp.
+[[nodiscard]] ParameterRows featureRows();
+
 // Defined in parameter_rows_estimation.cpp.
 [[nodiscard]] ParameterRows reductionRows();
 [[nodiscard]] ParameterRows measurementRows();

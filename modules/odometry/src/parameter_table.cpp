@@ -15,7 +15,8 @@ ParameterRows allRows()
   ParameterRows all;
   for (const auto& rows :
        {inputRows(), initializationRows(), imuRows(), lidarRows(), calibrationRows(),
-        reductionRows(), measurementRows(), mapRows(), updateRows(), outputRows(), generalRows()})
+        reductionRows(), featureRows(), measurementRows(), mapRows(), updateRows(), outputRows(),
+        generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -4,6 +4,7 @@
 #include "scan_pipeline.h"
 
 #include "map_factory.h"
+#include "prediction.h"
 #include "stopwatch.h"
 
 #include <Eigen/Eigenvalues>
@@ -16,13 +17,6 @@ namespace fastlio
 namespace
 {
 constexpr double kNsToS = 1e-9;
-
-ReductionLimits reductionLimits(const Parameters& p)
-{
-  return {
-      static_cast<float>(p.lidar.min_range), static_cast<float>(p.lidar.max_range),
-      static_cast<std::size_t>(p.reduction.target_points)};
-}
 
 /** The calibration's prior; what is not estimated is known exactly. */
 void addCalibrationPrior(StateMatrix& P, const CalibrationParameters& p)
@@ -43,34 +37,6 @@ Vector6 eigenvalues(const Matrix6& m)
       .eigenvalues();
 }
 
-/** A propagated state and the product of the Fx on the way to it. */
-struct Prediction
-{
-  FilterState state;
-  StateMatrix transition = StateMatrix::Identity();
-};
-
-/** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
- */
-template <typename Visit>
-Prediction propagateThrough(
-    const FilterState& from, const std::vector<ImuSample>& inputs, std::int64_t end_ns,
-    const ImuNoise& noise, const Visit& visit)
-{
-  Prediction p;
-  p.state = from;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-  {
-    const std::int64_t stop_ns = i + 1 < inputs.size() ? inputs[i + 1].stamp_ns : end_ns;
-    const double dt = static_cast<double>(stop_ns - inputs[i].stamp_ns) * kNsToS;
-    const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
-    p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
-    p.state = propagate(p.state, gyro, accel, dt, noise);
-    visit(stop_ns, p);
-  }
-  return p;
-}
-
 void describeUpdate(const UpdateResult& update, ScanStatistics& statistics)
 {
   const InformationSums& sums = update.last;
@@ -89,8 +55,9 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
     : parameters_(parameters),
       workers_(std::make_shared<const Workers>(parameters.threads)),
       map_(makeSurfaceMap(parameters, workers_)),
+      edges_(parameters),
       update_(parameters_, workers_),
-      reducer_(workers_),
+      selector_(parameters, workers_),
       deskewer_(workers_)
 {
 }
@@ -154,7 +121,7 @@ void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistic
   statistics.dropped_invalid = scan.dropped_invalid + selection_.dropped_invalid;
   statistics.dropped_near = selection_.dropped_near;
   statistics.dropped_far = selection_.dropped_far;
-  statistics.points_reduced = selection_.indices.size();
+  statistics.points_reduced = selection_.indices.size() + edge_indices_.size();
   statistics.imu_samples = inputs_.size();
   statistics.map_points = map_->pointCount();
 }
@@ -162,7 +129,7 @@ void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistic
 void ScanPipeline::reduce(const LidarScan& scan)
 {
   const Stopwatch watch;
-  reducer_.select(scan.points, reductionLimits(parameters_), selection_);
+  selector_.select(scan.points, selection_, edge_indices_);
   timings_.reduce = watch.milliseconds();
 }
 
@@ -213,9 +180,13 @@ void ScanPipeline::compensate(
   {
     backwardPropagate(predicted.x, span.end_ns, inputs_, knots_);
     deskewer_.deskew(scan, selection_.indices, knots_, compensated_.points);
+    deskewer_.deskew(scan, edge_indices_, knots_, edges_.points());
   }
   else
+  {
     deskewer_.transformToBody(scan, selection_.indices, compensated_.points);
+    deskewer_.transformToBody(scan, edge_indices_, edges_.points());
+  }
   compensated_.compensation = {
       predicted.x.extrinsic_correction, predicted.x.time_offset,
       inputs_.empty() ? Vec3::Zero() : Vec3(inputs_.back().gyro - predicted.x.gyro_bias)};
@@ -225,7 +196,7 @@ void ScanPipeline::compensate(
 UpdateResult ScanPipeline::updateWithScan(const FilterState& predicted)
 {
   const Stopwatch watch;
-  UpdateResult update = update_.run(predicted, compensated_, *map_);
+  UpdateResult update = update_.run(predicted, compensated_, *map_, edges_);
   timings_.associate = update_.associationMilliseconds();
   timings_.update = watch.milliseconds() - timings_.associate;
   return update;
@@ -297,6 +268,7 @@ void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
   map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
   map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);
+  edges_.growMap(T_world_scan);
   timings_.insert = watch.milliseconds();
 }
 

@@ -4,6 +4,8 @@
 /** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
 #pragma once
 
+#include "edge_stage.h"
+#include "point_selector.h"
 #include "scan_update.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
@@ -67,6 +69,7 @@ class ScanPipeline
   Parameters parameters_;
   std::shared_ptr<const Workers> workers_;
   std::unique_ptr<SurfaceMap> map_;
+  EdgeStage edges_;
   ScanUpdate update_;
   FilterState filter_;
   std::int64_t state_ns_ = 0;
@@ -79,9 +82,10 @@ class ScanPipeline
   std::uint32_t insertions_ = 0;
 
   // Reused between scans.
-  ScanReducer reducer_;
+  PointSelector selector_;
   Deskewer deskewer_;
   ScanSelection selection_;
+  std::vector<std::uint32_t> edge_indices_;
   std::vector<ImuSample> inputs_;
   std::vector<MotionKnot> knots_;
   std::vector<ImuRateState> imu_rate_;

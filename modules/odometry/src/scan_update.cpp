@@ -28,7 +28,7 @@ ScanUpdate::ScanUpdate(const Parameters& parameters, std::shared_ptr<const Worke
 }
 
 void ScanUpdate::associate(
-    const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map)
+    const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map, EdgeStage& edges)
 {
   const Stopwatch watch;
   workers_->forEachChunk(
@@ -38,30 +38,37 @@ void ScanUpdate::associate(
         transformToWorld(points, T_world_scan, first, last, world_);
         map.match(world_, first, last, matches_);
       });
+  edges.associate(T_world_scan);
   association_ms_ += watch.milliseconds();
 }
 
 MeasurementEvaluation ScanUpdate::evaluate(
-    const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map)
+    const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map,
+    EdgeStage& edges)
 {
   const Pose T_world_scan = scanPose(iterate, scan.compensation);
   const BodyPoints& points = scan.points;
   if (iteration < parameters_.measurement.association_iterations)
-    associate(T_world_scan, points, map);
+    associate(T_world_scan, points, map, edges);
   workers_->forEachChunk(
       points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
       { chunk_sums_[chunk] = accumulate(T_world_scan, points, matches_, model_, first, last); });
   MeasurementEvaluation evaluation;
   for (const InformationSums& sums : chunk_sums_)
     addSums(evaluation.sums, sums);
+  addSums(evaluation.sums, edges.sums(T_world_scan, model_));
   if (parameters_.gain == GainForm::Standard)
+  {
     evaluation.stacked = stack(T_world_scan, points, matches_, model_);
+    edges.stack(T_world_scan, model_, evaluation.stacked);
+  }
   evaluation.by_state = scanPoseJacobian(iterate, scan.compensation);
   return evaluation;
 }
 
 UpdateResult ScanUpdate::run(
-    const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map)
+    const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map,
+    EdgeStage& edges)
 {
   association_ms_ = 0.0;
   world_.resize(scan.points.size());
@@ -72,7 +79,7 @@ UpdateResult ScanUpdate::run(
   std::size_t effective = 0;
   const auto measurements = [&](const NavState& iterate, int iteration)
   {
-    MeasurementEvaluation e = evaluate(iterate, iteration, scan, map);
+    MeasurementEvaluation e = evaluate(iterate, iteration, scan, map, edges);
     effective = e.sums.count;
     // An evaluation without measurements makes the update leave the prediction alone.
     return effective < minimum ? MeasurementEvaluation{} : e;

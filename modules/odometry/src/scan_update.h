@@ -4,6 +4,7 @@
 /** \file scan_update.h The iterated update of the filter by one scan (eq. 12-20). */
 #pragma once
 
+#include "edge_stage.h"
 #include <fastlio/filter/scan_pose.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/map/surface_map.h>
@@ -31,9 +32,11 @@ class ScanUpdate
   ScanUpdate(const Parameters& parameters, std::shared_ptr<const Workers> workers);
 
   /** Iterates matching and update from a prediction. The scan does not correct it when fewer than
-   * measurement.min_effective_points match. */
+   * measurement.min_effective_points match.
+   * \param edges the scan's edge points, which are matched as well; may have none */
   [[nodiscard]] UpdateResult run(
-      const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map);
+      const FilterState& predicted, const CompensatedScan& scan, const SurfaceMap& map,
+      EdgeStage& edges);
 
   /** The matches of the last association. */
   [[nodiscard]] const std::vector<PlaneMatch>& matches() const { return matches_; }
@@ -43,9 +46,11 @@ class ScanUpdate
   [[nodiscard]] double associationMilliseconds() const { return association_ms_; }
 
  private:
-  void associate(const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map);
+  void associate(
+      const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map, EdgeStage& edges);
   [[nodiscard]] MeasurementEvaluation evaluate(
-      const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map);
+      const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map,
+      EdgeStage& edges);
 
   const Parameters& parameters_;
   std::shared_ptr<const Workers> workers_;

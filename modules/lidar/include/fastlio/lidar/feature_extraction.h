@@ -105,6 +105,15 @@ class FeatureExtractor
   [[nodiscard]] bool isSharpest(std::size_t i) const;
   void classifyLine(const FeatureLimits& limits, ScanFeatures& features) const;
 
+  /** What follows from the limits. */
+  struct Bounds
+  {
+    double beam_chord = 0.0;     // between unit beams of neighbours
+    double jump_per_step = 0.0;  // of the range, per distance across the beam
+    double max_cosine = 0.0;     // between surface and beam
+  };
+
+  Bounds bounds_;
   ScanLineSorter sorter_;
   ScanLines lines_;
   std::vector<std::uint32_t> usable_;

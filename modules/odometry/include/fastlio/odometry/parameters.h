@@ -8,6 +8,7 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/filter/pose.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/lidar/feature_lines.h>
 #include <fastlio/odometry/imu_buffer.h>
 
 #include <array>
@@ -63,6 +64,34 @@ struct CalibrationParameters
 struct ReductionParameters
 {
   int target_points = 1500;  //!< about so many points of a scan are used; 0 = all
+};
+
+/** Which points of a scan are measurements. */
+enum class FeatureMode
+{
+  None,          //!< direct: any point that finds a plane
+  Planar,        //!< planar features
+  PlanarAndEdge  //!< planar features, and edge features on lines (paper)
+};
+
+/** Group `features`. */
+struct FeatureParameters
+{
+  FeatureMode mode = FeatureMode::None;
+  ScanLineOrder scan_lines = ScanLineOrder::Automatic;  //!< what makes points neighbours
+  double half_width = 0.5;                    //!< neighbours reach so far to each side [m]
+  int min_neighbors = 3;                      //!< at least so many on each side
+  double max_planar_smoothness = 0.2;         //!< planar below
+  double min_edge_smoothness = 0.4;           //!< edge above
+  double min_incidence = 0.3490658503988659;  //!< between surface and beam [rad] (YAML: deg)
+  double max_beam_turn = 0.1;                 //!< largest smoothness of the line of unit beams
+  double max_beam_gap = 0.03490658503988659;  //!< between neighbours [rad] (YAML: deg)
+  double max_spacing = 1.0;                   //!< between neighbours [m]
+  double range_jump = 0.1;                    //!< between neighbours, beyond min_incidence [m]
+  int target_edges = 300;                     //!< about so many edge points are used; 0 = all
+  double edge_spacing = 0.2;       //!< nearer points are not added to the map of edges [m]
+  double max_edge_distance = 2.0;  //!< farthest neighbour on a line [m]
+  double max_edge_scatter = 0.15;  //!< farthest neighbour from the line [m]
 };
 
 /** Group `measurement`. */
@@ -121,6 +150,7 @@ struct Parameters
   LidarParameters lidar;
   CalibrationParameters calibration;
   ReductionParameters reduction;
+  FeatureParameters features;
   MeasurementParameters measurement;
   MapParameters map;
   IterationLimits update;

@@ -1,0 +1,85 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "point_selector.h"
+
+#include <limits>
+
+namespace fastlio
+{
+namespace
+{
+ReductionLimits reductionLimits(const Parameters& p)
+{
+  return {
+      static_cast<float>(p.lidar.min_range), static_cast<float>(p.lidar.max_range),
+      static_cast<std::size_t>(p.reduction.target_points)};
+}
+
+FeatureLimits featureLimits(const Parameters& parameters)
+{
+  const FeatureParameters& p = parameters.features;
+  FeatureLimits limits;
+  limits.min_range = static_cast<float>(parameters.lidar.min_range);
+  limits.max_range = static_cast<float>(parameters.lidar.max_range);
+  limits.line_order = p.scan_lines;
+  limits.half_width = p.half_width;
+  limits.min_neighbors = p.min_neighbors;
+  limits.max_planar_smoothness = p.max_planar_smoothness;
+  limits.min_edge_smoothness = p.min_edge_smoothness;
+  limits.min_incidence = p.min_incidence;
+  limits.max_beam_turn = p.max_beam_turn;
+  limits.max_beam_gap = p.max_beam_gap;
+  limits.max_spacing = p.max_spacing;
+  limits.range_jump = p.range_jump;
+  return limits;
+}
+
+}  // namespace
+
+PointSelector::PointSelector(
+    const Parameters& parameters, const std::shared_ptr<const Workers>& workers)
+    : mode_(parameters.features.mode),
+      reduction_limits_(reductionLimits(parameters)),
+      feature_limits_(featureLimits(parameters)),
+      target_edges_(static_cast<std::size_t>(parameters.features.target_edges)),
+      surface_reducer_(workers),
+      edge_reducer_(workers)
+{
+}
+
+void PointSelector::thin(
+    const PointColumns& points, const std::vector<std::uint32_t>& candidates, std::size_t target,
+    ScanReducer& reducer, std::vector<std::uint32_t>& chosen)
+{
+  candidates_.clear();
+  for (const std::uint32_t i : candidates)
+    candidates_.push_back(points.x[i], points.y[i], points.z[i], 0.0F, 0, 0);
+  // The candidates have passed the range gates.
+  reducer.select(candidates_, {0.0F, std::numeric_limits<float>::max(), target}, thinned_);
+  chosen.clear();
+  for (const std::uint32_t k : thinned_.indices)
+    chosen.push_back(candidates[k]);
+}
+
+void PointSelector::select(
+    const PointColumns& points, ScanSelection& surfaces, std::vector<std::uint32_t>& edges)
+{
+  edges.clear();
+  if (mode_ == FeatureMode::None)
+  {
+    surface_reducer_.select(points, reduction_limits_, surfaces);
+    return;
+  }
+  extractor_.extract(points, feature_limits_, features_);
+  thin(
+      points, features_.planar, reduction_limits_.target_points, surface_reducer_,
+      surfaces.indices);
+  if (mode_ == FeatureMode::PlanarAndEdge)
+    thin(points, features_.edges, target_edges_, edge_reducer_, edges);
+  surfaces.dropped_invalid = features_.dropped_invalid;
+  surfaces.dropped_near = features_.dropped_near;
+  surfaces.dropped_far = features_.dropped_far;
+}
+
+}  // namespace fastlio

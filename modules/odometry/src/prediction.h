@@ -1,0 +1,42 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file prediction.h Forward propagation through the inertial samples of a scan (eq. 4-8). */
+#pragma once
+
+#include <fastlio/filter/propagation.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** A propagated state and the product of the Fx on the way to it. */
+struct Prediction
+{
+  FilterState state;
+  StateMatrix transition = StateMatrix::Identity();
+};
+
+/** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
+ */
+template <typename Visit>
+Prediction propagateThrough(
+    const FilterState& from, const std::vector<ImuSample>& inputs, std::int64_t end_ns,
+    const ImuNoise& noise, const Visit& visit)
+{
+  Prediction p;
+  p.state = from;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+  {
+    const std::int64_t stop_ns = i + 1 < inputs.size() ? inputs[i + 1].stamp_ns : end_ns;
+    const double dt = 1e-9 * static_cast<double>(stop_ns - inputs[i].stamp_ns);
+    const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
+    p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
+    p.state = propagate(p.state, gyro, accel, dt, noise);
+    visit(stop_ns, p);
+  }
+  return p;
+}
+
+}  // namespace fastlio
