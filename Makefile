@@ -8,22 +8,24 @@ JOBS ?= $(shell nproc)
 RECORDINGS ?=
 DEMO_DIR ?= demo-output
 SCENARIOS_DIR ?= scenarios-output
+EXPERIMENTS_DIR ?= experiments-output
 
 BUILD_DIR := build/$(PRESET)
 
 .DEFAULT_GOAL := help
-.PHONY: help dependencies lint-dependencies configure build test demo scenarios docs format lint clean
+.PHONY: help dependencies lint-dependencies configure build test demo scenarios experiments docs format lint clean
 
 help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
+	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
 	@echo "make build   install what is missing, build            PRESET=release|debug|asan|tsan"
 	@echo "make lint    check format, structure and clang-tidy"
 	@echo "make format  format the sources"
 	@echo "make docs    regenerate docs/parameters.md and params/*.yaml from the parameter table"
-	@echo "make clean   remove build/, $(DEMO_DIR)/ and $(SCENARIOS_DIR)/"
+	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/ and $(EXPERIMENTS_DIR)/"
 
 dependencies:
 	@cmake/install_dependencies.sh build
@@ -47,6 +49,9 @@ demo: build
 scenarios: build
 	benchmarks/scenario_table.sh $(BUILD_DIR) $(SCENARIOS_DIR)
 
+experiments: build
+	benchmarks/experiments/all.sh $(BUILD_DIR) $(EXPERIMENTS_DIR)
+
 docs: build
 	MRPT_FASTLIO_REGENERATE=1 $(BUILD_DIR)/modules/odometry/test_odometry \
 	  --gtest_filter="ParameterDocument.*"
@@ -60,4 +65,4 @@ lint: lint-dependencies build
 	cmake/run_clang_tidy.sh $(BUILD_DIR) $(JOBS)
 
 clean:
-	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR)
+	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR)

@@ -31,17 +31,7 @@ run_scenario() {
     --align first --json "$2/evaluation.json" >"$2/evaluation.txt" 2>&1
 }
 
-# The values of an indented JSON document as "outer.inner value" lines.
-flatten() {
-  awk '{
-    match($0, /^ */); depth = RLENGTH / 2
-    if (split($0, part, "\"") < 3) next
-    key[depth] = part[2]
-    value = $0; sub(/^[^:]*: */, "", value); sub(/,$/, "", value)
-    path = key[1]; for (i = 2; i <= depth; ++i) path = path "." key[i]
-    print path, value
-  }' "$1"
-}
+flatten() { awk -f "$(dirname "$0")/flatten_json.awk" "$1"; }
 
 row() {
   flatten "$2" | awk -v scenario="$1" -v status="$3" '

@@ -41,7 +41,7 @@ struct FeatureGate
 {
   const char* scenario;
   double duration;  // [s]
-  double ape;       // RMSE [m]
+  double ape;       // RMSE [m]: 2 to 3 times the largest figure of seeds 1 to 3 and both modes
 };
 
 std::ostream& operator<<(std::ostream& out, const FeatureGate& gate)
@@ -50,7 +50,7 @@ std::ostream& operator<<(std::ostream& out, const FeatureGate& gate)
 }
 
 constexpr FeatureGate kGates[] = {
-    {"campus", 12, 0.02}, {"office", 12, 0.03}, {"shake", 7, 0.03}, {"uav", 9, 0.1}};
+    {"campus", 12, 0.008}, {"office", 12, 0.012}, {"shake", 7, 0.016}, {"uav", 9, 0.055}};
 }  // namespace
 
 class FeatureAccuracy : public ::testing::TestWithParam<FeatureGate>
