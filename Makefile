@@ -13,12 +13,15 @@ EXPERIMENTS_DIR ?= experiments-output
 BUILD_DIR := build/$(PRESET)
 
 .DEFAULT_GOAL := help
-.PHONY: help dependencies lint-dependencies configure build test demo scenarios experiments docs format lint clean
+.PHONY: help dependencies lint-dependencies configure build test instructions benchmark demo scenarios \
+  experiments docs format lint clean
 
 help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
+	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
+	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
 	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
 	@echo "make build   install what is missing, build            PRESET=release|debug|asan|tsan"
@@ -42,6 +45,18 @@ build: configure
 test: build
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
 	ctest --preset $(PRESET) --parallel $(JOBS)
+
+instructions:
+	@cmake/install_dependencies.sh build instructions
+	cmake --preset baseline
+	cmake --build --preset baseline --parallel $(JOBS) --target fastlio-fixed-run
+	ctest --preset baseline --tests-regex instructions.budget
+
+benchmark:
+	@cmake/install_dependencies.sh build benchmark
+	cmake --preset $(PRESET) -DMRPT_FASTLIO_BENCHMARKS=ON
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-benchmark fastlio-microbenchmark
+	benchmarks/run.sh $(BUILD_DIR) $(RECORDINGS)
 
 demo: build
 	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)

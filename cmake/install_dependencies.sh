@@ -2,13 +2,15 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [lint]      (default: build)
+# Usage: cmake/install_dependencies.sh [build] [lint] [benchmark] [instructions]      (default: build)
 set -eu
 
 build_packages="g++ cmake ninja-build
   libmrpt-maps-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev"
 lint_packages="clang-format clang-tidy"
+benchmark_packages="libbenchmark-dev"
+instructions_packages="valgrind"
 
 is_installed() {
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
@@ -37,8 +39,10 @@ for set in "${@:-build}"; do
   case "$set" in
     build) wanted="$wanted $build_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
+    benchmark) wanted="$wanted $benchmark_packages" ;;
+    instructions) wanted="$wanted $instructions_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, lint" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, lint, benchmark, instructions" >&2
       exit 2
       ;;
   esac

@@ -3,8 +3,14 @@
 
 #include <fastlio/odometry/plane_groups.h>
 
+#include <utility>
+
 namespace fastlio
 {
+PlaneGrouping::PlaneGrouping(std::shared_ptr<const Workers> workers) : workers_(std::move(workers))
+{
+}
+
 PlaneGroup& PlaneGrouping::groupOf(const PlaneMatch& match)
 {
   if (match.plane >= table_.size()) table_.resize(match.plane + match.plane / 2 + 1);
@@ -31,6 +37,36 @@ void PlaneGrouping::finishGroups()
   result_.persistence = total > 0.0 ? before / total : 0.0;
 }
 
+/** Rows of the points [first, last) and the sums that need no groups. */
+PlaneGrouping::Sums PlaneGrouping::measure(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::size_t first, std::size_t last)
+{
+  // Upper triangles only, mirrored at the end.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> shared_noise = Eigen::Matrix<double, 6, 6>::Zero();
+  for (std::size_t i = first; i < last; ++i)
+  {
+    Row& row = rows_[i];
+    row.weight = 0.0;
+    if (!matches[i].valid()) continue;
+    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
+    if (!isConsistent(m, model)) continue;
+    row.weight = 1.0 / m.variance;
+    row.shared = row.weight * static_cast<double>(matches[i].shared_variance);
+    row.weighted_h = row.weight * m.h;
+    for (int c = 0; c < 6; ++c)
+    {
+      information.col(c).head(c + 1) += m.h[c] * row.weighted_h.head(c + 1);
+      shared_noise.col(c).head(c + 1) += row.shared * m.h[c] * row.weighted_h.head(c + 1);
+    }
+  }
+  Sums sums;
+  sums.information = information.selfadjointView<Eigen::Upper>();
+  sums.shared_noise = shared_noise.selfadjointView<Eigen::Upper>();
+  return sums;
+}
+
 const GroupedMeasurements& PlaneGrouping::group(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model)
@@ -39,20 +75,24 @@ const GroupedMeasurements& PlaneGrouping::group(
   result_.groups.clear();
   result_.information.setZero();
   result_.shared_noise.setZero();
-  for (std::size_t i = 0; i < body.size(); ++i)
+  rows_.resize(body.size());
+  chunk_sums_.resize(Workers::chunks(body.size()));
+  workers_->forEachChunk(
+      body.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_sums_[chunk] = measure(T_world_scan, body, matches, model, first, last); });
+  for (const Sums& sums : chunk_sums_)
   {
-    if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    const double w = 1.0 / m.variance;
-    const double shared = static_cast<double>(matches[i].shared_variance);
-    const Matrix6 w_hh = w * m.h * m.h.transpose();
-    result_.information += w_hh;
-    result_.shared_noise += w * shared * w_hh;
+    result_.information += sums.information;
+    result_.shared_noise += sums.shared_noise;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+  {
+    const Row& row = rows_[i];
+    if (row.weight == 0.0) continue;
     PlaneGroup& group = groupOf(matches[i]);
-    group.g += w * m.h;
-    group.shared_variance += w * shared;
-    group.weight += w;
+    group.g += row.weighted_h;
+    group.shared_variance += row.shared;
+    group.weight += row.weight;
   }
   finishGroups();
   return result_;

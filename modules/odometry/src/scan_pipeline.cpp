@@ -57,6 +57,7 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
       map_(makeSurfaceMap(parameters, workers_)),
       edges_(parameters),
       update_(parameters_, workers_),
+      planes_(workers_),
       selector_(parameters, workers_),
       deskewer_(workers_)
 {

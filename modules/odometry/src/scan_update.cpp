@@ -5,6 +5,7 @@
 
 #include "stopwatch.h"
 
+#include <functional>
 #include <utility>
 
 namespace fastlio
@@ -85,7 +86,8 @@ UpdateResult ScanUpdate::run(
     return effective < minimum ? MeasurementEvaluation{} : e;
   };
   UpdateResult update =
-      iteratedUpdate(predicted, measurements, parameters_.update, parameters_.gain);
+      // By reference: a copy of the captures would go to the heap.
+      iteratedUpdate(predicted, std::cref(measurements), parameters_.update, parameters_.gain);
   update.last.count = effective;
   return update;
 }

@@ -9,8 +9,10 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/parallel/workers.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace fastlio
@@ -38,6 +40,10 @@ struct GroupedMeasurements
 class PlaneGrouping
 {
  public:
+  /** \param workers who share the points; the result does not depend on them */
+  explicit PlaneGrouping(
+      std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
+
   /** The consistent matches of a scan at a pose, by plane; valid until the next call. */
   const GroupedMeasurements& group(
       const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
@@ -50,10 +56,31 @@ class PlaneGrouping
     std::uint32_t epoch = 0, group = 0;
   };
 
+  /** A point's measurement; weight 0: it is not consistent. */
+  struct Row
+  {
+    Vector6 weighted_h;   //!< w h
+    double weight = 0.0;  //!< w
+    double shared = 0.0;  //!< w s
+  };
+
+  /** Sums over a chunk of points. */
+  struct Sums
+  {
+    Matrix6 information = Matrix6::Zero();
+    Matrix6 shared_noise = Matrix6::Zero();
+  };
+
+  [[nodiscard]] Sums measure(
+      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+      const ResidualModel& model, std::size_t first, std::size_t last);
   PlaneGroup& groupOf(const PlaneMatch& match);
   void finishGroups();
 
+  std::shared_ptr<const Workers> workers_;
   GroupedMeasurements result_;
+  std::vector<Row> rows_;
+  std::vector<Sums> chunk_sums_;
   std::vector<Entry> table_;
   std::uint32_t epoch_ = 1;
 };
