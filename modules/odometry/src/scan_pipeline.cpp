@@ -92,14 +92,12 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   ScanResult result;
   result.begin_ns = span.begin_ns;
   result.stamp_ns = span.end_ns;
-
   const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
   reduce(scan);
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
-  filter_.x.R =
-      normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3) by rounding
+  filter_.x.R = normalizeRotation(filter_.x.R);  // products drift off SO(3) by rounding
   state_ns_ = span.end_ns;
   result.filter = considerMapError();
   judge(update, result);
@@ -108,7 +106,6 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
     growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
   else
     world_.resize(0);
-
   describeUpdate(update, result.statistics);
   describeScan(scan, result.statistics);
   timings_.total = total.milliseconds();
@@ -260,12 +257,11 @@ FilterState ScanPipeline::considerMapError()
 void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
 {
   const Stopwatch watch;
-  const BodyPoints& points = compensated_.points;
   const Pose T_world_scan = scanPose(filter_.x, compensated_.compensation);
-  world_.resize(points.size());
-  workers_->forEachChunk(
-      points.size(), [&](std::size_t, std::size_t first, std::size_t last)
-      { transformToWorld(points, T_world_scan, first, last, world_); });
+  world_.resize(compensated_.points.size());
+  const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
+  { transformToWorld(compensated_.points, T_world_scan, first, last, world_); };
+  workers_->forEachChunk(world_.size(), transform);
   map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
   map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);

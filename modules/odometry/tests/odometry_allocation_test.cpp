@@ -33,12 +33,20 @@ std::vector<std::size_t> allocationsPerScan(Odometry& odometry, const RoomRecord
   return allocations;
 }
 
-TEST(OdometryAllocations, AScanInAKnownPlaceAllocatesNothing)
+class OdometryAllocations : public ::testing::TestWithParam<int>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Threads, OdometryAllocations, ::testing::Values(1, 2));
+
+TEST_P(OdometryAllocations, AScanInAKnownPlaceAllocatesNothing)
 {
   RoomSettings settings;
   settings.duration = 12.0;
   const RoomRecording recording = recordRoom(settings);
-  Odometry odometry(roomParameters(settings));
+  Parameters parameters = roomParameters(settings);
+  parameters.threads = GetParam();
+  Odometry odometry(parameters);
   const std::vector<std::size_t> allocations = allocationsPerScan(odometry, recording);
   ASSERT_GT(allocations.size(), 80U);
   EXPECT_GT(allocations.front(), 0U) << "the counter does not count";

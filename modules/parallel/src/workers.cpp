@@ -1,26 +1,28 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "team.h"
 #include <fastlio/parallel/workers.h>
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
+#include <thread>
 
 namespace fastlio
 {
-class Workers::Arena : public tbb::task_arena
+namespace
 {
- public:
-  using tbb::task_arena::task_arena;
-};
+/** How many helpers the calling thread gets. */
+std::size_t helpersFor(int threads)
+{
+  // Processors that this process may run on; 0 when that is not known.
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  return (threads > 0 ? static_cast<std::size_t>(threads) : cores) - 1;
+}
+}  // namespace
 
 Workers::Workers(int threads)
 {
-  if (threads != 1)
-    arena_ = std::make_unique<Arena>(
-        threads > 0 ? threads : static_cast<int>(tbb::task_arena::automatic));
+  if (const std::size_t helpers = helpersFor(threads)) team_ = std::make_unique<Team>(helpers);
 }
 
 Workers::~Workers() = default;
@@ -30,13 +32,15 @@ void Workers::loop(std::size_t n, std::size_t chunk_size, ChunkCall call, const 
   const auto run = [&](std::size_t chunk)
   { call(body, chunk, chunk * chunk_size, std::min(n, (chunk + 1) * chunk_size)); };
   const std::size_t count = chunks(n, chunk_size);
-  if (!arena_ || count < 2)
+  if (team_ && count > 1)
   {
-    for (std::size_t chunk = 0; chunk < count; ++chunk)
-      run(chunk);
+    const auto run_chunk = [](const void* context, std::size_t chunk)
+    { (*static_cast<decltype(&run)>(context))(chunk); };
+    team_->loop(count, run_chunk, &run);
     return;
   }
-  arena_->execute([&] { tbb::parallel_for(std::size_t{0}, count, run); });
+  for (std::size_t chunk = 0; chunk < count; ++chunk)
+    run(chunk);
 }
 
 }  // namespace fastlio

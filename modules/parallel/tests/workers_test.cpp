@@ -98,6 +98,32 @@ std::set<std::thread::id> threadsOf(const Workers& workers)
   return threads;
 }
 
+TEST(Workers, LoopsInQuickAndSlowSuccessionMissNoChunk)
+{
+  // Helpers come too late, in time, while awake, while going to sleep, and asleep.
+  const Workers workers(3);
+  for (int i = 0; i < 3000; ++i)
+  {
+    std::atomic<int> calls{0};
+    const std::size_t chunks = 2 + static_cast<std::size_t>(i % 5);
+    workers.forEach(chunks, [&](std::size_t) { ++calls; });
+    ASSERT_EQ(calls, static_cast<int>(chunks)) << "loop " << i;
+    if (i % 7 == 0) std::this_thread::sleep_for(std::chrono::microseconds(i % 300));
+  }
+}
+
+TEST(Workers, EndWhileTheirThreadsAreAwakeOrAsleep)
+{
+  for (int i = 0; i < 100; ++i)
+  {
+    const Workers workers(3);
+    std::atomic<int> calls{0};
+    if (i % 2 == 0) workers.forEach(10, [&](std::size_t) { ++calls; });
+    EXPECT_EQ(calls, i % 2 == 0 ? 10 : 0);
+    if (i % 10 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
 TEST(Workers, OneThreadIsTheCallingOne)
 {
   EXPECT_EQ(threadsOf(Workers(1)), std::set<std::thread::id>{std::this_thread::get_id()});

@@ -10,8 +10,10 @@
 
 namespace fastlio
 {
-/** Runs the chunks of a loop on several threads, in an arena of its own, so that other users of the
- * process's threads are not disturbed.
+class Team;
+
+/** Runs the chunks of a loop on several threads of its own. They stay awake between loops that
+ * follow each other within 0.2 ms, and sleep otherwise.
  *
  * Chunks have a fixed size: what is computed per chunk and then joined in the order of the chunks
  * does not depend on the number of threads. A loop allocates nothing. Loops of one object may not
@@ -62,8 +64,7 @@ class Workers
       void (*)(const void* body, std::size_t chunk, std::size_t first, std::size_t last);
   void loop(std::size_t n, std::size_t chunk_size, ChunkCall call, const void* body) const;
 
-  class Arena;
-  std::unique_ptr<Arena> arena_;  // none: the calling thread does it all
+  std::unique_ptr<Team> team_;  // none: the calling thread does it all
 };
 
 }  // namespace fastlio
