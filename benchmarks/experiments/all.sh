@@ -19,7 +19,8 @@ shift 2
 conditions() {
   echo "Commit $(git -C "$here" rev-parse --short HEAD 2>/dev/null || echo unknown)," \
     "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), recordings with the seeds" \
-    "${SEEDS:-1 2 3}."
+    "${SEEDS:-1 2 3}. Load of the machine at the start: $(cut -d ' ' -f 1 /proc/loadavg); times are" \
+    "those of the method alone when it is near zero."
 }
 
 table() {
