@@ -19,99 +19,98 @@ void fetchForWriting(const void* voxel)
 }
 }  // namespace
 
-/** Finds block and voxels of the points [first, last), as far as they exist. */
-void VoxelInserter::locate(
-    const WorldPoints& points, const VoxelGrid& grid, const VoxelStorage& storage,
-    std::size_t first, std::size_t last)
+void VoxelInserter::collect(
+    std::uint8_t shard, const WorldPoints& points, const VoxelGrid& grid,
+    std::vector<Arrival>& arrivals) const
 {
-  for (std::size_t i = first; i < last; ++i)
+  arrivals.clear();
+  for (std::size_t i = 0; i < shard_of_.size(); ++i)
   {
-    Arrival& arrival = arrivals_[i];
-    arrival.address = grid.addressOf(points.x[i], points.y[i], points.z[i]);
+    if (shard_of_[i] != shard) continue;
+    arrivals.push_back(
+        {static_cast<std::uint32_t>(i),
+         grid.addressOf(points.x[i], points.y[i], points.z[i]),
+         VoxelStorage::kNoBlock,
+         {}});
+  }
+}
+
+/** Finds block and voxels of each point; adds those that it lacks. */
+void VoxelInserter::findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& storage)
+{
+  for (std::size_t k = 0; k < arrivals.size(); ++k)
+  {
+    Arrival& arrival = arrivals[k];
     // Neighbours in the scan mostly share the block.
-    const bool same = i > first && arrivals_[i - 1].address.block_key == arrival.address.block_key;
-    arrival.block = same ? arrivals_[i - 1].block : storage.find(arrival.address.block_key);
-    if (arrival.block != VoxelStorage::kNoBlock)
-      __builtin_prefetch(&storage.block(arrival.block).voxels[arrival.address.slots[0]]);
+    const bool same = k > 0 && arrivals[k - 1].address.block_key == arrival.address.block_key;
+    arrival.block = same ? arrivals[k - 1].block : storage.findOrAdd(arrival.address.block_key);
+    __builtin_prefetch(&storage.block(arrival.block).voxels[arrival.address.slots[0]]);
   }
-  for (std::size_t i = first; i < last; ++i)
+  for (Arrival& arrival : arrivals)
   {
-    Arrival& arrival = arrivals_[i];
-    arrival.voxels.fill(VoxelStorage::kNoVoxel);
-    if (arrival.block == VoxelStorage::kNoBlock) continue;
     for (std::size_t s = 0; s < kVoxelScales; ++s)
-      arrival.voxels[s] = storage.block(arrival.block).voxels[arrival.address.slots[s]];
-  }
-}
-
-/** Adds the block and the voxels that a point lacks. */
-void VoxelInserter::makeRoom(Arrival& arrival, VoxelStorage& storage)
-{
-  if (arrival.block == VoxelStorage::kNoBlock)
-    arrival.block = storage.findOrAdd(arrival.address.block_key);
-  for (std::size_t s = 0; s < kVoxelScales; ++s)
-  {
-    const std::uint8_t slot = arrival.address.slots[s];
-    std::uint32_t& voxel = arrival.voxels[s];
-    voxel = storage.block(arrival.block).voxels[slot];
-    if (voxel == VoxelStorage::kNoVoxel) voxel = storage.addVoxel(arrival.block, slot);
-  }
-}
-
-void VoxelInserter::distribute(VoxelStorage& storage)
-{
-  for (std::size_t i = 0; i < arrivals_.size(); ++i)
-  {
-    Arrival& arrival = arrivals_[i];
-    const auto& voxels = arrival.voxels;
-    const bool complete =
-        std::find(voxels.begin(), voxels.end(), VoxelStorage::kNoVoxel) == voxels.end();
-    if (!complete) makeRoom(arrival, storage);
-    shards_[arrival.block % kShards].points.push_back(static_cast<std::uint32_t>(i));
+    {
+      const std::uint8_t slot = arrival.address.slots[s];
+      std::uint32_t voxel = storage.block(arrival.block).voxels[slot];
+      if (voxel == VoxelStorage::kNoVoxel) voxel = storage.addVoxel(arrival.block, slot);
+      arrival.voxels[s] = voxel;
+    }
   }
 }
 
 void VoxelInserter::addPoint(
-    std::uint32_t i, const WorldPoints& points, const Eigen::Vector3f& origin,
-    const VoxelGrid& grid, VoxelStorage& storage, std::vector<Refit>& refits) const
+    const Arrival& arrival, const WorldPoints& points, const InsertionContext& context,
+    VoxelStorage& storage, std::vector<Refit>& refits)
 {
-  const Arrival& arrival = arrivals_[i];
+  const std::uint32_t i = arrival.point;
+  const std::uint64_t key = arrival.address.block_key;
   const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
-  const Eigen::Vector3f beam = (point - origin).normalized();
+  const Eigen::Vector3f beam = (point - context.origin).normalized();
   for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
     const std::uint8_t slot = arrival.address.slots[s];
     PlaneVoxel& voxel = storage.voxel(arrival.voxels[s]);
-    voxel.add(point - grid.centerOf(arrival.address.block_key, slot), beam);
-    if (voxel.claimRefit()) refits.push_back({arrival.voxels[s], slot, arrival.address.block_key});
+    voxel.add(point - context.grid.centerOf(key, slot), beam);
+    if (voxel.claimRefit()) refits.push_back({arrival.voxels[s], slot, key});
   }
 }
 
-void VoxelInserter::insert(
-    const WorldPoints& points, const Eigen::Vector3f& origin, const VoxelGrid& grid,
-    const PlaneRules& rules, std::uint32_t scan, const Workers& workers, VoxelStorage& storage)
+void VoxelInserter::insertShard(
+    std::uint8_t shard, const WorldPoints& points, const InsertionContext& context,
+    VoxelStorage& storage)
 {
-  arrivals_.resize(points.size());
-  workers.forEachChunk(
-      points.size(), [&](std::size_t, std::size_t first, std::size_t last)
-      { locate(points, grid, storage, first, last); });
-  distribute(storage);
-  const auto insert_shard = [&](std::size_t number)
+  std::vector<Arrival>& arrivals = benches_[shard].arrivals;
+  std::vector<Refit>& refits = benches_[shard].refits;
+  collect(shard, points, context.grid, arrivals);
+  findVoxels(arrivals, storage);
+  refits.clear();
+  for (std::size_t k = 0; k < arrivals.size(); ++k)
   {
-    Shard& shard = shards_[number];
-    for (std::size_t k = 0; k < shard.points.size(); ++k)
-    {
-      const std::size_t ahead = std::min(k + kLookAhead, shard.points.size() - 1);
-      for (const std::uint32_t voxel : arrivals_[shard.points[ahead]].voxels)
-        fetchForWriting(&storage.voxel(voxel));
-      addPoint(shard.points[k], points, origin, grid, storage, shard.refits);
-    }
-    for (const Refit& r : shard.refits)
-      storage.voxel(r.voxel).fit(grid.centerOf(r.block_key, r.slot), rules, scan);
-    shard.points.clear();
-    shard.refits.clear();
-  };
-  workers.forEach(kShards, insert_shard);
+    for (const std::uint32_t voxel : arrivals[std::min(k + kLookAhead, arrivals.size() - 1)].voxels)
+      fetchForWriting(&storage.voxel(voxel));
+    addPoint(arrivals[k], points, context, storage, refits);
+  }
+  for (const Refit& r : refits)
+    storage.voxel(r.voxel).fit(
+        context.grid.centerOf(r.block_key, r.slot), context.rules, context.scan);
+}
+
+void VoxelInserter::insert(
+    const WorldPoints& points, const InsertionContext& context, const Workers& workers,
+    VoxelShards& shards)
+{
+  shard_of_.resize(points.size());
+  workers.forEachChunk(
+      points.size(),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+          shard_of_[i] = VoxelShards::shardOf(
+              context.grid.addressOf(points.x[i], points.y[i], points.z[i]).block_key);
+      });
+  workers.forEach(
+      VoxelShards::kCount, [&](std::size_t shard)
+      { insertShard(static_cast<std::uint8_t>(shard), points, context, shards[shard]); });
 }
 
 }  // namespace fastlio

@@ -4,7 +4,7 @@
 /** \file voxel_inserter.h Adds the points of scans to voxels, several blocks at a time. */
 #pragma once
 
-#include "voxel_storage.h"
+#include "voxel_shards.h"
 #include <fastlio/map/surface_map.h>
 #include <fastlio/parallel/workers.h>
 
@@ -14,22 +14,28 @@
 
 namespace fastlio
 {
-/** Holds what insertions reuse.
- *
- * Blocks and voxels are numbered in the order of the points, by one thread; a block's points are
- * added in their order, by one thread: the map does not depend on how many there are. */
+/** What all points of an insertion have in common. */
+struct InsertionContext
+{
+  const VoxelGrid& grid;
+  const PlaneRules& rules;
+  Eigen::Vector3f origin;  //!< of the beams, world frame [m]
+  std::uint32_t scan = 0;  //!< number of this insertion, from 1
+};
+
+/** Holds what insertions reuse. The points of a shard are added in their order, by one thread. */
 class VoxelInserter
 {
  public:
-  /** \param origin of the beams, world frame [m] \param scan number of this insertion, from 1 */
   void insert(
-      const WorldPoints& points, const Eigen::Vector3f& origin, const VoxelGrid& grid,
-      const PlaneRules& rules, std::uint32_t scan, const Workers& workers, VoxelStorage& storage);
+      const WorldPoints& points, const InsertionContext& context, const Workers& workers,
+      VoxelShards& shards);
 
  private:
-  /** A point of the scan that is being inserted. */
+  /** A point that is being inserted. */
   struct Arrival
   {
+    std::uint32_t point = 0;
     VoxelAddress address;
     std::uint32_t block = VoxelStorage::kNoBlock;
     std::array<std::uint32_t, kVoxelScales> voxels{};
@@ -43,26 +49,26 @@ class VoxelInserter
     std::uint64_t block_key = 0;
   };
 
-  /** The points of a share of the blocks, and the voxels there to fit: one thread's work. */
-  struct Shard
+  /** What one thread works with. */
+  struct Bench
   {
-    std::vector<std::uint32_t> points;
+    std::vector<Arrival> arrivals;
     std::vector<Refit> refits;
   };
 
-  static constexpr std::size_t kShards = 16;
+  void collect(
+      std::uint8_t shard, const WorldPoints& points, const VoxelGrid& grid,
+      std::vector<Arrival>& arrivals) const;
+  static void findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& storage);
+  static void addPoint(
+      const Arrival& arrival, const WorldPoints& points, const InsertionContext& context,
+      VoxelStorage& storage, std::vector<Refit>& refits);
+  void insertShard(
+      std::uint8_t shard, const WorldPoints& points, const InsertionContext& context,
+      VoxelStorage& storage);
 
-  void locate(
-      const WorldPoints& points, const VoxelGrid& grid, const VoxelStorage& storage,
-      std::size_t first, std::size_t last);
-  static void makeRoom(Arrival& arrival, VoxelStorage& storage);
-  void distribute(VoxelStorage& storage);
-  void addPoint(
-      std::uint32_t i, const WorldPoints& points, const Eigen::Vector3f& origin,
-      const VoxelGrid& grid, VoxelStorage& storage, std::vector<Refit>& refits) const;
-
-  std::vector<Arrival> arrivals_;
-  std::array<Shard, kShards> shards_;
+  std::vector<std::uint8_t> shard_of_;  // per point
+  std::array<Bench, VoxelShards::kCount> benches_;
 };
 
 }  // namespace fastlio

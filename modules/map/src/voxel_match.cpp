@@ -17,6 +17,7 @@ constexpr std::size_t kBatch = 32;
 struct Query
 {
   VoxelAddress address;
+  std::uint8_t shard = 0;
   const VoxelBlock* block = nullptr;
   std::array<std::uint32_t, kVoxelScales> voxels{};
 };
@@ -24,8 +25,8 @@ struct Query
 using Batch = std::array<Query, kBatch>;
 
 void findBlocks(
-    const VoxelStorage& storage, const VoxelGrid& grid, const WorldPoints& points,
-    std::size_t first, std::size_t count, Batch& batch)
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
+    std::size_t count, Batch& batch)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -33,9 +34,14 @@ void findBlocks(
     query.address = grid.addressOf(points.x[first + i], points.y[first + i], points.z[first + i]);
     // Neighbours in the scan mostly share the block.
     if (i > 0 && batch[i - 1].address.block_key == query.address.block_key)
+    {
       query.block = batch[i - 1].block;
+      query.shard = batch[i - 1].shard;
+    }
     else
     {
+      query.shard = VoxelShards::shardOf(query.address.block_key);
+      const VoxelStorage& storage = shards[query.shard];
       const std::uint32_t number = storage.find(query.address.block_key);
       query.block = number == VoxelStorage::kNoBlock ? nullptr : &storage.block(number);
     }
@@ -45,7 +51,7 @@ void findBlocks(
   }
 }
 
-void findVoxels(const VoxelStorage& storage, std::size_t count, Batch& batch)
+void findVoxels(const VoxelShards& shards, std::size_t count, Batch& batch)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -54,33 +60,40 @@ void findVoxels(const VoxelStorage& storage, std::size_t count, Batch& batch)
     {
       query.voxels[s] = query.block == nullptr ? VoxelStorage::kNoVoxel
                                                : query.block->voxels[query.address.slots[s]];
-      __builtin_prefetch(&storage.voxel(query.voxels[s]));
+      __builtin_prefetch(&shards[query.shard].voxel(query.voxels[s]));
     }
   }
 }
 
 PlaneMatch bestPlane(
-    const VoxelStorage& storage, const Query& query, float noise_variance, float x, float y,
-    float z)
+    const VoxelShards& shards, const Query& query, float noise_variance, float x, float y, float z)
 {
   PlaneMatch best;
   for (const std::uint32_t number : query.voxels)
   {
     // Voxel number kNoVoxel exists and has no plane.
-    const VoxelPlane& plane = storage.voxel(number).plane();
+    const VoxelPlane& plane = shards[query.shard].voxel(number).plane();
     if (!plane.valid()) continue;
     const float shared = plane.offsetVariance(x, y, z);
     // Roughness that the sensor's noise does not explain belongs to each point.
     const float variance = shared + plane.variance - noise_variance;
     if (best.valid() && variance >= best.variance) continue;
-    best = {plane.nx, plane.ny, plane.nz, plane.d, variance, shared, number, plane.born};
+    best = {
+        plane.nx,
+        plane.ny,
+        plane.nz,
+        plane.d,
+        variance,
+        shared,
+        VoxelShards::numberOf(number, query.shard),
+        plane.born};
   }
   return best;
 }
 }  // namespace
 
 void matchPlanes(
-    const VoxelStorage& storage, const VoxelGrid& grid, float noise_variance,
+    const VoxelShards& shards, const VoxelGrid& grid, float noise_variance,
     const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches)
 {
@@ -88,11 +101,11 @@ void matchPlanes(
   for (std::size_t begin = first; begin < last; begin += kBatch)
   {
     const std::size_t count = std::min(kBatch, last - begin);
-    findBlocks(storage, grid, points, begin, count, batch);
-    findVoxels(storage, count, batch);
+    findBlocks(shards, grid, points, begin, count, batch);
+    findVoxels(shards, count, batch);
     for (std::size_t i = 0; i < count; ++i)
       matches[begin + i] = bestPlane(
-          storage, batch[i], noise_variance, points.x[begin + i], points.y[begin + i],
+          shards, batch[i], noise_variance, points.x[begin + i], points.y[begin + i],
           points.z[begin + i]);
   }
 }

@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include "voxel_storage.h"
+#include "voxel_shards.h"
 #include <fastlio/map/surface_map.h>
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace fastlio
 /** Writes matches[first..last). \param noise_variance what the sensor's noise explains of the
  * scatter of points across a plane [m^2] */
 void matchPlanes(
-    const VoxelStorage& storage, const VoxelGrid& grid, float noise_variance,
+    const VoxelShards& shards, const VoxelGrid& grid, float noise_variance,
     const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches);
 

@@ -60,18 +60,19 @@ bool VoxelPlaneMap::accepts(float x, float y, float z) const
 
 void VoxelPlaneMap::clear()
 {
-  impl_->storage = VoxelStorage();
-  impl_->scan = impl_->sweep = 0;
+  impl_->shards = VoxelShards();
+  impl_->sweep.fill(0);
+  impl_->scan = 0;
 }
 
 std::size_t VoxelPlaneMap::memoryBytes() const
 {
-  return impl_->storage.memoryBytes();
+  return impl_->shards.memoryBytes();
 }
 
 std::size_t VoxelPlaneMap::pointCount() const
 {
-  return impl_->storage.finestCount();
+  return impl_->shards.finestCount();
 }
 
 void VoxelPlaneMap::match(
@@ -79,74 +80,78 @@ void VoxelPlaneMap::match(
     std::vector<PlaneMatch>& matches) const
 {
   const float noise = impl_->options.rules.point_noise;
-  matchPlanes(impl_->storage, impl_->grid, noise * noise, points, first, last, matches);
+  matchPlanes(impl_->shards, impl_->grid, noise * noise, points, first, last, matches);
 }
 
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
 {
-  impl_->inserter.insert(
-      points, sensor_origin.cast<float>(), impl_->grid, impl_->options.rules, ++impl_->scan,
-      *impl_->workers, impl_->storage);
+  const InsertionContext context{
+      impl_->grid, impl_->options.rules, sensor_origin.cast<float>(), ++impl_->scan};
+  impl_->inserter.insert(points, context, *impl_->workers, impl_->shards);
 }
 
 void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
 {
-  VoxelStorage& storage = impl_->storage;
   const Eigen::Vector3f origin = center.cast<float>();
   const auto limit = static_cast<float>(radius * radius);
-  const std::size_t share = storage.blocksEnd() / kCallsPerSweep + 1;
-  for (std::size_t k = 0; k < share && storage.blocksEnd() > 0; ++k)
+  for (std::size_t shard = 0; shard < VoxelShards::kCount; ++shard)
   {
-    impl_->sweep = impl_->sweep + 1 < storage.blocksEnd() ? impl_->sweep + 1 : 0;
-    const VoxelBlock& block = storage.block(impl_->sweep);
-    if (!block.used) continue;
-    const Eigen::Vector3f middle = impl_->grid.centerOf(block.key, kCoarseSlot);
-    if ((middle - origin).squaredNorm() > limit) storage.drop(impl_->sweep);
+    VoxelStorage& storage = impl_->shards[shard];
+    std::uint32_t& sweep = impl_->sweep[shard];
+    const std::size_t share = storage.blocksEnd() / kCallsPerSweep + 1;
+    for (std::size_t k = 0; k < share && storage.blocksEnd() > 0; ++k)
+    {
+      sweep = sweep + 1 < storage.blocksEnd() ? sweep + 1 : 0;
+      const VoxelBlock& block = storage.block(sweep);
+      if (!block.used) continue;
+      const Eigen::Vector3f middle = impl_->grid.centerOf(block.key, kCoarseSlot);
+      if ((middle - origin).squaredNorm() > limit) storage.drop(sweep);
+    }
   }
 }
 
 std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
 {
-  const VoxelStorage& storage = impl_->storage;
+  std::vector<VoxelPlane> planes;
   std::vector<std::uint32_t> numbers;
   WorldPoints centroids;
-  for (std::uint32_t i = 0; i < storage.blocksEnd(); ++i)
-  {
-    if (!storage.block(i).used) continue;
-    for (const std::uint32_t number : storage.block(i).voxels)
-    {
-      const VoxelPlane& plane = storage.voxel(number).plane();
-      if (!plane.valid()) continue;
-      numbers.push_back(number);
-      centroids.x.push_back(plane.qx);
-      centroids.y.push_back(plane.qy);
-      centroids.z.push_back(plane.qz);
-    }
-  }
+  impl_->shards.forEachBlock(
+      [&](const VoxelStorage& storage, std::size_t shard, const VoxelBlock& block)
+      {
+        for (const std::uint32_t voxel : block.voxels)
+        {
+          const VoxelPlane& plane = storage.voxel(voxel).plane();
+          if (!plane.valid()) continue;
+          planes.push_back(plane);
+          numbers.push_back(VoxelShards::numberOf(voxel, shard));
+          centroids.x.push_back(plane.qx);
+          centroids.y.push_back(plane.qy);
+          centroids.z.push_back(plane.qz);
+        }
+      });
   std::vector<PlaneMatch> matches(numbers.size());
   match(centroids, 0, numbers.size(), matches);
   std::vector<VoxelPlane> best;
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (matches[i].plane == numbers[i]) best.push_back(storage.voxel(numbers[i]).plane());
+    if (matches[i].plane == numbers[i]) best.push_back(planes[i]);
   return best;
 }
 
 mrpt::maps::CSimplePointsMap::Ptr VoxelPlaneMap::toPointsMap() const
 {
-  const VoxelStorage& storage = impl_->storage;
   auto map = mrpt::maps::CSimplePointsMap::Create();
-  map->reserve(storage.finestCount());
-  for (std::uint32_t i = 0; i < storage.blocksEnd(); ++i)
-  {
-    const VoxelBlock& block = storage.block(i);
-    for (std::uint8_t slot = 0; block.used && slot < kMiddleSlot; ++slot)
-    {
-      if (block.voxels[slot] == VoxelStorage::kNoVoxel) continue;
-      const Eigen::Vector3f p =
-          impl_->grid.centerOf(block.key, slot) + storage.voxel(block.voxels[slot]).meanOffset();
-      map->insertPoint(p.x(), p.y(), p.z());
-    }
-  }
+  map->reserve(impl_->shards.finestCount());
+  impl_->shards.forEachBlock(
+      [&](const VoxelStorage& storage, std::size_t, const VoxelBlock& block)
+      {
+        for (std::uint8_t slot = 0; slot < kMiddleSlot; ++slot)
+        {
+          if (block.voxels[slot] == VoxelStorage::kNoVoxel) continue;
+          const Eigen::Vector3f p = impl_->grid.centerOf(block.key, slot) +
+                                    storage.voxel(block.voxels[slot]).meanOffset();
+          map->insertPoint(p.x(), p.y(), p.z());
+        }
+      });
   return map;
 }
 

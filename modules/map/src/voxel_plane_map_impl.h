@@ -5,9 +5,10 @@
 #pragma once
 
 #include "voxel_inserter.h"
-#include "voxel_storage.h"
+#include "voxel_shards.h"
 #include <fastlio/map/voxel_plane_map.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -19,10 +20,11 @@ class VoxelPlaneMap::Impl
   VoxelPlaneOptions options;
   std::shared_ptr<const Workers> workers;
   VoxelGrid grid;
-  VoxelStorage storage;
+  VoxelShards shards;
   VoxelInserter inserter;
-  std::uint32_t scan = 0;   //!< insertions so far
-  std::uint32_t sweep = 0;  //!< block that removeOutside() looked at last
+  std::uint32_t scan = 0;  //!< insertions so far
+  /** Per shard, the block that removeOutside() looked at last. */
+  std::array<std::uint32_t, VoxelShards::kCount> sweep{};
 };
 
 }  // namespace fastlio

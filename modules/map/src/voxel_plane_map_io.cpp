@@ -91,11 +91,12 @@ void writeBlock(CArchive& out, const VoxelBlock& block, const VoxelStorage& stor
   }
 }
 
-void readBlock(CArchive& in, VoxelStorage& storage)
+void readBlock(CArchive& in, VoxelShards& shards)
 {
   std::uint64_t key = 0;
   std::uint8_t count = 0;
   in >> key >> count;
+  VoxelStorage& storage = shards.ofBlock(key);
   if (storage.find(key) != VoxelStorage::kNoBlock)
     throw std::runtime_error("VoxelPlaneMap: a block of the archive appears twice");
   const std::uint32_t block = storage.findOrAdd(key);
@@ -112,11 +113,10 @@ void readBlock(CArchive& in, VoxelStorage& storage)
 
 void VoxelPlaneMap::writeTo(CArchive& out) const
 {
-  const VoxelStorage& storage = impl_->storage;
   write(out, impl_->options);
-  out << impl_->scan << static_cast<std::uint32_t>(storage.blockCount());
-  for (std::uint32_t i = 0; i < storage.blocksEnd(); ++i)
-    if (storage.block(i).used) writeBlock(out, storage.block(i), storage);
+  out << impl_->scan << static_cast<std::uint32_t>(impl_->shards.blockCount());
+  impl_->shards.forEachBlock([&](const VoxelStorage& storage, std::size_t, const VoxelBlock& block)
+                             { writeBlock(out, block, storage); });
 }
 
 void VoxelPlaneMap::readFrom(CArchive& in)
@@ -126,7 +126,7 @@ void VoxelPlaneMap::readFrom(CArchive& in)
   std::uint32_t blocks = 0;
   in >> map.impl_->scan >> blocks;
   for (std::uint32_t i = 0; i < blocks; ++i)
-    readBlock(in, map.impl_->storage);
+    readBlock(in, map.impl_->shards);
   impl_ = std::move(map.impl_);
 }
 

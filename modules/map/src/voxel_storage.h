@@ -79,10 +79,10 @@ class VoxelStorage
   };
 
   // A hash that doubles moves all it holds: many small ones do so at different times.
-  static constexpr std::size_t kIndexes = 64;
+  static constexpr std::size_t kIndexes = 8;
   [[nodiscard]] static std::size_t indexOf(std::uint64_t key)
   {
-    return static_cast<std::size_t>((key * 0xD6E8FEB86659FD93ULL) >> 58U);
+    return static_cast<std::size_t>((key * 0xD6E8FEB86659FD93ULL) >> 61U);
   }
 
   std::array<tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash>, kIndexes> index_;
