@@ -14,6 +14,8 @@ features: planar and edges | features.mode=planar_and_edge
 no backward propagation | lidar.deskew=false
 single update | update.max_iterations=1
 samples held from the left (paper) | imu.hold=left
+zero velocity at rest | rest.enabled=true
+automatic start | initialization.mode=auto
 exact neighbours (paper) | map.type=knn
 paper: features, exact neighbours, left hold | features.mode=planar_and_edge map.type=knn imu.hold=left
 '

@@ -63,6 +63,32 @@ SimulatedRun runOdometry(const Simulation& simulation, const Parameters& paramet
   return run;
 }
 
+SimulatedRun runOdometryFrom(
+    double begin, const Simulation& simulation, const Parameters& parameters)
+{
+  SimulatedRun run;
+  run.gravity = {0.0, 0.0, -simulation.settings().gravity};
+  const std::int64_t begin_ns =
+      simulation.settings().start_ns + static_cast<std::int64_t>(begin * 1e9);
+  Odometry odometry(parameters);
+  for (const ImuSample& sample : simulation.imu().samples)
+    if (sample.stamp_ns >= begin_ns) odometry.addImu(sample);
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+  {
+    LidarScan scan = simulation.scan(i);
+    if (spanOf(scan).begin_ns < begin_ns) continue;
+    odometry.addScan(std::move(scan));
+    drain(odometry, simulation, run);
+  }
+  for (const JudgedScan& scan : run.scans)
+  {
+    if (scan.result.status != ScanStatus::Tracking) continue;
+    run.T_est_sim = scan.result.filter.x.pose() * scan.truth.T_world_imu.inverse();
+    break;
+  }
+  return run;
+}
+
 SimulatedRun runOdometry(const SimulationSettings& settings)
 {
   Parameters parameters = matchingParameters(settings);

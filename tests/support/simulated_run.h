@@ -35,6 +35,12 @@ struct SimulatedRun
  * matchingParameters() */
 [[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters);
 
+/** The same for what is left of a recording \a begin seconds after its start, when the platform may
+ * be in motion. The filter's world is fixed by the true pose at the end of the first scan with a
+ * pose, which is where a start in motion fixes it. */
+[[nodiscard]] SimulatedRun runOdometryFrom(
+    double begin, const Simulation& simulation, const Parameters& parameters);
+
 /** The same with the parameters that match the simulated sensors, on one thread. */
 [[nodiscard]] SimulatedRun runOdometry(const SimulationSettings& settings);
 

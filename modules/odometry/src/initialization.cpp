@@ -3,6 +3,8 @@
 
 #include "initialization.h"
 
+#include "motion_initializer.h"
+
 #include <mrpt/core/format.h>
 
 #include <algorithm>
@@ -11,24 +13,50 @@ namespace fastlio
 {
 namespace
 {
+constexpr double kNsToS = 1e-9;
 // A window that does not rest moves on by this share of its length.
 constexpr double kWindowStep = 0.1;
-}  // namespace
+// After a refused start in motion this share of its window is given up.
+constexpr std::size_t kRefusedShare = 2;
+// A platform that "rests" faster than this, and than its uncertainty allows, moves steadily.
+constexpr double kRestSpeed = 0.05;  // [m/s]
+constexpr double kRestSpeedSigmas = 4.0;
+// A sample holds a little before its stamp, too.
+constexpr std::int64_t kHoldBeforeNs = 20'000'000;
 
-InitializationOutcome tryStaticStart(
-    ImuBuffer& imu, const InitializationParameters& parameters, std::int64_t first_scan_begin_ns)
+std::int64_t nanoseconds(double seconds)
 {
-  InitializationOutcome outcome;
-  const auto duration_ns = static_cast<std::int64_t>(parameters.duration * 1e9);
-  const auto step_ns =
-      std::max<std::int64_t>(static_cast<std::int64_t>(kWindowStep * parameters.duration * 1e9), 1);
+  return static_cast<std::int64_t>(seconds / kNsToS);
+}
+
+double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
+{
+  return static_cast<double>(to_ns - from_ns) * kNsToS;
+}
+
+/** What the inertial samples before the first scan say about rest. */
+struct RestSearch
+{
+  StartDecision decision;
+  bool rejected = false;            // the latest window does not rest, nor does one before it
+  std::int64_t next_window_ns = 0;  // then the search goes on from here
+};
+
+RestSearch searchRest(
+    const ImuBuffer& imu, const InitializationParameters& parameters,
+    std::int64_t first_scan_begin_ns)
+{
+  RestSearch search;
+  const std::int64_t duration_ns = nanoseconds(parameters.duration);
+  const std::int64_t step_ns =
+      std::max<std::int64_t>(nanoseconds(kWindowStep * parameters.duration), 1);
   const std::int64_t latest_ns = std::max(imu.oldestStamp(), first_scan_begin_ns - duration_ns);
   if (imu.newestStamp() < latest_ns + duration_ns)
   {
-    outcome.message = mrpt::format(
+    search.decision.message = mrpt::format(
         "collecting the resting start: %.2f of %.2f s (initialization.duration)",
-        static_cast<double>(imu.newestStamp() - latest_ns) * 1e-9, parameters.duration);
-    return outcome;
+        secondsBetween(latest_ns, imu.newestStamp()), parameters.duration);
+    return search;
   }
   // The later the window, the less is left to inertial data alone until the first scan.
   for (std::int64_t begin_ns = latest_ns; begin_ns >= imu.oldestStamp(); begin_ns -= step_ns)
@@ -38,16 +66,130 @@ InitializationOutcome tryStaticStart(
     const auto reason = whyNotAtRest(rest, parameters);
     if (!reason)
     {
-      outcome.state = initialState(rest, parameters);
-      outcome.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, end_ns);
-      return outcome;
+      search.decision.state = initialState(rest, parameters);
+      search.decision.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, end_ns);
+      return search;
     }
-    if (begin_ns == latest_ns) outcome.message = *reason;
+    if (begin_ns == latest_ns) search.decision.message = *reason;
   }
-  // All of them, so that the search goes on behind a gap longer than its step.
-  imu.forgetSamplesBefore(latest_ns + step_ns);
-  outcome.rejected = true;
-  return outcome;
+  search.rejected = true;
+  search.next_window_ns = latest_ns + step_ns;
+  return search;
+}
+
+StartDecision waitOrDrop(bool drop, std::string why)
+{
+  StartDecision decision;
+  decision.drop_oldest = drop;
+  decision.message = std::move(why);
+  return decision;
+}
+
+StartDecision startedInMotion(const MotionStart& start, std::int64_t stamp_ns)
+{
+  StartDecision decision;
+  decision.state = start.state;
+  decision.stamp_ns = stamp_ns;
+  decision.young_map = start.young_map;
+  return decision;
+}
+
+/** Why the front of the queue cannot be a start in motion whatever comes; empty when it can. */
+std::string inertialGap(const ScanQueue& scans, const ImuBuffer& imu)
+{
+  const double missing_s = secondsBetween(scans.front().span.begin_ns, imu.oldestStamp());
+  if (missing_s <= static_cast<double>(kHoldBeforeNs) * kNsToS) return {};
+  return mrpt::format(
+      "no start in motion: the inertial data begin %.3f s after the scan", missing_s);
+}
+}  // namespace
+
+StartDecision StartFinder::decide(const ScanQueue& scans, ImuBuffer& imu, bool at_end)
+{
+  switch (parameters_.initialization.mode)
+  {
+    case InitializationMode::Rest:
+      return decideAtRest(scans, imu, at_end);
+    case InitializationMode::Motion:
+      return decideInMotion(scans, imu, at_end);
+    case InitializationMode::Auto:
+      return decideAutomatically(scans, imu, at_end);
+  }
+  return {};
+}
+
+StartDecision StartFinder::decideAtRest(const ScanQueue& scans, ImuBuffer& imu, bool at_end) const
+{
+  const ScanSpan span = scans.front().span;
+  while (true)
+  {
+    RestSearch search = searchRest(imu, parameters_.initialization, span.begin_ns);
+    StartDecision& decision = search.decision;
+    if (decision.state) return decision;
+    if (!search.rejected)
+    {
+      decision.drop_oldest = at_end;
+      return decision;
+    }
+    // All of them, so that the search goes on behind a gap longer than its step.
+    imu.forgetSamplesBefore(search.next_window_ns);
+    decision.drop_oldest = span.end_ns < imu.oldestStamp();
+    if (decision.drop_oldest) return decision;
+  }
+}
+
+StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu, bool at_end)
+{
+  const QueuedScan& oldest = scans.front();
+  if (oldest.span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
+  // The search for rest looks back by its duration.
+  imu.forgetBefore(oldest.span.begin_ns - nanoseconds(parameters_.initialization.duration));
+  const std::string gap = inertialGap(scans, imu);
+  if (!gap.empty()) return waitOrDrop(true, gap);
+
+  const double duration = parameters_.initialization.motion_duration;
+  const std::size_t count = motionWindow(scans, imu, duration);
+  if (count == 0)
+    return waitOrDrop(
+        at_end,
+        mrpt::format(
+            "collecting the start in motion: %.2f of %.2f s of scans with inertial data "
+            "(initialization.motion_duration)",
+            secondsBetween(
+                oldest.span.begin_ns, std::min(scans.back().span.end_ns, imu.newestStamp())),
+            duration));
+  MotionStart start = startInMotion(scans, count, imu, parameters_);
+  if (start.state) return startedInMotion(start, oldest.span.begin_ns);
+  refused_until_ns_ = scans[count / kRefusedShare].span.end_ns;
+  refusal_ = start.message;
+  return waitOrDrop(true, refusal_);
+}
+
+StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer& imu, bool at_end)
+{
+  const std::int64_t begin_ns = scans.front().span.begin_ns;
+  RestSearch search = searchRest(imu, parameters_.initialization, begin_ns);
+  if (search.decision.state) return confirmRest(search.decision, scans, imu, at_end);
+  if (!search.rejected && !at_end) return search.decision;
+  StartDecision moving = decideInMotion(scans, imu, at_end);
+  if (!moving.state && search.rejected) moving.message += "; " + search.decision.message;
+  return moving;
+}
+
+/** To the inertial sensor, steady motion looks like rest: the scans tell them apart. */
+StartDecision StartFinder::confirmRest(
+    StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const
+{
+  const std::int64_t begin_ns = scans.front().span.begin_ns;
+  if (at_rest.stamp_ns != begin_ns || !inertialGap(scans, imu).empty()) return at_rest;
+  const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
+  if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");
+  if (count == 0) return at_rest;
+  const MotionStart start = startInMotion(scans, count, imu, parameters_);
+  if (!start.state) return at_rest;
+  const double speed = start.state->x.v.norm();
+  const bool moves = speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
+  return moves ? startedInMotion(start, begin_ns) : at_rest;
 }
 
 }  // namespace fastlio

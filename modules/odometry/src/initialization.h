@@ -4,7 +4,10 @@
 /** \file initialization.h When and with what state the filter starts. */
 #pragma once
 
+#include "queued_scan.h"
+#include "young_map.h"
 #include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/static_initializer.h>
 
 #include <optional>
@@ -13,19 +16,41 @@
 namespace fastlio
 {
 /** The filter's start, or why it has to wait. */
-struct InitializationOutcome
+struct StartDecision
 {
   std::optional<FilterState> state;
   std::int64_t stamp_ns = 0;  //!< instant of the state
-  bool rejected = false;      //!< the oldest window does not rest; the window has moved on
-  std::string message;
+  YoungMap young_map;
+  bool drop_oldest = false;  //!< no start is possible with the oldest scan
+  std::string message;       //!< without a state: why
 };
 
-/** Looks for a resting window at the front of the IMU data.
+/** Looks for a start in the oldest scans and samples, in the way of initialization.mode.
  *
- * The platform rests all through an accepted window, so that the filter may start anywhere in it:
- * it starts with the first scan, and the scans taken at rest build the map. */
-[[nodiscard]] InitializationOutcome tryStaticStart(
-    ImuBuffer& imu, const InitializationParameters& parameters, std::int64_t first_scan_begin_ns);
+ * At rest: the platform rests all through an accepted window, so that the filter may start anywhere
+ * in it: it starts with the first scan, and the scans taken at rest build the map. In motion: see
+ * motion_initializer.h. */
+class StartFinder
+{
+ public:
+  explicit StartFinder(const Parameters& parameters) : parameters_(parameters) {}
+
+  /** \param scans not empty \param imu not empty; samples that no start needs any more are
+   * forgotten \param at_end nothing more will come */
+  [[nodiscard]] StartDecision decide(const ScanQueue& scans, ImuBuffer& imu, bool at_end);
+
+ private:
+  [[nodiscard]] StartDecision decideAtRest(
+      const ScanQueue& scans, ImuBuffer& imu, bool at_end) const;
+  [[nodiscard]] StartDecision decideInMotion(const ScanQueue& scans, ImuBuffer& imu, bool at_end);
+  [[nodiscard]] StartDecision decideAutomatically(
+      const ScanQueue& scans, ImuBuffer& imu, bool at_end);
+  [[nodiscard]] StartDecision confirmRest(
+      StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const;
+
+  Parameters parameters_;
+  std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below
+  std::string refusal_;
+};
 
 }  // namespace fastlio

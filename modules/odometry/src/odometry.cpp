@@ -7,7 +7,6 @@
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/odometry/parameter_yaml.h>
 
-#include <deque>
 #include <utility>
 
 namespace fastlio
@@ -16,13 +15,6 @@ namespace
 {
 constexpr double kNsToS = 1e-9;
 constexpr double kSToNs = 1e9;
-
-/** A scan and its time span, found once. */
-struct QueuedScan
-{
-  LidarScan scan;
-  ScanSpan span;
-};
 
 ScanResult waitingResult(const QueuedScan& queued, const std::string& why)
 {
@@ -46,7 +38,7 @@ class Odometry::Impl
 {
  public:
   explicit Impl(const Parameters& parameters)
-      : parameters_(validated(parameters)), pipeline_(parameters)
+      : parameters_(validated(parameters)), pipeline_(parameters), start_finder_(parameters)
   {
   }
 
@@ -61,11 +53,13 @@ class Odometry::Impl
 
  private:
   [[nodiscard]] std::optional<ScanResult> waitForStart(bool at_end);
+  [[nodiscard]] std::optional<ScanResult> giveUpOldest(bool at_end);
   [[nodiscard]] bool usable(const ScanSpan& span);
   [[nodiscard]] QueuedScan popScan();
 
   ImuBuffer imu_;
-  std::deque<QueuedScan> scans_;
+  ScanQueue scans_;
+  StartFinder start_finder_;
 };
 
 void Odometry::Impl::addImu(const ImuSample& sample)
@@ -111,13 +105,10 @@ std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
 {
   while (!scans_.empty() && !pipeline_.started())
   {
-    const ScanSpan span = scans_.front().span;
-    const auto start = tryStaticStart(imu_, parameters_.initialization, span.begin_ns);
-    if (start.state) pipeline_.start(*start.state, start.stamp_ns);
-    const bool passed_by = start.rejected && span.end_ns < imu_.oldestStamp();
-    const bool never = !start.state && !start.rejected && at_end;
-    if (passed_by || never) return waitingResult(popScan(), start.message);
-    if (!start.state && !start.rejected) break;
+    const StartDecision start = start_finder_.decide(scans_, imu_, at_end);
+    if (start.drop_oldest) return waitingResult(popScan(), start.message);
+    if (!start.state) break;
+    pipeline_.start(*start.state, start.stamp_ns, start.young_map);
   }
   return std::nullopt;
 }
@@ -133,8 +124,29 @@ bool Odometry::Impl::usable(const ScanSpan& span)
   return true;
 }
 
+/** Scans that no inertial sample reaches must not pile up. */
+std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
+{
+  if (scans_.empty()) return std::nullopt;
+  const std::int64_t end_ns = scans_.front().span.end_ns;
+  if (!imu_.empty() && end_ns <= imu_.newestStamp()) return std::nullopt;
+  const double waits_s = static_cast<double>(scans_.back().span.end_ns - end_ns) * kNsToS;
+  const bool never = at_end && imu_.empty();
+  if (!never && waits_s <= parameters_.lidar.max_waiting) return std::nullopt;
+  pipeline_.skipScan();
+  ScanResult result = waitingResult(
+      popScan(),
+      (imu_.empty() ? "no inertial sample has arrived" : "the inertial data have ended") +
+          std::string(", but scans of ") + std::to_string(waits_s) +
+          " s have after this one (lidar.max_waiting); is the IMU running, does it share "
+          "the LiDAR's clock (lidar.time_offset)?");
+  if (pipeline_.started()) result.status = ScanStatus::Diverged;
+  return result;
+}
+
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)
 {
+  if (auto given_up = giveUpOldest(at_end)) return given_up;
   if (imu_.empty()) return std::nullopt;
   if (!pipeline_.started())
   {

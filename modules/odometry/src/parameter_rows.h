@@ -15,6 +15,7 @@ using ParameterRows = std::vector<ParameterRow>;
 // Defined in parameter_rows_sensors.cpp.
 [[nodiscard]] ParameterRows inputRows();
 [[nodiscard]] ParameterRows initializationRows();
+[[nodiscard]] ParameterRows motionStartRows();
 [[nodiscard]] ParameterRows imuRows();
 [[nodiscard]] ParameterRows lidarRows();
 [[nodiscard]] ParameterRows calibrationRows();
@@ -27,6 +28,10 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows measurementRows();
 [[nodiscard]] ParameterRows mapRows();
 [[nodiscard]] ParameterRows updateRows();
+
+// Defined in parameter_rows_rest.cpp.
+[[nodiscard]] ParameterRows restRows();
+
 [[nodiscard]] ParameterRows outputRows();
 [[nodiscard]] ParameterRows generalRows();
 

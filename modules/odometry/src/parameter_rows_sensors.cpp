@@ -33,6 +33,11 @@ ParameterRows inputRows()
 ParameterRows initializationRows()
 {
   return {
+      {"initialization.mode", "",
+       enumeration([](auto& p) { return &p.initialization.mode; }, {"rest", "motion", "auto"}),
+       "rest: the platform has to rest once at the start; motion: velocity, gravity and gyro bias "
+       "come from the first scans; auto: at rest where inertial data and scans say so, else in "
+       "motion"},
       {"initialization.duration", "s",
        RealValue{[](auto& p) { return &p.initialization.duration; }, 0.1, 60.0},
        "time at rest that is averaged at the start; longer: better gravity direction and gyro "
@@ -73,6 +78,31 @@ ParameterRows initializationRows()
   };
 }
 
+ParameterRows motionStartRows()
+{
+  return {
+      {"initialization.motion_duration", "s",
+       RealValue{[](auto& p) { return &p.initialization.motion_duration; }, 0.1, 60.0},
+       "start in motion: time of the first scans that are looked at; longer: better gravity "
+       "direction, later start"},
+      {"initialization.motion_points", "",
+       IntegerValue{[](auto& p) { return &p.initialization.motion_points; }, 1, 10000000},
+       "start in motion: about so many points of these scans are used, when that is more than "
+       "reduction.target_points; a map of few scans needs many to have planes"},
+      {"initialization.motion_velocity_std", "m/s",
+       RealValue{[](auto& p) { return &p.initialization.motion_velocity_std; }, 0.01, 1000.0},
+       "start in motion: so fast the platform may be"},
+      {"initialization.motion_gyro_bias_std", "deg/s",
+       RealValue{
+           [](auto& p) { return &p.initialization.motion_gyro_bias_std; }, 0.0, 60.0, kRadPerDeg},
+       "start in motion: uncertainty of the gyro bias, around zero"},
+      {"initialization.motion_max_velocity_std", "m/s",
+       RealValue{[](auto& p) { return &p.initialization.motion_max_velocity_std; }, 0.001, 1000.0},
+       "start in motion: refused when the scans leave the velocity less certain than this in any "
+       "direction"},
+  };
+}
+
 ParameterRows imuRows()
 {
   return {
@@ -103,6 +133,9 @@ ParameterRows lidarRows()
        "nearer points are dropped: the platform itself, the operator"},
       {"lidar.max_range", "m", RealValue{[](auto& p) { return &p.lidar.max_range; }, 0.1, 10000.0},
        "farther points are dropped"},
+      {"lidar.max_waiting", "s", RealValue{[](auto& p) { return &p.lidar.max_waiting; }, 0.1, 1e6},
+       "a scan is given up when the inertial data have not reached it although scans of so much "
+       "time have arrived after it: bounds the memory when the IMU fails"},
       {"lidar.time_offset", "s",
        RealValue{[](auto& p) { return &p.lidar.time_offset; }, -10.0, 10.0},
        "added to the stamps of the LiDAR to bring them to the clock of the IMU"},

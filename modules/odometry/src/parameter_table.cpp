@@ -14,9 +14,9 @@ ParameterRows allRows()
 {
   ParameterRows all;
   for (const auto& rows :
-       {inputRows(), initializationRows(), imuRows(), lidarRows(), calibrationRows(),
-        reductionRows(), featureRows(), measurementRows(), mapRows(), updateRows(), outputRows(),
-        generalRows()})
+       {inputRows(), initializationRows(), motionStartRows(), imuRows(), lidarRows(),
+        calibrationRows(), reductionRows(), featureRows(), measurementRows(), mapRows(),
+        updateRows(), restRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

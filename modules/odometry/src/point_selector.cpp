@@ -3,6 +3,7 @@
 
 #include "point_selector.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace fastlio
@@ -63,18 +64,19 @@ void PointSelector::thin(
 }
 
 void PointSelector::select(
-    const PointColumns& points, ScanSelection& surfaces, std::vector<std::uint32_t>& edges)
+    const PointColumns& points, std::size_t at_least, ScanSelection& surfaces,
+    std::vector<std::uint32_t>& edges)
 {
+  ReductionLimits limits = reduction_limits_;  // a target of 0 means all points
+  if (limits.target_points > 0) limits.target_points = std::max(limits.target_points, at_least);
   edges.clear();
   if (mode_ == FeatureMode::None)
   {
-    surface_reducer_.select(points, reduction_limits_, surfaces);
+    surface_reducer_.select(points, limits, surfaces);
     return;
   }
   extractor_.extract(points, feature_limits_, features_);
-  thin(
-      points, features_.planar, reduction_limits_.target_points, surface_reducer_,
-      surfaces.indices);
+  thin(points, features_.planar, limits.target_points, surface_reducer_, surfaces.indices);
   if (mode_ == FeatureMode::PlanarAndEdge)
     thin(points, features_.edges, target_edges_, edge_reducer_, edges);
   surfaces.dropped_invalid = features_.dropped_invalid;

@@ -22,12 +22,14 @@ class PointSelector
   PointSelector(const Parameters& parameters, const std::shared_ptr<const Workers>& workers);
 
   /** \param points the raw scan
+   * \param at_least takes the place of reduction.target_points where that is smaller
    * \param surfaces points to be matched with planes, about reduction.target_points of them, evenly
    * spread: of all points, or of the planar features
    * \param edges points to be matched with lines, about features.target_edges of them; none but in
    * the mode `planar_and_edge` */
   void select(
-      const PointColumns& points, ScanSelection& surfaces, std::vector<std::uint32_t>& edges);
+      const PointColumns& points, std::size_t at_least, ScanSelection& surfaces,
+      std::vector<std::uint32_t>& edges);
 
  private:
   void thin(

@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fastlio
@@ -57,14 +58,16 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
       map_(makeSurfaceMap(parameters, workers_)),
       edges_(parameters),
       update_(parameters_, workers_),
+      rest_(parameters.rest),
       planes_(workers_),
       selector_(parameters, workers_),
       deskewer_(workers_)
 {
 }
 
-void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns)
+void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const YoungMap& young_map)
 {
+  young_map_ = young_map;
   filter_ = state;
   addCalibrationPrior(filter_.P, parameters_.calibration);
   state_ns_ = stamp_ns;
@@ -93,7 +96,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.begin_ns = span.begin_ns;
   result.stamp_ns = span.end_ns;
   const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
-  reduce(scan);
+  reduce(scan, span.end_ns);
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
@@ -101,16 +104,24 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   state_ns_ = span.end_ns;
   result.filter = considerMapError();
   judge(update, result);
+  if (parameters_.rest.enabled) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
     growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
   else
     world_.resize(0);
+  if (result.status == ScanStatus::FirstScan) filter_.P += young_map_.open_after_first_scan;
   describeUpdate(update, result.statistics);
   describeScan(scan, result.statistics);
   timings_.total = total.milliseconds();
   result.milliseconds = timings_;
   return result;
+}
+
+void ScanPipeline::skipScan()
+{
+  imu_rate_.clear();
+  world_.resize(0);
 }
 
 void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistics) const
@@ -124,10 +135,12 @@ void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistic
   statistics.map_points = map_->pointCount();
 }
 
-void ScanPipeline::reduce(const LidarScan& scan)
+void ScanPipeline::reduce(const LidarScan& scan, std::int64_t end_ns)
 {
   const Stopwatch watch;
-  selector_.select(scan.points, selection_, edge_indices_);
+  const bool young = end_ns <= young_map_.until_ns;
+  const std::size_t at_least = young ? static_cast<std::size_t>(young_map_.target_points) : 0;
+  selector_.select(scan.points, at_least, selection_, edge_indices_);
   timings_.reduce = watch.milliseconds();
 }
 
@@ -231,6 +244,7 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
 
 bool ScanPipeline::mayGrowMap(const ScanResult& result) const
 {
+  if (rest_.restingTime() > parameters_.rest.map_time) return false;
   if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
   if (result.status == ScanStatus::Diverged) return false;
   // A young map has few planes: it must grow as long as the prediction knows where the scan is.
@@ -262,7 +276,9 @@ void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
   const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
   { transformToWorld(compensated_.points, T_world_scan, first, last, world_); };
   workers_->forEachChunk(world_.size(), transform);
-  map_error_.recordInsertion(++insertions_, total.P.topLeftCorner<6, 6>(), filter_.x.pose());
+  Matrix6 founding = total.P.topLeftCorner<6, 6>();
+  if (state_ns_ <= young_map_.until_ns) founding += young_map_.founding_covariance;
+  map_error_.recordInsertion(++insertions_, founding, filter_.x.pose());
   map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);
   edges_.growMap(T_world_scan);

@@ -6,7 +6,9 @@
 
 #include "edge_stage.h"
 #include "point_selector.h"
+#include "rest_detector.h"
 #include "scan_update.h"
+#include "young_map.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/lidar/scan_reduction.h>
@@ -30,7 +32,7 @@ class ScanPipeline
  public:
   explicit ScanPipeline(const Parameters& parameters);
 
-  void start(const FilterState& state, std::int64_t stamp_ns);
+  void start(const FilterState& state, std::int64_t stamp_ns, const YoungMap& young_map = {});
   [[nodiscard]] bool started() const { return state_ns_ != 0; }
   /** Instant of the state [ns]. */
   [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
@@ -51,6 +53,9 @@ class ScanPipeline
    * the pose is not trusted, and when the latest scan is newer. */
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample(const ImuBuffer& imu);
 
+  /** A scan was given up: the last one left nothing behind. */
+  void skipScan();
+
   /** One scan, from prediction to map growth (section III of the paper). */
   [[nodiscard]] ScanResult process(
       const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu);
@@ -59,8 +64,9 @@ class ScanPipeline
   [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
-  void reduce(const LidarScan& scan);
+  void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
+  void considerRest(ScanResult& result);
   [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
   void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
   void growMap(const Vec3& p_imu_lidar, const FilterState& total);
@@ -72,6 +78,8 @@ class ScanPipeline
   EdgeStage edges_;
   ScanUpdate update_;
   FilterState filter_;
+  YoungMap young_map_;
+  RestDetector rest_;
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
   bool prediction_finite_ = true;

@@ -54,15 +54,61 @@ TEST(OdometryStart, ScansBeforeTheInertialDataAreAccountedFor)
   EXPECT_LT(worstPoseErrors(rest, late).position, 0.008);
 }
 
-TEST(OdometryStart, WithoutAnyInertialDataNothingComesOut)
+TEST(OdometryStart, WithoutAnyInertialDataTheEndSaysSo)
 {
   Odometry odometry(roomParameters());
   Results results;
   for (const LidarScan& scan : room().scans)
     odometry.addScan(scan);
   drain(odometry, results);
-  finish(odometry, results);
   EXPECT_TRUE(results.empty());
+  finish(odometry, results);
+  ASSERT_EQ(results.size(), room().scans.size());
+  for (const ScanResult& result : results)
+  {
+    EXPECT_EQ(result.status, ScanStatus::Initializing);
+    EXPECT_NE(result.message.find("no inertial sample"), std::string::npos) << result.message;
+  }
+}
+
+TEST(OdometryStart, ScansDoNotPileUpWithoutInertialData)
+{
+  Parameters p = roomParameters();
+  p.lidar.max_waiting = 1.0;
+  Odometry odometry(p);
+  Results results;
+  for (const LidarScan& scan : room().scans)
+  {
+    odometry.addScan(scan);
+    drain(odometry, results);
+  }
+  EXPECT_EQ(results.size(), room().scans.size() - 11);
+  EXPECT_EQ(results.front().begin_ns, spanOf(room().scans.front()).begin_ns);
+}
+
+TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
+{
+  Parameters p = roomParameters();
+  p.lidar.max_waiting = 0.5;
+  p.output.imu_rate = true;
+  Odometry odometry(p);
+  for (const ImuSample& sample : room().imu)
+    if (sample.stamp_ns < kRecordingStart + 2'500'000'000) odometry.addImu(sample);
+  Results results;
+  std::size_t states = 0;
+  for (const LidarScan& scan : room().scans)
+  {
+    odometry.addScan(scan);
+    while (auto result = odometry.next())
+    {
+      results.push_back(std::move(*result));
+      states += odometry.imuRateStates().size();
+    }
+  }
+  EXPECT_EQ(results.back().status, ScanStatus::Diverged);
+  EXPECT_NE(results.back().message.find("have ended"), std::string::npos) << results.back().message;
+  EXPECT_EQ(results.size(), room().scans.size() - 6);
+  EXPECT_LE(states, room().imu.size());
 }
 
 TEST(OdometryStart, APlatformThatNeverRestsSaysSo)

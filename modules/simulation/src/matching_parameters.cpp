@@ -44,6 +44,8 @@ Parameters matchingParameters(const SimulationSettings& settings)
   p.initialization.gravity = settings.gravity;
   p.initialization.accel_bias_std =
       std::hypot(settings.imu.accel_bias_std, settings.imu.accel_bias.cwiseAbs().maxCoeff());
+  p.initialization.motion_gyro_bias_std =
+      std::hypot(settings.imu.gyro_bias_std, settings.imu.gyro_bias.cwiseAbs().maxCoeff());
   p.imu.noise = matchingNoise(settings.imu);
   p.lidar.min_range = settings.lidar.min_range;
   p.lidar.max_range = settings.lidar.max_range;

@@ -14,7 +14,8 @@ constexpr const char* kHeader =
     "# normalized_innovation: mean z^2/r, about 1 when the noise model is true;\n"
     "# information_min: smallest eigenvalue of H^T R^-1 H (weakest direction of the pose).\n"
     "stamp_ns,status,points_in,dropped_invalid,dropped_near,dropped_far,"
-    "points_reduced,points_effective,imu_samples,map_points,iterations,converged,residual_rms,"
+    "points_reduced,points_effective,imu_samples,map_points,iterations,converged,at_rest,residual_"
+    "rms,"
     "normalized_innovation,information_min,propagate_ms,deskew_ms,reduce_ms,associate_ms,update_ms,"
     "insert_ms,total_ms\n";
 
@@ -25,7 +26,8 @@ std::string counts(const ScanStatistics& s)
        {s.points_in, s.dropped_invalid, s.dropped_near, s.dropped_far, s.points_reduced,
         s.points_effective, s.imu_samples, s.map_points})
     text += "," + std::to_string(n);
-  return text + "," + std::to_string(s.iterations) + "," + (s.converged ? "1" : "0");
+  return text + "," + std::to_string(s.iterations) + "," + (s.converged ? "1" : "0") + "," +
+         (s.at_rest ? "1" : "0");
 }
 
 std::string measures(const ScanStatistics& s)

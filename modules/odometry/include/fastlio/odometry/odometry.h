@@ -45,6 +45,8 @@ class Odometry
   /** Samples that are not finite, repeated or older than the newest one are counted and dropped. */
   void addImu(const ImuSample& sample);
 
+  /** A scan that inertial data do not reach within lidar.max_waiting is given up with a result that
+   * says so: Initializing before the start, Diverged (without a state) after it. */
   void addScan(LidarScan scan);
 
   /** Processes the oldest scan that is covered by IMU data. */

@@ -17,19 +17,34 @@
 
 namespace fastlio
 {
+/** How the filter gets its first state. */
+enum class InitializationMode
+{
+  Rest,    //!< from a platform at rest
+  Motion,  //!< from the first scans, in motion
+  Auto     //!< at rest where the scans confirm it, else in motion
+};
+
 /** Group `initialization`. */
 struct InitializationParameters
 {
+  InitializationMode mode = InitializationMode::Rest;
   double duration = 2.0;                       //!< resting time that is averaged [s]
   double max_gyro_std = 0.10471975511965978;   //!< above: no rest [rad/s]; 6 deg/s
   double max_accel_std = 1.0;                  //!< above: the platform does not rest [m/s^2]
   double max_gyro_mean = 0.20943951023931956;  //!< above: no rest [rad/s]; 12 deg/s
   double gravity = 9.81;                       //!< |g| [m/s^2]
   double gravity_std = 0.02;                   //!< how well |g| is known [m/s^2]
-  double max_gravity_error = 1.0;  //!< largest |mean specific force| - |g| taken as rest [m/s^2]
-  double gyro_bias_std = 1e-5;     //!< added to the uncertainty of the averaged bias [rad/s]
-  double accel_bias_std = 0.1;     //!< prior of the accelerometer bias, zero mean [m/s^2]
-  double velocity_std = 1e-3;      //!< uncertainty of rest [m/s]
+  double max_gravity_error = 1.0;     //!< largest |mean specific force| - |g| taken as rest [m/s^2]
+  double gyro_bias_std = 1e-5;        //!< added to the uncertainty of the averaged bias [rad/s]
+  double accel_bias_std = 0.1;        //!< prior of the accelerometer bias, zero mean [m/s^2]
+  double velocity_std = 1e-3;         //!< uncertainty of rest [m/s]
+  double motion_duration = 1.0;       //!< scans that a start in motion looks at [s]
+  int motion_points = 10000;          //!< of the reduction, for these scans
+  double motion_velocity_std = 10.0;  //!< prior of the velocity in motion, zero mean [m/s]
+  double motion_gyro_bias_std =
+      0.017453292519943295;              //!< prior of the gyro bias in motion, zero mean [rad/s]
+  double motion_max_velocity_std = 0.5;  //!< a start in motion knows its velocity so well [m/s]
   bool align_with_gravity = true;  //!< world z axis up; false: world = first IMU frame (paper)
 };
 
@@ -44,10 +59,11 @@ struct ImuParameters
 /** Group `lidar`. */
 struct LidarParameters
 {
-  double min_range = 0.5;    //!< nearer points are dropped [m]
-  double max_range = 150.0;  //!< farther points are dropped [m]
-  double time_offset = 0.0;  //!< added to the LiDAR stamps [s]
-  bool deskew = true;        //!< motion compensation (eq. 9-10)
+  double min_range = 0.5;     //!< nearer points are dropped [m]
+  double max_range = 150.0;   //!< farther points are dropped [m]
+  double max_waiting = 10.0;  //!< scans wait so long for inertial data, in the LiDAR's time [s]
+  double time_offset = 0.0;   //!< added to the LiDAR stamps [s]
+  bool deskew = true;         //!< motion compensation (eq. 9-10)
 };
 
 /** Group `calibration`: what the filter estimates about the LiDAR along the way. */
@@ -135,6 +151,22 @@ struct InputParameters
   std::optional<Pose> T_vehicle_lidar;  //!< LiDAR in the vehicle frame, instead of the recording's
 };
 
+/** Group `rest`: standing still in the middle of a run. */
+struct RestParameters
+{
+  bool enabled = false;                           //!< detect rest, and then keep still
+  double duration = 2.0;                          //!< quiet for so long is rest [s]
+  double max_speed = 0.01;                        //!< trend of the positions since then [m/s]
+  double max_velocity = 0.1;                      //!< of the filter, after a scan [m/s]
+  double max_displacement = 0.03;                 //!< from where the quiet time began [m]
+  double max_rotation = 0.008726646259971648;     //!< since then [rad]; 0.5 deg
+  double max_rate_change = 0.008726646259971648;  //!< of the angular rate [rad/s]; 0.5 deg/s
+  double max_accel_change = 0.1;                  //!< of the specific force [m/s^2]
+  double velocity_std = 0.01;                     //!< of the pseudo-measurement v = 0 [m/s]
+  double rate_std = 0.0008726646259971648;        //!< of w = gyro bias [rad/s]; 0.05 deg/s
+  double map_time = 3.0;  //!< at rest for longer than this, scans do not join the map [s]
+};
+
 /** Group `output`. */
 struct OutputParameters
 {
@@ -154,6 +186,7 @@ struct Parameters
   MeasurementParameters measurement;
   MapParameters map;
   IterationLimits update;
+  RestParameters rest;
   OutputParameters output;
   GainForm gain = GainForm::Information;
   int threads = 0;  //!< worker threads; 0 = all cores

@@ -45,6 +45,7 @@ struct ScanStatistics
   std::size_t map_points = 0;        //!< points in the map after the scan
   int iterations = 0;
   bool converged = false;
+  bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending

@@ -1,0 +1,241 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "motion_initializer.h"
+
+#include "motion_fit.h"
+#include "motion_prior.h"
+#include "scan_pipeline.h"
+
+#include <Eigen/Eigenvalues>
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kNsToS = 1e-9;
+constexpr std::size_t kMinScans = 4;
+constexpr int kPasses = 8;  // at most
+// Normals are known to about so much; what leaks over to a direction that no plane faces is no
+// information.
+constexpr double kNormalStd = 0.015;   // [rad]
+constexpr int kPullInIterations = 15;  // of the first pass, which starts far off
+// What the prior leaves open narrows from pass to pass, down to several times what a window tells:
+// far-off planes are no match then.
+constexpr double kSecondVelocityStd = 1.0;  // [m/s]
+constexpr double kLeastVelocityStd = 0.2;   // [m/s]
+constexpr double kFirstTiltStd = 0.15;      // [rad]
+constexpr double kLeastTiltStd = 0.05;      // [rad]
+constexpr double kNarrowing = 0.6;
+// A pass goes too far, as the map, made with its start, pulls the scans to the other side.
+constexpr double kDamping = 0.6;
+// Passes agree when their starts differ by no more than this.
+constexpr double kAgreedVelocity = 0.08;  // [m/s]
+constexpr double kAgreedTilt = 0.008;     // [rad]
+
+/** The first pass searches for planes longer, as its scans lie far from the map. */
+Parameters pullingIn(Parameters p)
+{
+  p.measurement.association_iterations = kPullInIterations;
+  p.update.max_iterations = kPullInIterations;
+  return p;
+}
+
+/** One run over the window. */
+struct Pass
+{
+  NavState start;                   // that the window's end tells
+  double velocity_std = 0.0;        // at the end, least known direction [m/s]
+  Vec3 least_known = Vec3::Zero();  // that direction, in the IMU frame at the start
+  bool blind = false;               // the scans do not see motion in that direction
+  std::string problem;
+};
+
+double median(std::vector<double> values)
+{
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class Window
+{
+ public:
+  Window(
+      const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters)
+      : scans_(scans), count_(count), imu_(imu), parameters_(parameters)
+  {
+    const std::int64_t begin_ns = scans.front().span.begin_ns;
+    all_ = inputsOf(imu, begin_ns, scans[count - 1].span.end_ns, parameters.imu.hold);
+    young_map_ = youngMap(parameters.initialization.motion_points, all_.end_ns);
+    first_scan_ = inputsOf(imu, begin_ns, scans.front().span.end_ns, parameters.imu.hold);
+  }
+
+  [[nodiscard]] const YoungMap& youngMapOfWindow() const { return young_map_; }
+
+  [[nodiscard]] NavState guess() const { return firstGuess(all_, parameters_.initialization); }
+
+  [[nodiscard]] FilterState prior(const NavState& x0, const PriorWidth& width) const
+  {
+    return startPrior(x0, width, first_scan_, parameters_.initialization);
+  }
+
+  [[nodiscard]] Pass run(const FilterState& start, const Parameters& parameters) const
+  {
+    ScanPipeline pipeline(parameters);
+    pipeline.start(start, scans_.front().span.begin_ns, young_map_);
+    ScanResult last;
+    std::size_t unmatched = 0;
+    std::vector<double> contrast;  // of the least known direction to others
+    std::vector<TimedPose> poses;
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      if (scans_[i].span.end_ns <= pipeline.stamp()) continue;  // out of order
+      last = pipeline.process(scans_[i].scan, scans_[i].span, imu_);
+      const Vector6& information = last.statistics.information_eigenvalues;
+      if (information[2] > 0.0) contrast.push_back(information[0] / information[2]);
+      poses.push_back({last.stamp_ns, last.filter.x.pose()});
+      unmatched += i > 0 && last.status != ScanStatus::Tracking ? 1 : 0;
+    }
+    Pass pass;
+    pass.blind = median(contrast) < kNormalStd * kNormalStd;
+    if (2 * unmatched > count_) pass.problem = "most scans do not match each other";
+    describeStart(last.filter, poses, pass);
+    describeEnd(last.filter, pass);
+    return pass;
+  }
+
+ private:
+  /** Velocity and gravity at the first scan's end from all poses, then back to its begin. */
+  void describeStart(const FilterState& end, const std::vector<TimedPose>& poses, Pass& pass) const
+  {
+    const InitializationParameters& p = parameters_.initialization;
+    const TimedPose& first = poses.front();
+    MotionFitPrior prior;
+    prior.gyro_bias = end.x.gyro_bias;
+    prior.g = p.gravity * end.x.g.normalized();
+    prior.gravity_std = p.gravity_std;
+    const Inputs between =
+        inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
+    const MotionFit fit = fitMotion(poses, between.samples, prior);
+    if (!fit.solved) pass.problem = "too few of the first scans match each other";
+
+    NavState x = end.x;
+    x.R = first.T_world_imu.R;
+    x.v = fit.velocity;
+    x.g = fit.g;
+    x.accel_bias.setZero();
+    x = propagatedBack(x, first_scan_);
+    const Mat3 R_imu_world = x.R.transpose();
+    pass.start = startState(R_imu_world * x.g, R_imu_world * x.v, x.gyro_bias, p);
+  }
+
+  static void describeEnd(const FilterState& end, Pass& pass)
+  {
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(end.P.block<3, 3>(kVelocity, kVelocity));
+    pass.velocity_std = std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
+    pass.least_known = end.x.R.transpose() * eigen.eigenvectors().col(2);
+  }
+
+  const ScanQueue& scans_;
+  std::size_t count_;
+  const ImuBuffer& imu_;
+  const Parameters& parameters_;
+  Inputs all_, first_scan_;
+  YoungMap young_map_;
+};
+
+bool agree(const NavState& a, const NavState& b)
+{
+  // Both worlds are fixed by gravity in the IMU frame.
+  const Vec3 g_a = a.R.transpose() * a.g, g_b = b.R.transpose() * b.g;
+  const Vec3 v_a = a.R.transpose() * a.v, v_b = b.R.transpose() * b.v;
+  return (v_a - v_b).norm() < kAgreedVelocity &&
+         (g_a.normalized() - g_b.normalized()).norm() < kAgreedTilt;
+}
+
+/** Between the start of a pass and what the pass made of it. */
+NavState damped(const NavState& from, const NavState& to, const InitializationParameters& p)
+{
+  const auto between = [](const Vec3& a, const Vec3& b) -> Vec3 { return a + kDamping * (b - a); };
+  const Mat3 from_world = from.R.transpose(), to_world = to.R.transpose();
+  return startState(
+      between(from_world * from.g, to_world * to.g), between(from_world * from.v, to_world * to.v),
+      between(from.gyro_bias, to.gyro_bias), p);
+}
+
+std::string refusal(const Pass& pass, bool agreed, const InitializationParameters& p)
+{
+  if (!pass.problem.empty())
+    return "no start in motion: " + pass.problem +
+           "; is the mounting of the LiDAR right (T_imu_lidar), do both sensors share a clock?";
+  if (pass.blind || !(pass.velocity_std < p.motion_max_velocity_std))
+    return mrpt::format(
+        "no start in motion: the scans leave the velocity along (%.2f, %.2f, %.2f) of the IMU open "
+        "(%.2f m/s, limit initialization.motion_max_velocity_std %.2f m/s); go where there is more "
+        "to see, or start at rest",
+        pass.least_known.x(), pass.least_known.y(), pass.least_known.z(), pass.velocity_std,
+        p.motion_max_velocity_std);
+  if (!agreed)
+    return "no start in motion: repeated passes over the first scans do not settle; start at rest "
+           "or move more slowly";
+  return {};
+}
+}  // namespace
+
+std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double duration)
+{
+  const auto duration_ns = static_cast<std::int64_t>(duration / kNsToS);
+  for (std::size_t count = kMinScans; count <= scans.size(); ++count)
+  {
+    const std::int64_t end_ns = scans[count - 1].span.end_ns;
+    if (end_ns > imu.newestStamp()) return 0;
+    if (end_ns - scans.front().span.begin_ns >= duration_ns) return count;
+  }
+  return 0;
+}
+
+MotionStart startInMotion(
+    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters)
+{
+  const InitializationParameters& p = parameters.initialization;
+  const Window window(scans, count, imu, parameters);
+  Parameters pass_parameters = parameters;
+  pass_parameters.output.imu_rate = false;
+
+  NavState x0 = window.guess();
+  MotionStart result;
+  if (!isFinite(x0) || !(x0.g.norm() > 0.0))
+  {
+    result.message =
+        "no start in motion: the mean specific force has no direction; the accelerometer must "
+        "deliver m/s^2 with gravity";
+    return result;
+  }
+  PriorWidth width{p.motion_velocity_std, kFirstTiltStd};
+  Pass pass = window.run(window.prior(x0, width), pullingIn(pass_parameters));
+  width.velocity = std::min(width.velocity, kSecondVelocityStd);
+  bool agreed = false;
+  for (int i = 1; i < kPasses && !agreed && isFinite(pass.start); ++i)
+  {
+    x0 = pass.start;
+    pass = window.run(window.prior(x0, width), pass_parameters);
+    agreed = agree(x0, pass.start);
+    pass.start = damped(x0, pass.start, p);
+    width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
+    width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
+  }
+  result.velocity_std = pass.velocity_std;
+  result.message = refusal(pass, agreed, p);
+  if (!result.message.empty()) return result;
+  result.state = window.prior(pass.start, {kLeastVelocityStd, kLeastTiltStd});
+  result.young_map = window.youngMapOfWindow();
+  return result;
+}
+
+}  // namespace fastlio

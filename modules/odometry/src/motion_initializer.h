@@ -1,0 +1,48 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file motion_initializer.h The filter's start from the first scans of a platform in motion.
+ *
+ * Nothing is known of velocity, gravity's direction and gyro bias, but the filter estimates all of
+ * them as soon as there are scans. So it is run over a window of scans from a prior that claims
+ * nothing about them; the state at the window's end, followed back through the same inertial
+ * samples (the exact inverse of eq. 4), is what the start should have been. Run again from there,
+ * the first scans are compensated with the right motion and the map is sharp. After a few passes
+ * the start no longer changes. The scans then go through the odometry once more, from that start
+ * with the wide prior, so that none of them counts twice.
+ *
+ * The world is fixed by the pose at the first scan's *end*, where the map begins: that pose is
+ * exact, and the prior at the scan's begin is what leads there, P_0 = Phi^-1 P_1 Phi^-T.
+ */
+#pragma once
+
+#include "queued_scan.h"
+#include "young_map.h"
+#include <fastlio/filter/state.h>
+#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <optional>
+#include <string>
+
+namespace fastlio
+{
+/** A start in motion, or why there is none. */
+struct MotionStart
+{
+  std::optional<FilterState> state;  //!< at the first scan's begin; velocity etc. with wide prior
+  YoungMap young_map;                //!< for the scans of the window
+  double velocity_std = 0.0;         //!< of the velocity's least known direction, at the end [m/s]
+  std::string message;
+};
+
+/** How many scans at the front of the queue make up a window of \a duration [s] that the inertial
+ * samples cover; 0 while it is not complete. */
+[[nodiscard]] std::size_t motionWindow(
+    const ScanQueue& scans, const ImuBuffer& imu, double duration);
+
+/** The start from the first \a count scans. \param imu covers them */
+[[nodiscard]] MotionStart startInMotion(
+    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters);
+
+}  // namespace fastlio

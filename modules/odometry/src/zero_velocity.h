@@ -1,0 +1,27 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file zero_velocity.h What standing still tells the filter: v = 0 and w_m = b_w. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+
+#include <optional>
+
+namespace fastlio
+{
+/** A posterior and I - K H of the update that led to it. */
+struct ZeroVelocityUpdate
+{
+  FilterState posterior;
+  StateMatrix kept = StateMatrix::Identity();  //!< I - K H: what is left of an error before it
+};
+
+/** Kalman update with the pseudo-measurements v = 0 and b_w = mean_rate.
+ * \param mean_rate mean angular rate at rest, IMU frame [rad/s]
+ * \param velocity_std [m/s] \param rate_std of the mean rate [rad/s]
+ * \return nothing when the state contradicts them (beyond 99.99 %) or is not finite: not at rest */
+[[nodiscard]] std::optional<ZeroVelocityUpdate> zeroVelocityUpdate(
+    const FilterState& prior, const Vec3& mean_rate, double velocity_std, double rate_std);
+
+}  // namespace fastlio
