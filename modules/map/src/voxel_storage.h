@@ -63,7 +63,7 @@ class VoxelStorage
   [[nodiscard]] std::size_t finestCount() const { return finest_count_; }
 
   /** Forgets a block and its voxels. */
-  void drop(std::uint32_t block);
+  void drop(std::uint32_t number);
 
   [[nodiscard]] std::size_t memoryBytes() const;
 
