@@ -11,6 +11,7 @@ variants='
 default |
 features: planar | features.mode=planar
 features: planar and edges | features.mode=planar_and_edge
+features: of wide surroundings | features.mode=planar_and_edge features.half_width=0.5
 no backward propagation | lidar.deskew=false
 single update | update.max_iterations=1
 samples held from the left (paper) | imu.hold=left

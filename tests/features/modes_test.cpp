@@ -80,6 +80,7 @@ TEST(FeatureModes, EdgesAloneHoldThePose)
   Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.reduction.target_points = 1;  // next to nothing for planes
   parameters.features.target_edges = 0;
+  parameters.features.half_width = 0.5;  // clear edges only: nothing else is left to tell
   const SimulatedRun with_edges = runOdometry(simulation, parameters);
   EXPECT_EQ(countOf(with_edges, ScanStatus::Diverged), 0U);
   EXPECT_LT(judge(with_edges).ape.translation.rmse, 0.1);

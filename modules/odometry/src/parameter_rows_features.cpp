@@ -26,7 +26,7 @@ ParameterRows extractionRows()
       {"features.half_width", "m",
        RealValue{[](auto& p) { return &p.features.half_width; }, 0.01, 10.0},
        "neighbours reach so far to each side; larger: less noise, small structures are lost; "
-       "should be 20 times the noise of a range or more"},
+       "should be 10 times the noise of a range or more"},
       {"features.min_neighbors", "",
        IntegerValue{[](auto& p) { return &p.features.min_neighbors; }, 1, 100},
        "so many neighbours on each side at least: far points are spaced more than half_width"},

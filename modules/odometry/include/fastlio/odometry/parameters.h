@@ -95,7 +95,7 @@ struct FeatureParameters
 {
   FeatureMode mode = FeatureMode::None;
   ScanLineOrder scan_lines = ScanLineOrder::Automatic;  //!< what makes points neighbours
-  double half_width = 0.5;                    //!< neighbours reach so far to each side [m]
+  double half_width = 0.25;                   //!< neighbours reach so far to each side [m]
   int min_neighbors = 3;                      //!< at least so many on each side
   double max_planar_smoothness = 0.2;         //!< planar below
   double min_edge_smoothness = 0.4;           //!< edge above
