@@ -21,6 +21,11 @@ constexpr float kRefitGrowth = 1.1F;
 // Above this many points the sums are halved: old points fade, single precision stays exact enough.
 constexpr float kMaxCount = 4096.0F;
 
+double square(double x)
+{
+  return x * x;
+}
+
 struct Spread
 {
   Eigen::Vector3d eigenvalues;   // ascending [m^2]
@@ -126,25 +131,28 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   const double n = count_;
   const Eigen::Vector3d mean = meanOffset().cast<double>();
   const Spread spread = spreadOf(products_, mean, n);
-  const double noise = static_cast<double>(rules.point_noise) * rules.point_noise;
-  // Three degrees of freedom went into the fit.
-  const double across = std::max(spread.eigenvalues[0] * n / (n - 3.0), noise);
-  if (across > static_cast<double>(rules.max_thickness) * rules.max_thickness) return;
-  if (spread.eigenvalues[1] < kMinSpreadOverNoise * across) return;
   const Eigen::Vector3f normal = spread.eigenvectors.col(0).cast<float>();
-  // One laser line on a bent surface spans a plane of its own, which contains the beams.
   const Eigen::Vector3f beams(beams_[0], beams_[1], beams_[2]);
-  if (std::abs(normal.dot(beams)) < rules.min_incidence * count_) return;
+  const double incidence = static_cast<double>(std::abs(normal.dot(beams)) / count_);
+  // One laser line on a bent surface spans a plane of its own, which contains the beams.
+  if (incidence < static_cast<double>(rules.min_incidence)) return;
+  // Noise lies along the beams: little of it is left across a plane seen at a grazing angle. Three
+  // degrees of freedom went into the fit.
+  const double noise = square(static_cast<double>(rules.point_noise));
+  const double noise_across = noise * square(incidence);
+  const double across = std::max(spread.eigenvalues[0] * n / (n - 3.0), noise_across);
+  if (across > square(static_cast<double>(rules.max_thickness))) return;
+  if (spread.eigenvalues[1] < kMinSpreadOverNoise * std::max(across, noise)) return;
 
   const Eigen::Vector3f q = center + mean.cast<float>();
   plane_.nx = normal.x();
   plane_.ny = normal.y();
   plane_.nz = normal.z();
-  plane_.d = -normal.dot(q);
   plane_.qx = q.x();
   plane_.qy = q.y();
   plane_.qz = q.z();
   plane_.variance = static_cast<float>(across);
+  plane_.roughness = static_cast<float>(across - noise_across);
   plane_.inverse_count = 1.0F / count_;
   plane_.leverage = leverageOf(spread, n);
   if (!was_valid && plane_.born == 0) plane_.born = scan;

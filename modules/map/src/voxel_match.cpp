@@ -65,8 +65,7 @@ void findVoxels(const VoxelShards& shards, std::size_t count, Batch& batch)
   }
 }
 
-PlaneMatch bestPlane(
-    const VoxelShards& shards, const Query& query, float noise_variance, float x, float y, float z)
+PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, float y, float z)
 {
   PlaneMatch best;
   for (const std::uint32_t number : query.voxels)
@@ -76,26 +75,26 @@ PlaneMatch bestPlane(
     if (!plane.valid()) continue;
     const float shared = plane.offsetVariance(x, y, z);
     // Roughness that the sensor's noise does not explain belongs to each point.
-    const float variance = shared + plane.variance - noise_variance;
+    const float variance = shared + plane.roughness;
     if (best.valid() && variance >= best.variance) continue;
     best = {
         plane.nx,
         plane.ny,
         plane.nz,
-        plane.d,
+        plane.offset(),
         variance,
         shared,
         VoxelShards::numberOf(number, query.shard),
-        plane.born};
+        plane.born,
+        plane.normalVariance()};
   }
   return best;
 }
 }  // namespace
 
 void matchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, float noise_variance,
-    const WorldPoints& points, std::size_t first, std::size_t last,
-    std::vector<PlaneMatch>& matches)
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points,
+    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches)
 {
   Batch batch;
   for (std::size_t begin = first; begin < last; begin += kBatch)
@@ -105,8 +104,7 @@ void matchPlanes(
     findVoxels(shards, count, batch);
     for (std::size_t i = 0; i < count; ++i)
       matches[begin + i] = bestPlane(
-          shards, batch[i], noise_variance, points.x[begin + i], points.y[begin + i],
-          points.z[begin + i]);
+          shards, batch[i], points.x[begin + i], points.y[begin + i], points.z[begin + i]);
   }
 }
 

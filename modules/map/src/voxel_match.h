@@ -13,11 +13,9 @@
 
 namespace fastlio
 {
-/** Writes matches[first..last). \param noise_variance what the sensor's noise explains of the
- * scatter of points across a plane [m^2] */
+/** Writes matches[first..last). */
 void matchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, float noise_variance,
-    const WorldPoints& points, std::size_t first, std::size_t last,
-    std::vector<PlaneMatch>& matches);
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points,
+    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches);
 
 }  // namespace fastlio

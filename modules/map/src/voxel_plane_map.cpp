@@ -79,8 +79,7 @@ void VoxelPlaneMap::match(
     const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches) const
 {
-  const float noise = impl_->options.rules.point_noise;
-  matchPlanes(impl_->shards, impl_->grid, noise * noise, points, first, last, matches);
+  matchPlanes(impl_->shards, impl_->grid, points, first, last, matches);
 }
 
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)

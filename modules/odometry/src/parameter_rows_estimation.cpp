@@ -25,6 +25,20 @@ ParameterRows measurementRows()
        RealValue{[](auto& p) { return &p.measurement.max_normalized_residual; }, 0.1, 1e6},
        "a point is left out when its residual exceeds so many standard deviations of residual and "
        "prediction"},
+      {"measurement.robust_kernel", "",
+       enumeration(
+           [](auto& p) { return &p.measurement.robust_kernel; },
+           {"none", "huber", "cauchy", "geman_mcclure"}),
+       "weight of large residuals within the gate: none weighs all alike, huber lets them pull "
+       "with "
+       "constant force, cauchy and geman_mcclure with less and less"},
+      {"measurement.robust_scale", "",
+       RealValue{[](auto& p) { return &p.measurement.robust_scale; }, 0.1, 1000.0},
+       "residual, in standard deviations, from which on the robust kernel acts"},
+      {"measurement.min_signal_to_noise", "",
+       RealValue{[](auto& p) { return &p.measurement.min_signal_to_noise; }, 0.0, 1e6},
+       "a direction of motion whose information is less than so many times that which noise in the "
+       "normals of the map feigns (along a tunnel) is not corrected by the scan; 0: all are"},
       {"measurement.min_effective_points", "",
        IntegerValue{[](auto& p) { return &p.measurement.min_effective_points; }, 1, 1000000},
        "with fewer matched points the scan does not correct the prediction"},

@@ -52,7 +52,7 @@ PlaneGrouping::Sums PlaneGrouping::measure(
     if (!matches[i].valid()) continue;
     const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
     if (!isConsistent(m, model)) continue;
-    row.weight = 1.0 / m.variance;
+    row.weight = weightOf(m, model);
     row.shared = row.weight * static_cast<double>(matches[i].shared_variance);
     row.weighted_h = row.weight * m.h;
     for (int c = 0; c < 6; ++c)

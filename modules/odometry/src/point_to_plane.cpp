@@ -47,6 +47,11 @@ bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
   return m.z * m.z <= model.gate * model.gate * (m.variance + prior_variance);
 }
 
+double weightOf(const PlaneMeasurement& m, const ResidualModel& model)
+{
+  return robustWeight(model.kernel, m.z * m.z / m.variance, model.kernel_scale) / m.variance;
+}
+
 InformationSums accumulate(
     const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last)
@@ -59,7 +64,7 @@ InformationSums accumulate(
     if (!matches[i].valid()) continue;
     const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
     if (!isConsistent(m, model)) continue;
-    const double weight = 1.0 / m.variance;
+    const double weight = weightOf(m, model);
     for (int c = 0; c < 6; ++c)
       upper.col(c).head(c + 1) += weight * m.h[c] * m.h.head(c + 1);
     sums.HtRinvz += weight * m.z * m.h;
@@ -92,7 +97,7 @@ StackedMeasurements stack(
     if (!isConsistent(m, model)) continue;
     stacked.h.push_back(m.h);
     stacked.z.push_back(m.z);
-    stacked.variance.push_back(m.variance);
+    stacked.variance.push_back(1.0 / weightOf(m, model));
   }
   return stacked;
 }

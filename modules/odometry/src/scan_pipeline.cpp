@@ -133,6 +133,7 @@ void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistic
   statistics.points_reduced = selection_.indices.size() + edge_indices_.size();
   statistics.imu_samples = inputs_.size();
   statistics.map_points = map_->pointCount();
+  statistics.constraints = update_.constraints();
 }
 
 void ScanPipeline::reduce(const LidarScan& scan, std::int64_t end_ns)
@@ -258,6 +259,7 @@ FilterState ScanPipeline::considerMapError()
   LinearizedUpdate update;
   update.T_world_scan = scanPose(filter_.x, compensated_.compensation);
   update.by_state = scanPoseJacobian(filter_.x, compensated_.compensation);
+  update.constrained = update_.constraints().projection;
   update.posterior = filter_.P;
   map_error_.update(
       update,

@@ -17,6 +17,8 @@ ResidualModel residualModelOf(const MeasurementParameters& p, const FilterState&
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;
   model.gate = p.max_normalized_residual;
+  model.kernel = p.robust_kernel;
+  model.kernel_scale = p.robust_scale;
   model.prior_position_variance = predicted.P.block<3, 3>(kPosition, kPosition).trace();
   model.prior_attitude_variance = predicted.P.block<3, 3>(kAttitude, kAttitude).trace();
   return model;
@@ -43,6 +45,16 @@ void ScanUpdate::associate(
   association_ms_ += watch.milliseconds();
 }
 
+void ScanUpdate::findConstraints(
+    const Pose& T_world_scan, const BodyPoints& points, const InformationSums& sums)
+{
+  constraints_ = {};
+  const double min_signal_to_noise = parameters_.measurement.min_signal_to_noise;
+  if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
+  const Matrix6 noise = normalNoiseInformation(T_world_scan, points, matches_, model_);
+  constraints_ = scanConstraints(sums.HtRinvH, noise, min_signal_to_noise);
+}
+
 MeasurementEvaluation ScanUpdate::evaluate(
     const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map,
     EdgeStage& edges)
@@ -58,10 +70,14 @@ MeasurementEvaluation ScanUpdate::evaluate(
   for (const InformationSums& sums : chunk_sums_)
     addSums(evaluation.sums, sums);
   addSums(evaluation.sums, edges.sums(T_world_scan, model_));
+  if (iteration == 0) findConstraints(T_world_scan, points, evaluation.sums);
+  evaluation.sums = constrainedSums(evaluation.sums, constraints_);
   if (parameters_.gain == GainForm::Standard)
   {
     evaluation.stacked = stack(T_world_scan, points, matches_, model_);
     edges.stack(T_world_scan, model_, evaluation.stacked);
+    for (Vector6& h : evaluation.stacked.h)
+      h = constraints_.projection.transpose() * h;
   }
   evaluation.by_state = scanPoseJacobian(iterate, scan.compensation);
   return evaluation;

@@ -8,6 +8,7 @@
 #include <fastlio/filter/scan_pose.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/degeneracy.h>
 #include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_plane.h>
@@ -42,12 +43,16 @@ class ScanUpdate
   [[nodiscard]] const std::vector<PlaneMatch>& matches() const { return matches_; }
   /** What decided on the matches of the last run. */
   [[nodiscard]] const ResidualModel& residualModel() const { return model_; }
+  /** Which directions the last run updated. */
+  [[nodiscard]] const ScanConstraints& constraints() const { return constraints_; }
   /** Time spent on searching the map in the last run [ms]. */
   [[nodiscard]] double associationMilliseconds() const { return association_ms_; }
 
  private:
   void associate(
       const Pose& T_world_scan, const BodyPoints& points, const SurfaceMap& map, EdgeStage& edges);
+  void findConstraints(
+      const Pose& T_world_scan, const BodyPoints& points, const InformationSums& sums);
   [[nodiscard]] MeasurementEvaluation evaluate(
       const NavState& iterate, int iteration, const CompensatedScan& scan, const SurfaceMap& map,
       EdgeStage& edges);
@@ -55,6 +60,7 @@ class ScanUpdate
   const Parameters& parameters_;
   std::shared_ptr<const Workers> workers_;
   ResidualModel model_;
+  ScanConstraints constraints_;
   double association_ms_ = 0.0;
   // Reused between scans.
   WorldPoints world_;

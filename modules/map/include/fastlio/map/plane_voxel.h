@@ -14,7 +14,7 @@ namespace fastlio
 /** What makes a plane of a voxel's points. */
 struct PlaneRules
 {
-  float point_noise = 0.02F;   //!< least standard deviation of a point across its plane [m]
+  float point_noise = 0.02F;   //!< standard deviation of a point along its beam [m]
   float max_thickness = 0.1F;  //!< largest standard deviation across a plane [m]
   float min_incidence = 0.1F;  //!< least cosine between the normal and the mean beam
   float min_points = 6.0F;     //!< fewer points give no plane
@@ -23,14 +23,23 @@ struct PlaneRules
 /** A plane with what is needed to predict where a point of it lies: one cache line. */
 struct VoxelPlane
 {
-  float nx = 0, ny = 0, nz = 0, d = 0;  //!< n . p + d = 0, unit normal, world frame
-  float qx = 0, qy = 0, qz = 0;         //!< centroid of the points [m]
-  float variance = -1;                  //!< of a point across the plane [m^2]; negative: no plane
-  float inverse_count = 0;              //!< 1 / number of points
-  std::array<float, 6> leverage{};      //!< (e1 e1^T/l1 + e2 e2^T/l2)/n: xx xy xz yy yz zz [1/m^2]
-  std::uint32_t born = 0;               //!< scan whose points made the first plane here
+  float nx = 0, ny = 0, nz = 0;     //!< unit normal n, world frame
+  float qx = 0, qy = 0, qz = 0;     //!< centroid q of the points [m]: n . (p - q) = 0
+  float variance = -1;              //!< of a point across the plane [m^2]; negative: no plane
+  float roughness = 0;              //!< part of it that the noise along the beams leaves over [m^2]
+  float inverse_count = 0;          //!< 1 / number of points
+  std::array<float, 6> leverage{};  //!< (e1 e1^T/l1 + e2 e2^T/l2)/n: xx xy xz yy yz zz [1/m^2]
+  std::uint32_t born = 0;           //!< scan whose points made the first plane here
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
+  /** -n . q [m] */
+  [[nodiscard]] float offset() const { return -(nx * qx + ny * qy + nz * qz); }
+
+  /** Variance of the normal, summed over its two free directions [rad^2]. */
+  [[nodiscard]] float normalVariance() const
+  {
+    return variance * (leverage[0] + leverage[3] + leverage[5]);
+  }
 
   /** Variance of the plane's offset at a point, as of a regression's prediction: of its mean, and
    * of its tilt with the distance from the centroid [m^2]. */

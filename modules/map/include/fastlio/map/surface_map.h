@@ -30,10 +30,11 @@ struct PlaneMatch
 {
   float nx = 0, ny = 0, nz = 0;  //!< unit normal u, world frame
   float d = 0;                   //!< -u . q [m]
-  float variance = -1;  //!< of the plane's offset at the point [m^2]; negative: no match
-  float shared_variance = 0;  //!< part of variance that all points on the plane share [m^2]
-  std::uint32_t plane = 0;  //!< which plane: points with the same number share its error
-  std::uint32_t born = 0;   //!< insertion (1, 2, ...) that founded the plane; 0: not known
+  float variance = -1;           //!< of the plane's offset at the point [m^2]; negative: no match
+  float shared_variance = 0;     //!< part of variance that all points on the plane share [m^2]
+  std::uint32_t plane = 0;       //!< which plane: points with the same number share its error
+  std::uint32_t born = 0;        //!< insertion (1, 2, ...) that founded the plane; 0: not known
+  float normal_variance = 0;     //!< of the normal, summed over its two free directions [rad^2]
 
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
 };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/odometry/degeneracy.h>
 
 #include <array>
 #include <cstdint>
@@ -49,6 +50,7 @@ struct ScanStatistics
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
+  ScanConstraints constraints;  //!< directions that the scan did not constrain, and left alone
 };
 
 /** The outcome of one scan. */

@@ -1,0 +1,108 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/odometry/degeneracy.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using Square6 = Eigen::Matrix<double, 6, 6>;
+
+// Scans whose weakest direction has more than this share of the strongest one's information are
+// far from degenerate: normals would have to be off by tens of degrees.
+constexpr double kClearlyConstrained = 0.05;
+
+/** Lever arm that makes rotations and translations equally strong on the whole [m]. */
+double leverArmOf(const Matrix6& information)
+{
+  const double rotation = information.topLeftCorner<3, 3>().trace();
+  const double translation = information.bottomRightCorner<3, 3>().trace();
+  return translation > 0.0 && rotation > 0.0 ? std::sqrt(rotation / translation) : 1.0;
+}
+
+/** Information by (rotation * lever_arm, translation). */
+Square6 inLengths(const Matrix6& information, double lever_arm)
+{
+  Square6 m = information;
+  m.topRows<3>() /= lever_arm;
+  m.leftCols<3>() /= lever_arm;
+  return m;
+}
+
+using Solver = Eigen::SelfAdjointEigenSolver<Square6>;
+}  // namespace
+
+Matrix6 normalNoiseInformation(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model)
+{
+  // cov(h) = B cov(n) B^T, B = [[p]x R^T; I], cov(n) = s (I - n n^T) with half the summed variance.
+  const Mat3 R_scan_world = T_world_scan.R.transpose();
+  Square6 sum = Square6::Zero();
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    if (!matches[i].valid()) continue;
+    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
+    if (!isConsistent(m, model)) continue;
+    const double s = 0.5 * static_cast<double>(matches[i].normal_variance) * weightOf(m, model);
+    const Mat3 lever = skew(Vec3(body.x[i], body.y[i], body.z[i])) * R_scan_world;
+    const Vec3 n = m.h.tail<3>();
+    const Mat3 free = s * (Mat3::Identity() - n * n.transpose());
+    const Mat3 lever_free = lever * free;
+    sum.topLeftCorner<3, 3>() += lever_free * lever.transpose();
+    sum.topRightCorner<3, 3>() += lever_free;
+    sum.bottomRightCorner<3, 3>() += free;
+  }
+  sum.bottomLeftCorner<3, 3>() = sum.topRightCorner<3, 3>().transpose();
+  return sum;
+}
+
+bool mayBeDegenerate(const Matrix6& information)
+{
+  const Solver solver(inLengths(information, leverArmOf(information)), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[0] < kClearlyConstrained * solver.eigenvalues()[5];
+}
+
+ScanConstraints scanConstraints(
+    const Matrix6& information, const Matrix6& noise_information, double min_signal_to_noise)
+{
+  ScanConstraints c;
+  c.lever_arm = leverArmOf(information);
+  const Solver solver(inLengths(information, c.lever_arm));
+  const Square6 noise = inLengths(noise_information, c.lever_arm);
+  const Square6 V = solver.eigenvectors();
+  c.directions = V;
+  c.information = solver.eigenvalues();
+  Vector6 keep = Vector6::Ones();
+  for (int i = 0; i < 6; ++i)
+  {
+    c.noise_information[i] = V.col(i).dot(noise * V.col(i));
+    if (c.information[i] > min_signal_to_noise * c.noise_information[i]) continue;
+    keep[i] = 0.0;
+    ++c.unconstrained;
+  }
+  Vector6 unit = Vector6::Ones();
+  unit.head<3>().setConstant(c.lever_arm);
+  if (c.unconstrained > 0)
+    c.projection = unit.cwiseInverse().asDiagonal() * V * keep.asDiagonal() * V.transpose() *
+                   unit.asDiagonal();
+  return c;
+}
+
+InformationSums constrainedSums(const InformationSums& sums, const ScanConstraints& constraints)
+{
+  InformationSums left = sums;
+  if (constraints.unconstrained == 0) return left;
+  const Square6 projection = constraints.projection;
+  const Square6 information = projection.transpose() * sums.HtRinvH * projection;
+  left.HtRinvH = 0.5 * (information + information.transpose());
+  left.HtRinvz = projection.transpose() * sums.HtRinvz;
+  return left;
+}
+
+}  // namespace fastlio
