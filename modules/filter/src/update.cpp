@@ -193,6 +193,7 @@ UpdateStep informationStep(
   step.P.topLeftCorner<kPoseDim, kPoseDim>() =
       B_pose.solve(G.leftCols<kPoseDim>() - B_rest.lazyProduct(cross.transpose()));
   step.P = 0.5 * (step.P + step.P.transpose()).eval();
+  step.gain = G.transpose();
   return step;
 }
 
@@ -203,7 +204,7 @@ UpdateStep standardStep(
 {
   requireConsistent(measurements);
   const auto [d, P] = priorAt(prior, iterate);
-  if (measurements.h.empty()) return {-d, P};
+  if (measurements.h.empty()) return {-d, P, ScanGain::Zero()};
   const StackedMatrices s = stack(measurements);
   using Wide = Eigen::Matrix<double, kStateDim, Eigen::Dynamic>;
   const Wide Ht = by_state.transpose() * s.H.transpose();
@@ -216,6 +217,7 @@ UpdateStep standardStep(
   step.dx = -d - K * (s.z - Ht.transpose() * d);
   step.P = P - K * PHt.transpose();
   step.P = 0.5 * (step.P + step.P.transpose()).eval();
+  step.gain = step.P * by_state.transpose();
   return step;
 }
 
@@ -236,11 +238,13 @@ UpdateResult iteratedUpdate(
     result.last = evaluation.sums;
     if (evaluation.sums.count == 0 || !isFinite(evaluation.sums)) return result;
     step = stepWith(gain, prior, iterate, evaluation);
+    if (!evaluation.unconstrained.empty()) step = consideringStep(prior, iterate, step, evaluation);
     if (!isFinite(step)) return result;
     iterate = boxplus(iterate, step.dx);
     result.converged = isConverged(step.dx, limits);
   }
   result.posterior = posteriorAt(iterate, step);
+  result.gain = step.gain;
   result.updated = true;
   return result;
 }

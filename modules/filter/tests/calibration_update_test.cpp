@@ -67,8 +67,11 @@ struct MiscalibratedScan
     at.R = T.R;
     at.p = T.p;
     StackedMeasurements m = test::residualsOf(matches, at, test::kSigma);
-    const InformationSums sums = test::sumsOf(m);
-    return {sums, std::move(m), scanPoseJacobian(iterate, compensation)};
+    MeasurementEvaluation e;
+    e.sums = test::sumsOf(m);
+    e.stacked = std::move(m);
+    e.by_state = scanPoseJacobian(iterate, compensation);
+    return e;
   }
 };
 

@@ -29,7 +29,10 @@ MeasurementModel pull(double amount)
     m.h.push_back(Vector6::Unit(kPosition));
     m.z.push_back(-amount);
     m.variance.push_back(1e-12);
-    return MeasurementEvaluation{test::sumsOf(m), m};
+    MeasurementEvaluation e;
+    e.sums = test::sumsOf(m);
+    e.stacked = m;
+    return e;
   };
 }
 
@@ -165,8 +168,11 @@ TEST(IteratedUpdateLimits, wrongUseIsRefused)
   none.max_iterations = 0;
   EXPECT_THROW(
       (void)iteratedUpdate(prior, pull(1.0), none, GainForm::Information), std::invalid_argument);
-  const MeasurementModel sums_only = [](const NavState& x, int iteration) {
-    return MeasurementEvaluation{pull(1.0)(x, iteration).sums, {}};
+  const MeasurementModel sums_only = [](const NavState& x, int iteration)
+  {
+    MeasurementEvaluation e;
+    e.sums = pull(1.0)(x, iteration).sums;
+    return e;
   };
   EXPECT_THROW(
       (void)iteratedUpdate(prior, sums_only, IterationLimits{}, GainForm::Standard),

@@ -89,8 +89,10 @@ inline MeasurementModel planeModel(std::vector<PlaneMatch> matches, double sigma
   return [matches = std::move(matches), sigma](const NavState& iterate, int)
   {
     StackedMeasurements m = residualsOf(matches, iterate, sigma);
-    const InformationSums sums = sumsOf(m);
-    return MeasurementEvaluation{sums, std::move(m)};
+    MeasurementEvaluation e;
+    e.sums = sumsOf(m);
+    e.stacked = std::move(m);
+    return e;
   };
 }
 

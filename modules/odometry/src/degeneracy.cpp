@@ -94,6 +94,19 @@ ScanConstraints scanConstraints(
   return c;
 }
 
+std::vector<MotionDirection> unconstrainedMotions(const ScanConstraints& constraints)
+{
+  std::vector<MotionDirection> motions;
+  for (int i = 0; i < constraints.unconstrained; ++i)
+  {
+    const Vec3 rotation = constraints.directions.col(i).head<3>();
+    const Vec3 translation = constraints.directions.col(i).tail<3>();
+    const bool is_rotation = rotation.norm() > translation.norm();
+    motions.push_back({is_rotation, (is_rotation ? rotation : translation).normalized()});
+  }
+  return motions;
+}
+
 InformationSums constrainedSums(const InformationSums& sums, const ScanConstraints& constraints)
 {
   InformationSums left = sums;

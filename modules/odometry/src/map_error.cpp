@@ -110,11 +110,10 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
   const AlignedMatrix6 C_founding = M * squareRoot(foundingCovariance(scan.groups));
 
-  const AlignedStateBy6 PBt =
-      update.posterior * update.by_state.transpose() * update.constrained.transpose();
+  const AlignedStateBy6 gain = update.gain * update.constrained.transpose();
   const AlignedStateMatrix keep = AlignedStateMatrix::Identity() -
-                                  PBt * scan.information * (update.constrained * update.by_state);
-  const AlignedStateBy6 G = PBt * L.transpose();
+                                  gain * scan.information * (update.constrained * update.by_state);
+  const AlignedStateBy6 G = gain * L.transpose();
   const AlignedStateBy6 in_planes = G * C_planes, in_founding = G * C_founding;
   const AlignedStateBy6 kept_planes = scan.persistence * (keep * Y_planes_);
   const AlignedStateBy6 kept_founding = keep * Y_founding_;
@@ -126,7 +125,7 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
   Y_planes_ = kept_planes + in_planes;
   Y_founding_ = kept_founding + in_founding;
   counted_twice_ =
-      keep * counted_twice_ * keep.transpose() + PBt * scan.shared_noise * PBt.transpose();
+      keep * counted_twice_ * keep.transpose() + gain * scan.shared_noise * gain.transpose();
 }
 
 StateMatrix MapErrorModel::addition() const

@@ -71,6 +71,10 @@ ParameterRows initializationRows()
       {"initialization.velocity_std", "m/s",
        RealValue{[](auto& p) { return &p.initialization.velocity_std; }, 0.0, 10.0},
        "uncertainty of the velocity at the start, around zero"},
+      {"initialization.gravity_model", "",
+       enumeration([](auto& p) { return &p.initialization.gravity_model; }, {"free", "sphere"}),
+       "free: gravity is a vector of the state, as in the paper; sphere: its direction only, the "
+       "magnitude stays initialization.gravity"},
       {"initialization.align_with_gravity", "",
        BooleanValue{[](auto& p) { return &p.initialization.align_with_gravity; }},
        "true: the z axis of the world points up; false: the world is the first IMU frame, as in "

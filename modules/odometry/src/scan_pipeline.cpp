@@ -70,8 +70,15 @@ void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const 
   young_map_ = young_map;
   filter_ = state;
   addCalibrationPrior(filter_.P, parameters_.calibration);
+  constrainGravity();
   state_ns_ = stamp_ns;
   last_update_ns_ = stamp_ns;
+}
+
+void ScanPipeline::constrainGravity()
+{
+  const InitializationParameters& p = parameters_.initialization;
+  if (p.gravity_model == GravityModel::Sphere) filter_ = withGravityOnSphere(filter_, p.gravity);
 }
 
 std::int64_t ScanPipeline::timeShift() const
@@ -100,9 +107,10 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   compensate(scan, span, predicted);                      // eq. 9-10
   const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
-  filter_.x.R = normalizeRotation(filter_.x.R);  // products drift off SO(3) by rounding
+  filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3)
+  constrainGravity();
   state_ns_ = span.end_ns;
-  result.filter = considerMapError();
+  result.filter = considerMapError(update.gain);
   judge(update, result);
   if (parameters_.rest.enabled) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
@@ -254,13 +262,13 @@ bool ScanPipeline::mayGrowMap(const ScanResult& result) const
   return position_variance < std::pow(parameters_.map.max_insertion_std, 2);
 }
 
-FilterState ScanPipeline::considerMapError()
+FilterState ScanPipeline::considerMapError(const ScanGain& gain)
 {
   LinearizedUpdate update;
   update.T_world_scan = scanPose(filter_.x, compensated_.compensation);
   update.by_state = scanPoseJacobian(filter_.x, compensated_.compensation);
   update.constrained = update_.constraints().projection;
-  update.posterior = filter_.P;
+  update.gain = gain;
   map_error_.update(
       update,
       planes_.group(

@@ -64,13 +64,14 @@ class ScanPipeline
   [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
+  void constrainGravity();
   void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
   void considerRest(ScanResult& result);
   [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
   void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
   void growMap(const Vec3& p_imu_lidar, const FilterState& total);
-  [[nodiscard]] FilterState considerMapError();
+  [[nodiscard]] FilterState considerMapError(const ScanGain& gain);
 
   Parameters parameters_;
   std::shared_ptr<const Workers> workers_;

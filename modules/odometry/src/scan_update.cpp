@@ -79,6 +79,7 @@ MeasurementEvaluation ScanUpdate::evaluate(
     for (Vector6& h : evaluation.stacked.h)
       h = constraints_.projection.transpose() * h;
   }
+  evaluation.unconstrained = unconstrainedMotions(constraints_);
   evaluation.by_state = scanPoseJacobian(iterate, scan.compensation);
   return evaluation;
 }

@@ -31,12 +31,21 @@ struct StackedMeasurements
   std::vector<double> variance;  //!< R_jj
 };
 
+/** A direction of a scan pose: a translation or a rotation, as a unit vector. */
+struct MotionDirection
+{
+  bool is_rotation = false;
+  Vec3 axis = Vec3::UnitX();  //!< of a rotation in the body frame, of a translation in the world
+};
+
 /** What an iteration of the update needs to know of the measurements at an iterate. */
 struct MeasurementEvaluation
 {
   InformationSums sums;                            //!< always filled
   StackedMeasurements stacked;                     //!< filled when the standard gain is chosen
   ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B: the row of H is h^T B
+  /** Directions of motion that the measurements do not constrain: considered, not estimated. */
+  std::vector<MotionDirection> unconstrained;
 };
 
 /** Which form of the Kalman gain is used; algebraically equal (appendix B of the paper). */
@@ -59,10 +68,14 @@ struct IterationLimits
   double gravity = 1e-3;     //!< [m/s^2]
 };
 
+/** G of the gain K = G H_6^T R^-1 with H_6 the rows h^T by the scan pose: K z = G (sum h z / r). */
+using ScanGain = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
+
 /** Evidence of an update. */
 struct UpdateResult
 {
   FilterState posterior;
+  ScanGain gain = ScanGain::Zero();  //!< of the last step
   int iterations = 0;
   bool converged = false;
   bool updated = false;  //!< false: no measurement or a non-finite step; posterior = prior
@@ -79,6 +92,7 @@ struct UpdateStep
 {
   StateVector dx = StateVector::Zero();
   StateMatrix P = StateMatrix::Zero();
+  ScanGain gain = ScanGain::Zero();  //!< G, see ScanGain
 };
 
 /** J^-1 of eq. 16: blockdiag(A(Log(R_hat^T R_kappa))^T, I_15), and the same for the rotation of the
@@ -96,6 +110,15 @@ struct UpdateStep
 [[nodiscard]] UpdateStep standardStep(
     const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements,
     const ScanPoseJacobian& by_state = bodyPoseJacobian());
+
+/** The same step without touching what belongs to unconstrained directions: of a translation
+ * position, velocity, accelerometer bias and gravity along it, of a rotation attitude and gyro bias
+ * about it. These are considered in the sense of Schmidt: their rows of the gain are zero, and
+ * P = (I - K H) P (I - K H)^T + K R K^T holds for such a gain, too. Otherwise every scan would
+ * pretend to know a little more of them, because no two scans agree exactly on the direction. */
+[[nodiscard]] UpdateStep consideringStep(
+    const FilterState& prior, const NavState& iterate, const UpdateStep& step,
+    const MeasurementEvaluation& evaluation);
 
 /** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. The
  * posterior's covariance is symmetric and refers to the posterior's own tangent space.

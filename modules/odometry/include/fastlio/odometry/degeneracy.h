@@ -43,6 +43,9 @@ struct ScanConstraints
  * while to look for noise in it. */
 [[nodiscard]] bool mayBeDegenerate(const Matrix6& information);
 
+/** The unconstrained directions as plain motions, each by its larger part. */
+[[nodiscard]] std::vector<MotionDirection> unconstrainedMotions(const ScanConstraints& constraints);
+
 /** The sums with the unconstrained directions taken out: what is left moves the others only. */
 [[nodiscard]] InformationSums constrainedSums(
     const InformationSums& sums, const ScanConstraints& constraints);

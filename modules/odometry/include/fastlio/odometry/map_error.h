@@ -11,11 +11,12 @@
  *
  * The filter's update with gain K passes the planes' errors b on to the state's error,
  *
- *     e_k = (I - K H) Phi e_{k-1} + G q_k,     G = P B^T L^T,  q_k = sum_j w_j h_j b_j
+ *     e_k = (I - K H) Phi e_{k-1} + G L^T q_k,     q_k = sum_j w_j h_j b_j
  *
- * with h_j by a rigid motion (phi, rho) of the world, p -> p + rho + phi x p, because in these
- * coordinates an error of the map stays what it is while the sensor moves; B is the Jacobian of the
- * scan pose by the state, L that of the motion by the scan pose. The covariance of q is
+ * with G = P B^T the gain for the sums of a scan and h_j by a rigid motion (phi, rho) of the world,
+ * p -> p + rho + phi x p, because in these coordinates an error of the map stays what it is while
+ * the sensor moves; B is the Jacobian of the scan pose by the state, L that of the motion by the
+ * scan pose. The covariance of q is
  *
  *     cov q = Q_s + Q_a = sum_i s_i g_i g_i^T + M A M
  *
@@ -26,7 +27,7 @@
  * eta), E = cov(e) follows without any approximation. See docs/covariance.md. */
 #pragma once
 
-#include <fastlio/filter/scan_pose.h>
+#include <fastlio/filter/update.h>
 #include <fastlio/odometry/plane_groups.h>
 
 #include <cstdint>
@@ -48,8 +49,8 @@ struct LinearizedUpdate
 {
   Pose T_world_scan;                               //!< scan pose of the posterior
   ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B there
-  Matrix6 constrained = Matrix6::Identity();    //!< projection of the scan pose on what was updated
-  StateMatrix posterior = StateMatrix::Zero();  //!< the filter's own P after the update
+  Matrix6 constrained = Matrix6::Identity();  //!< projection of the scan pose on what was updated
+  ScanGain gain = ScanGain::Zero();           //!< G of the filter's gain
 };
 
 /** Tracks what the map's errors do to the whole state. */

@@ -5,6 +5,7 @@
  * keys (group.key); unit, range and effect stand in the table of parameter_table.cpp. */
 #pragma once
 
+#include <fastlio/filter/gravity.h>
 #include <fastlio/filter/imu.h>
 #include <fastlio/filter/pose.h>
 #include <fastlio/filter/update.h>
@@ -46,6 +47,7 @@ struct InitializationParameters
   double motion_gyro_bias_std =
       0.017453292519943295;              //!< prior of the gyro bias in motion, zero mean [rad/s]
   double motion_max_velocity_std = 0.5;  //!< a start in motion knows its velocity so well [m/s]
+  GravityModel gravity_model = GravityModel::Free;
   bool align_with_gravity = true;  //!< world z axis up; false: world = first IMU frame (paper)
 };
 

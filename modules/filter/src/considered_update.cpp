@@ -1,0 +1,64 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/filter/update.h>
+
+namespace fastlio
+{
+namespace
+{
+using Square = Eigen::Matrix<double, kStateDim, kStateDim>;
+
+/** Takes the direction \a axis out of one block. */
+void takeOut(Square& projection, StateBlock block, const Vec3& axis)
+{
+  const Mat3 rest = Mat3::Identity() - axis * axis.transpose();
+  projection.block<3, 3>(block, block) = rest * projection.block<3, 3>(block, block).eval();
+}
+
+/** Identity but for what belongs to the directions. */
+Square estimatedPart(const std::vector<MotionDirection>& directions, const Mat3& R)
+{
+  Square projection = Square::Identity();
+  for (const MotionDirection& direction : directions)
+  {
+    const Vec3& axis = direction.axis;
+    if (direction.is_rotation)
+    {
+      takeOut(projection, kAttitude, axis);
+      takeOut(projection, kGyroBias, axis);
+      continue;
+    }
+    takeOut(projection, kPosition, axis);
+    takeOut(projection, kVelocity, axis);
+    takeOut(projection, kAccelBias, R.transpose() * axis);
+    takeOut(projection, kGravity, axis);
+  }
+  return projection;
+}
+}  // namespace
+
+/* With the full step's K = G H_6^T R^-1: K (z - H d) = -(dx + d), K H = G S B, K R K^T = G S G^T.
+ * The partial gain is the projection of K. */
+UpdateStep consideringStep(
+    const FilterState& prior, const NavState& iterate, const UpdateStep& step,
+    const MeasurementEvaluation& evaluation)
+{
+  const StateVector d = boxminus(iterate, prior.x);
+  const Square J_inv = priorJacobianInverse(iterate, prior.x);
+  const Square P = J_inv * prior.P * J_inv.transpose();
+  const Square projection = estimatedPart(evaluation.unconstrained, iterate.R);
+  const Eigen::Matrix<double, 6, kStateDim> B = evaluation.by_state;
+  const Eigen::Matrix<double, 6, 6> S = evaluation.sums.HtRinvH;
+  const Eigen::Matrix<double, kStateDim, 6> gain = projection * step.gain;
+  const Square keep = Square::Identity() - gain * S * B;
+
+  UpdateStep partial;
+  partial.dx = -d + projection * (step.dx + d);
+  partial.gain = gain;
+  partial.P = keep * P * keep.transpose() + gain * S * gain.transpose();
+  partial.P = 0.5 * (partial.P + partial.P.transpose()).eval();
+  return partial;
+}
+
+}  // namespace fastlio
