@@ -88,7 +88,7 @@ PlaneVoxel::Contents PlaneVoxel::contents() const
 void PlaneVoxel::setContents(const Contents& c)
 {
   const VoxelPlane& p = c.plane;
-  float all = p.nx + p.ny + p.nz + p.d + p.qx + p.qy + p.qz + p.variance + p.inverse_count;
+  float all = p.nx + p.ny + p.nz + p.roughness + p.qx + p.qy + p.qz + p.variance + p.inverse_count;
   all += c.count + c.fitted_count;
   for (const float number : p.leverage)
     all += number;

@@ -29,14 +29,16 @@ void read(CArchive& in, std::array<float, kCount>& numbers)
 
 void write(CArchive& out, const VoxelPlane& p)
 {
-  out << p.nx << p.ny << p.nz << p.d << p.qx << p.qy << p.qz << p.variance << p.inverse_count;
+  out << p.nx << p.ny << p.nz << p.roughness << p.qx << p.qy << p.qz << p.variance
+      << p.inverse_count;
   write(out, p.leverage);
   out << p.born;
 }
 
 void read(CArchive& in, VoxelPlane& p)
 {
-  in >> p.nx >> p.ny >> p.nz >> p.d >> p.qx >> p.qy >> p.qz >> p.variance >> p.inverse_count;
+  in >> p.nx >> p.ny >> p.nz >> p.roughness >> p.qx >> p.qy >> p.qz >> p.variance >>
+      p.inverse_count;
   read(in, p.leverage);
   in >> p.born;
 }

@@ -71,6 +71,6 @@ inline PlaneRules rulesWithNoise(double noise)
 inline double distanceTo(const VoxelPlane& plane, const Vector3d& p)
 {
   return double(plane.nx) * p.x() + double(plane.ny) * p.y() + double(plane.nz) * p.z() +
-         double(plane.d);
+         double(plane.offset());
 }
 }  // namespace fastlio::test

@@ -77,14 +77,14 @@ struct Expected
 };
 
 /** The plane of three scales with the least variance at the point. */
-Expected bestOf(const std::vector<BruteForceScale>& scales, const Xyz& p, float noise)
+Expected bestOf(const std::vector<BruteForceScale>& scales, const Xyz& p)
 {
   Expected best;
   for (const BruteForceScale& scale : scales)
   {
     const VoxelPlane plane = scale.planeAt(p);
     if (!plane.valid()) continue;
-    const float variance = plane.offsetVariance(p.x, p.y, p.z) + plane.variance - noise * noise;
+    const float variance = plane.offsetVariance(p.x, p.y, p.z) + plane.roughness;
     if (best.variance < 0 || variance < best.variance) best = {plane, variance};
   }
   return best;
@@ -108,7 +108,7 @@ TEST(VoxelPlaneMap, EqualsThreeVoxelGridsAndTakesTheBestScale)
   std::size_t valid = 0;
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
-    const Expected best = bestOf(scales, queries.points[i], options.rules.point_noise);
+    const Expected best = bestOf(scales, queries.points[i]);
     ASSERT_EQ(matches[i].valid(), best.variance >= 0) << i;
     if (!matches[i].valid()) continue;
     ++valid;
@@ -117,7 +117,7 @@ TEST(VoxelPlaneMap, EqualsThreeVoxelGridsAndTakesTheBestScale)
     EXPECT_FLOAT_EQ(matches[i].nx, best.plane.nx);
     EXPECT_FLOAT_EQ(matches[i].ny, best.plane.ny);
     EXPECT_FLOAT_EQ(matches[i].nz, best.plane.nz);
-    EXPECT_FLOAT_EQ(matches[i].d, best.plane.d);
+    EXPECT_FLOAT_EQ(matches[i].d, best.plane.offset());
     EXPECT_LE(matches[i].shared_variance, matches[i].variance + 1e-9F);
   }
   EXPECT_GT(valid, queries.size() * 8 / 10);
