@@ -16,6 +16,12 @@ no backward propagation | lidar.deskew=false
 single update | update.max_iterations=1
 samples held from the left (paper) | imu.hold=left
 zero velocity at rest | rest.enabled=true
+directions without information updated, too | measurement.min_signal_to_noise=0
+robust kernel: huber | measurement.robust_kernel=huber
+robust kernel: cauchy | measurement.robust_kernel=cauchy
+gravity on its sphere | initialization.gravity_model=sphere
+time offset estimated | calibration.estimate_time_offset=true
+extrinsic estimated | calibration.estimate_extrinsic=true
 automatic start | initialization.mode=auto
 exact neighbours (paper) | map.type=knn
 paper: features, exact neighbours, left hold | features.mode=planar_and_edge map.type=knn imu.hold=left

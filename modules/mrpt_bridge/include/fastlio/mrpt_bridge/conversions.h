@@ -13,8 +13,8 @@
 
 namespace fastlio
 {
-/** Nanoseconds since the UNIX epoch; MRPT's clock ticks in units of 100 ns. Stamps more than 146 years
- * from 1970 (INVALID_TIMESTAMP, corrupt ones) are brought to that limit. */
+/** Nanoseconds since the UNIX epoch; MRPT's clock ticks in units of 100 ns. Stamps more than 146
+ * years from 1970 (INVALID_TIMESTAMP, corrupt ones) are brought to that limit. */
 [[nodiscard]] std::int64_t toNanoseconds(const mrpt::Clock::time_point& stamp);
 
 /** The inverse of toNanoseconds(), rounded to the nearest tick of 100 ns. */

@@ -119,11 +119,11 @@ struct MeasurementParameters
   double range_noise = 0.02;             //!< standard deviation of a range [m]
   double max_normalized_residual = 3.0;  //!< gate, in standard deviations of residual and prior
   RobustKernel robust_kernel = RobustKernel::None;
-  double robust_scale = 2.0;         //!< of the kernel, in standard deviations of the residual
-  int min_effective_points = 20;     //!< fewer matches: the scan is not used
-  int association_iterations = 2;    //!< iterations that search the map anew
-  double min_signal_to_noise = 3.0;  //!< less: a direction is left alone; 0: never
-  double max_unaided_time = 3.0;     //!< longer without an update: the pose is not trusted [s]
+  double robust_scale = 2.0;          //!< of the kernel, in standard deviations of the residual
+  int min_effective_points = 20;      //!< fewer matches: the scan is not used
+  int association_iterations = 2;     //!< iterations that search the map anew
+  double min_signal_to_noise = 10.0;  //!< less: a direction is left alone; 0: never
+  double max_unaided_time = 3.0;      //!< longer without an update: the pose is not trusted [s]
 };
 
 /** Which map the scans are matched with. */
