@@ -79,6 +79,15 @@ std::string speedText(const RunSummary& run)
          fixedText(run.statistics.computeSeconds(), 2) + " s odometry)";
 }
 
+std::string openText(const OpenDirections& open)
+{
+  const Vec3& axis = open.weakest.axis;
+  return std::to_string(open.scans) + " scans did not see a " +
+         (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
+         fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) +
+         "]: there the pose is inertial only, and its covariance grows";
+}
+
 std::string filesText(const std::vector<OutputFile>& files)
 {
   std::size_t width = 0;
@@ -128,6 +137,8 @@ std::string reportText(const RunSummary& summary)
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));
   if (!lost.empty()) text += line("Dropped", countsText(lost));
+  if (statistics.openDirections().scans > 0)
+    text += line("Open", openText(statistics.openDirections()));
   text += filesText(summary.outputs);
   return text + line(
                     "Status", std::string(toString(status)) + " (exit status " +

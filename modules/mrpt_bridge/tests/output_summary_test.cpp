@@ -101,6 +101,31 @@ TEST(ExitStatus, IsNotOkWithoutAPoseOrAfterAnUnexpectedError)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
 }
 
+/** A scan in a tunnel along x. */
+ScanResult tunnelScan(double signal_to_noise)
+{
+  ScanResult result = resultAt(1, ScanStatus::Tracking, 0, 1);
+  ScanConstraints& constraints = result.statistics.constraints;
+  constraints.unconstrained = 1;
+  constraints.directions.col(0) = Vector6::Unit(3);
+  constraints.information[0] = signal_to_noise;
+  constraints.noise_information[0] = 1.0;
+  return result;
+}
+
+TEST(RunStatistics, KnowsWhereDirectionsWereOpen)
+{
+  RunStatistics statistics;
+  statistics.add(resultAt(0, ScanStatus::Tracking, 0, 1));
+  EXPECT_EQ(statistics.openDirections().scans, 0U);
+  for (const double signal_to_noise : {4.0, 2.0, 3.0})
+    statistics.add(tunnelScan(signal_to_noise));
+  EXPECT_EQ(statistics.openDirections().scans, 3U);
+  EXPECT_EQ(statistics.openDirections().signal_to_noise, 2.0);
+  EXPECT_FALSE(statistics.openDirections().weakest.is_rotation);
+  EXPECT_EQ(statistics.openDirections().weakest.axis, Vec3::UnitX());
+}
+
 Json writtenSummary(const RunSummary& run)
 {
   const TemporaryFolder folder;
@@ -156,6 +181,25 @@ TEST(SummaryJson, SurvivesTextThatIsNotUtf8)
   RunSummary run = goodRun();
   run.input_problems = {"label '\xff\xfe'"};
   EXPECT_EQ(writtenSummary(run)["status"], "input_broken");
+}
+
+TEST(Summary, HasTheCalibrationThatWasAskedFor)
+{
+  RunSummary run;
+  ScanResult result = resultAt(0, ScanStatus::Tracking, 0, 1);
+  result.filter.x.time_offset = 0.004;
+  result.filter.P(kTimeOffset, kTimeOffset) = 1e-6;
+  result.filter.x.extrinsic_correction.p = {0.01, 0.02, 0.03};
+  run.statistics.add(result);
+  EXPECT_TRUE(writtenSummary(run)["calibration"].is_null());
+  run.parameters.lidar.time_offset = 0.001;
+  run.parameters.calibration.estimate_time_offset = true;
+  run.parameters.calibration.estimate_extrinsic = true;
+  const Json calibration = writtenSummary(run)["calibration"];
+  EXPECT_NEAR(double(calibration["time_offset_s"]), 0.005, 1e-12);
+  EXPECT_NEAR(double(calibration["time_offset_sigma_s"]), 0.001, 1e-12);
+  EXPECT_EQ(calibration["translation_correction_m"][2], 0.03);
+  EXPECT_TRUE(calibration.contains("rotation_sigma_deg"));
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ void RunStatistics::add(const ScanResult& result)
   points_ = plus(points_, result.statistics);
   compute_ms_ += result.milliseconds.total;
   if (hasPose(result.status)) addPose(result);
+  if (result.statistics.constraints.unconstrained > 0) addOpenDirections(result);
   if (result.status == ScanStatus::Initializing)
     not_initialized_ = trouble;
   else if (
@@ -58,8 +59,25 @@ void RunStatistics::add(const ScanResult& result)
     troubles_.push_back(trouble);
 }
 
+void RunStatistics::addOpenDirections(const ScanResult& result)
+{
+  const ScanConstraints& constraints = result.statistics.constraints;
+  const double noise = constraints.noise_information[0];
+  const double signal_to_noise = noise > 0.0 ? constraints.information[0] / noise : 0.0;
+  if (open_.scans++ == 0)
+  {
+    open_.first_ns = result.stamp_ns;
+    open_.signal_to_noise = signal_to_noise;
+  }
+  open_.last_ns = result.stamp_ns;
+  if (signal_to_noise > open_.signal_to_noise) return;
+  open_.signal_to_noise = signal_to_noise;
+  open_.weakest = unconstrainedMotions(constraints).front();
+}
+
 void RunStatistics::addPose(const ScanResult& result)
 {
+  last_state_ = result.filter;
   const Vec3& position = result.filter.x.p;
   if (last_position_) path_length_ += (position - *last_position_).norm();
   last_position_ = position;

@@ -6,7 +6,10 @@
 #include <fastlio/odometry/parameter_table.h>
 #include <fastlio/odometry/parameter_text.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace fastlio
 {
@@ -95,6 +98,51 @@ Json troublesJson(const RunStatistics& statistics)
   return json;
 }
 
+Json vectorJson(const Vec3& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
+
+Json openDirectionsJson(const OpenDirections& open)
+{
+  if (open.scans == 0) return {{"scans", 0}};
+  return {
+      {"scans", open.scans},
+      {"first", secondsText(open.first_ns)},
+      {"last", secondsText(open.last_ns)},
+      {"weakest",
+       {{open.weakest.is_rotation ? "rotation_about_imu_axis" : "translation_along_world_axis",
+         vectorJson(open.weakest.axis)},
+        {"signal_to_noise", open.signal_to_noise}}}};
+}
+
+/** The calibration as estimated at the end: changes against what was given, and their standard
+ * deviations; null when nothing of it is estimated. */
+Json calibrationJson(const RunSummary& run)
+{
+  const CalibrationParameters& p = run.parameters.calibration;
+  const std::optional<FilterState>& last = run.statistics.lastState();
+  Json json = nullptr;
+  if (!last) return json;
+  const auto sigma = [&](StateBlock block)
+  { return Vec3(last->P.diagonal().segment<3>(block).cwiseMax(0.0).cwiseSqrt()); };
+  constexpr double kDegPerRad = 57.29577951308232;
+  if (p.estimate_extrinsic)
+  {
+    const Pose& C = last->x.extrinsic_correction;
+    json["rotation_correction_deg"] = vectorJson(kDegPerRad * logSO3(C.R));
+    json["rotation_sigma_deg"] = vectorJson(kDegPerRad * sigma(kExtrinsicRotation));
+    json["translation_correction_m"] = vectorJson(C.p);
+    json["translation_sigma_m"] = vectorJson(sigma(kExtrinsicTranslation));
+  }
+  if (p.estimate_time_offset)
+  {
+    json["time_offset_s"] = run.parameters.lidar.time_offset + last->x.time_offset;
+    json["time_offset_sigma_s"] = std::sqrt(std::max(0.0, last->P(kTimeOffset, kTimeOffset)));
+  }
+  return json;
+}
+
 Json timeJson(const RunSummary& run)
 {
   const ScanTimeSummary ms = run.statistics.scanTimes();
@@ -125,6 +173,8 @@ Json summaryJson(const RunSummary& run)
       {"points", pointsJson(run.statistics.points())},
       {"path_length_m", run.statistics.pathLength()},
       {"time", timeJson(run)},
+      {"open_directions", openDirectionsJson(run.statistics.openDirections())},
+      {"calibration", calibrationJson(run)},
       {"first_trouble", trouble ? troubleJson(*trouble) : Json(nullptr)},
       {"troubles", troublesJson(run.statistics)},
       {"outputs", filesJson(run.outputs)},

@@ -41,6 +41,15 @@ struct PointTotals
   std::size_t in = 0, invalid = 0, near = 0, far = 0, reduced = 0, effective = 0;
 };
 
+/** Scans that did not constrain all directions of motion. */
+struct OpenDirections
+{
+  std::size_t scans = 0;
+  std::int64_t first_ns = 0, last_ns = 0;  //!< stamps of the first and the last of them
+  MotionDirection weakest;                 //!< of the scan that told least
+  double signal_to_noise = 0.0;            //!< its information over that of noise in the normals
+};
+
 /** Digest of the ScanResults of a run. */
 class RunStatistics
 {
@@ -66,15 +75,23 @@ class RunStatistics
   /** The first kMaxTroubles scans that were predicted only or diverged. */
   [[nodiscard]] const std::vector<Trouble>& troubles() const { return troubles_; }
 
+  /** Where scans left directions of motion open. */
+  [[nodiscard]] const OpenDirections& openDirections() const { return open_; }
+  /** The last pose's state and covariance: what has become of the calibration. */
+  [[nodiscard]] const std::optional<FilterState>& lastState() const { return last_state_; }
+
   static constexpr std::size_t kMaxTroubles = 20;
 
  private:
   void addPose(const ScanResult& result);
+  void addOpenDirections(const ScanResult& result);
 
   std::size_t scans_ = 0;
   std::array<std::size_t, kScanStatusCount> counts_{};
   std::int64_t begin_ns_ = 0, end_ns_ = 0;
   std::optional<Vec3> last_position_;
+  std::optional<FilterState> last_state_;
+  OpenDirections open_;
   double path_length_ = 0;
   double compute_ms_ = 0;
   std::vector<float> scan_ms_;  //!< one per pose: 35 MB for a day and a night at 100 Hz
