@@ -4,6 +4,7 @@
 #include <fastlio/odometry/map_error.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 
@@ -46,6 +47,18 @@ AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
   const Eigen::LLT<AlignedMatrix6> llt(m + floor);
   return llt.info() == Eigen::Success ? AlignedMatrix6(llt.matrixL())
                                       : AlignedMatrix6(AlignedMatrix6::Zero());
+}
+
+/** The gain with which the map's errors are passed on: they reach the scan pose and with it the
+ * body's pose, while the calibration, which all scans determine together, is taken as it is. */
+AlignedStateBy6 gainOf(const LinearizedUpdate& update)
+{
+  const Eigen::Matrix<double, 6, kStateDim> B = update.by_state;
+  AlignedStateBy6 gain = update.gain;
+  const AlignedMatrix6 scan_pose = B * gain;
+  gain.topRows<6>() = AlignedMatrix6(B.leftCols<6>()).partialPivLu().solve(scan_pose);
+  gain.bottomRows<kCalibrationDim>().setZero();
+  return gain * update.constrained.transpose();
 }
 
 /** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
@@ -110,7 +123,7 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
   const AlignedMatrix6 C_founding = M * squareRoot(foundingCovariance(scan.groups));
 
-  const AlignedStateBy6 gain = update.gain * update.constrained.transpose();
+  const AlignedStateBy6 gain = gainOf(update);
   const AlignedStateMatrix keep = AlignedStateMatrix::Identity() -
                                   gain * scan.information * (update.constrained * update.by_state);
   const AlignedStateBy6 G = gain * L.transpose();

@@ -3,6 +3,7 @@
 
 #include "scan_pipeline.h"
 
+#include "calibration_prior.h"
 #include "map_factory.h"
 #include "prediction.h"
 #include "stopwatch.h"
@@ -18,19 +19,6 @@ namespace fastlio
 namespace
 {
 constexpr double kNsToS = 1e-9;
-
-/** The calibration's prior; what is not estimated is known exactly. */
-void addCalibrationPrior(StateMatrix& P, const CalibrationParameters& p)
-{
-  const auto set = [&P](StateBlock block, int size, double std)
-  { P.diagonal().segment(block, size).setConstant(std * std); };
-  if (p.estimate_extrinsic)
-  {
-    set(kExtrinsicRotation, 3, p.extrinsic_rotation_std);
-    set(kExtrinsicTranslation, 3, p.extrinsic_translation_std);
-  }
-  if (p.estimate_time_offset) set(kTimeOffset, 1, p.time_offset_std);
-}
 
 Vector6 eigenvalues(const Matrix6& m)
 {
@@ -69,7 +57,7 @@ void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const 
 {
   young_map_ = young_map;
   filter_ = state;
-  addCalibrationPrior(filter_.P, parameters_.calibration);
+  filter_ = withCalibrationPrior(filter_, parameters_.calibration);
   constrainGravity();
   state_ns_ = stamp_ns;
   last_update_ns_ = stamp_ns;

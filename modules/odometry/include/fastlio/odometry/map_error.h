@@ -70,7 +70,7 @@ class MapErrorModel
   /** The same, some way after the last scan. \param transition product of the Fx since then */
   [[nodiscard]] StateMatrix additionAfter(const StateMatrix& transition) const;
 
-  /** Remembers with what total pose covariance insertion number \a scan was made. */
+  /** Remembers with what total covariance of the scan pose insertion number \a scan was made. */
   void recordInsertion(std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu);
 
  private:

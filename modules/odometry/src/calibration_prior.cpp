@@ -1,0 +1,25 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "calibration_prior.h"
+
+namespace fastlio
+{
+FilterState withCalibrationPrior(const FilterState& start, const CalibrationParameters& p)
+{
+  FilterState s = start;
+  if (p.estimate_time_offset) s.P(kTimeOffset, kTimeOffset) = p.time_offset_std * p.time_offset_std;
+  if (!p.estimate_extrinsic) return s;
+  const auto set = [&s](StateBlock block, double std)
+  { s.P.diagonal().segment<3>(block).setConstant(std * std); };
+  set(kExtrinsicRotation, p.extrinsic_rotation_std);
+  set(kExtrinsicTranslation, p.extrinsic_translation_std);
+  StateMatrix bear = StateMatrix::Identity();
+  bear.block<3, 3>(kAttitude, kExtrinsicRotation) = -Mat3::Identity();
+  bear.block<3, 3>(kPosition, kExtrinsicTranslation) = -s.x.R;
+  bear.block<3, 3>(kGravity, kExtrinsicRotation) = s.x.R * skew(s.x.R.transpose() * s.x.g);
+  s.P = (bear * s.P * bear.transpose()).eval();
+  return s;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,21 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file calibration_prior.h What is known of the LiDAR's calibration at the start. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/odometry/parameters.h>
+
+namespace fastlio
+{
+/** The state at the start with the prior of the calibration; what is not estimated is known
+ * exactly.
+ *
+ * The map begins with the first scan, so that scan's pose has no error, whatever that of the
+ * extrinsic: attitude and position of the body bear its opposite, and gravity, known in the body
+ * frame, turns with the attitude. */
+[[nodiscard]] FilterState withCalibrationPrior(
+    const FilterState& start, const CalibrationParameters& parameters);
+
+}  // namespace fastlio

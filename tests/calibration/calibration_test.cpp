@@ -1,0 +1,146 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file calibration_test.cpp Does the odometry find a wrong extrinsic and a wrong clock? Simulated
+ * recordings whose calibration the filter is not told. */
+
+#include "simulated_run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio::testing
+{
+namespace
+{
+SimulationSettings officeWalk()
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.duration = 20.0;
+  settings.lidar.stride = 4;
+  return settings;
+}
+
+/** Parameters as of a user who trusts what the sensors' files say. */
+Parameters unawareParameters(const SimulationSettings& settings)
+{
+  Parameters parameters = matchingParameters(settings);
+  parameters.lidar.time_offset = 0.0;
+  parameters.threads = 1;
+  return parameters;
+}
+
+double positionError(const SimulatedRun& run)
+{
+  EvaluationOptions options;
+  options.alignment = Alignment::Se3;
+  return evaluate(estimateOf(run), truthOf(run), options).ape.translation.rmse;
+}
+
+TEST(Calibration, FindsTheTimeOffset)
+{
+  for (const double offset : {-0.008, 0.008})
+  {
+    SimulationSettings settings = officeWalk();
+    settings.lidar.time_offset = offset;
+    Parameters parameters = unawareParameters(settings);
+    const SimulatedRun without = runOdometry(Simulation(settings), parameters);
+    parameters.calibration.estimate_time_offset = true;
+    const SimulatedRun with = runOdometry(Simulation(settings), parameters);
+    const FilterState& end = with.scans.back().result.filter;
+    EXPECT_NEAR(end.x.time_offset, -offset, 0.001) << "s";
+    EXPECT_LT(std::sqrt(end.P(kTimeOffset, kTimeOffset)), 0.001) << "s";
+    EXPECT_LT(positionError(with), 0.7 * positionError(without)) << "m";
+  }
+}
+
+/** Runs on scans that come with a wrong extrinsic: the true one is \a correction times theirs. */
+FilterState endOfMiscalibratedRun(const Pose& correction, const Parameters& parameters)
+{
+  const Simulation simulation(officeWalk());
+  Odometry odometry(parameters);
+  for (const ImuSample& sample : simulation.imu().samples)
+    odometry.addImu(sample);
+  FilterState end;
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+  {
+    LidarScan scan = simulation.scan(i);
+    scan.T_imu_lidar = correction.inverse() * scan.T_imu_lidar;
+    odometry.addScan(std::move(scan));
+    while (const auto result = odometry.next())
+      end = result->filter;
+  }
+  return end;
+}
+
+TEST(Calibration, FindsTheExtrinsic)
+{
+  const Pose correction{expSO3(Vec3(0.02, -0.015, 0.01)), Vec3(0.03, -0.02, 0.0)};
+  Parameters parameters = unawareParameters(officeWalk());
+  parameters.calibration.estimate_extrinsic = true;
+  const FilterState end = endOfMiscalibratedRun(correction, parameters);
+  const Pose error = correction.inverse() * end.x.extrinsic_correction;
+  EXPECT_LT(logSO3(error.R).norm(), 0.004) << "rad; it was 0.027";
+  // The walk turns about the vertical: it tells the horizontal position, of the height it tells
+  // little, and says so.
+  EXPECT_LT(error.p.head<2>().norm(), 0.015) << "m; it was 0.036";
+  const Vec3 sigma = end.P.diagonal().segment<3>(kExtrinsicTranslation).cwiseSqrt();
+  EXPECT_LT(sigma.head<2>().maxCoeff(), 0.01);
+  EXPECT_GT(sigma.z(), 2.0 * sigma.head<2>().minCoeff());
+}
+
+TEST(Calibration, StaysAsGivenUnlessAskedFor)
+{
+  const Pose correction{expSO3(Vec3(0.01, 0.0, 0.0)), Vec3(0.02, 0.0, 0.0)};
+  const FilterState end = endOfMiscalibratedRun(correction, unawareParameters(officeWalk()));
+  EXPECT_EQ(end.x.extrinsic_correction.R, Mat3::Identity());
+  EXPECT_EQ(end.x.extrinsic_correction.p, Vec3::Zero());
+  EXPECT_EQ(end.x.time_offset, 0.0);
+}
+
+TEST(GravityOnSphere, KeepsItsMagnitudeAllAlong)
+{
+  SimulationSettings settings = officeWalk();
+  settings.duration = 8.0;
+  Parameters parameters = unawareParameters(settings);
+  parameters.initialization.gravity_model = GravityModel::Sphere;
+  const SimulatedRun on_sphere = runOdometry(Simulation(settings), parameters);
+  parameters.initialization.gravity_model = GravityModel::Free;
+  const SimulatedRun free = runOdometry(Simulation(settings), parameters);
+  double moved = 0.0;
+  for (const JudgedScan& scan : free.scans)
+    moved = std::max(moved, std::abs(scan.result.filter.x.g.norm() - settings.gravity));
+  EXPECT_GT(moved, 1e-5) << "m/s^2: a free vector does not";
+  for (const JudgedScan& scan : on_sphere.scans)
+  {
+    const double magnitude = scan.result.filter.x.g.norm();
+    EXPECT_NEAR(magnitude, parameters.initialization.gravity, 1e-9);
+  }
+}
+
+TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
+{
+  SimulationSettings settings = defaultSettings("tunnel");
+  settings.duration = 12.0;
+  settings.lidar.stride = 4;
+  Parameters parameters = unawareParameters(settings);
+  const auto sigmaAlong = [&](double min_signal_to_noise, std::size_t& open)
+  {
+    parameters.measurement.min_signal_to_noise = min_signal_to_noise;
+    const SimulatedRun run = runOdometry(Simulation(settings), parameters);
+    for (const JudgedScan& scan : run.scans)
+      open += scan.result.statistics.constraints.unconstrained > 0 ? 1 : 0;
+    const Mat3 P = run.scans.back().result.filter.P.block<3, 3>(kPosition, kPosition);
+    return std::sqrt(P.diagonal().maxCoeff());
+  };
+  std::size_t open = 0, open_when_off = 0;
+  const double told = sigmaAlong(MeasurementParameters{}.min_signal_to_noise, open);
+  const double fooled = sigmaAlong(0.0, open_when_off);
+  EXPECT_GT(open, 50U);
+  EXPECT_EQ(open_when_off, 0U);
+  EXPECT_GT(told, 3.0 * fooled) << "m";
+}
+}  // namespace
+}  // namespace fastlio::testing
