@@ -93,8 +93,8 @@ PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, flo
 }  // namespace
 
 void matchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points,
-    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches)
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
+    std::size_t last, std::vector<PlaneMatch>& matches)
 {
   Batch batch;
   for (std::size_t begin = first; begin < last; begin += kBatch)

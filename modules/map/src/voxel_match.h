@@ -15,7 +15,7 @@ namespace fastlio
 {
 /** Writes matches[first..last). */
 void matchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points,
-    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches);
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
+    std::size_t last, std::vector<PlaneMatch>& matches);
 
 }  // namespace fastlio
