@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "local_points.h"
 #include <fastlio/map/edge_map.h>
 #include <fastlio/map/plane_fit.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -48,26 +48,10 @@ CIncrementalPointsMap::TCreationOptions creationOptions(const EdgeMapOptions& o)
   return options;
 }
 
-/** Points of a query's neighbours, relative to the query so that single precision loses nothing. */
-struct LocalPoints
-{
-  std::array<Eigen::Vector3d, kMaxNeighbors> items;
-  std::size_t count = 0;
-};
-
-LocalPoints localPoints(const NeighborSet& neighbors, float x, float y, float z)
-{
-  LocalPoints local;
-  for (const Neighbor& n : neighbors)
-    local.items[local.count++] = {
-        static_cast<double>(n.x) - x, static_cast<double>(n.y) - y, static_cast<double>(n.z) - z};
-  return local;
-}
-
 bool isStraight(const LineFit& fit, const LocalPoints& points, double max_distance)
 {
   return std::all_of(
-      points.items.begin(), points.items.begin() + static_cast<std::ptrdiff_t>(points.count),
+      points.begin(), points.end(),
       [&](const Eigen::Vector3d& p) { return fit.distance(p) <= max_distance; });
 }
 

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "local_points.h"
 #include <fastlio/map/knn_surface_map.h>
 #include <fastlio/map/plane_fit.h>
 
@@ -64,29 +65,11 @@ CIncrementalPointsMap::TCreationOptions creationOptions(const KnnSurfaceMapOptio
   return options;
 }
 
-/** Points of a query's neighbours, relative to the query so that single precision loses nothing. */
-struct LocalPoints
-{
-  std::array<Eigen::Vector3d, kMaxNeighbors> items;
-  std::size_t count = 0;
-};
-
-LocalPoints localPoints(const NeighborSet& neighbors, float x, float y, float z)
-{
-  LocalPoints local;
-  for (const Neighbor& n : neighbors)
-  {
-    local.items[local.count++] = {
-        static_cast<double>(n.x) - x, static_cast<double>(n.y) - y, static_cast<double>(n.z) - z};
-  }
-  return local;
-}
-
 /** Whether every point is near enough to the plane to call it one. */
 bool isFlat(const PlaneFit& fit, const LocalPoints& points, double max_distance)
 {
   return std::all_of(
-      points.items.begin(), points.items.begin() + static_cast<std::ptrdiff_t>(points.count),
+      points.begin(), points.end(),
       [&](const Eigen::Vector3d& p) { return std::abs(fit.distance(p)) <= max_distance; });
 }
 
