@@ -91,6 +91,23 @@ TEST(Calibration, FindsTheExtrinsic)
   EXPECT_GT(sigma.z(), 2.0 * sigma.head<2>().minCoeff());
 }
 
+// The first seconds see the ground and hardly anything else: what they leave open must not be
+// blamed on the calibration, which is unsure then.
+TEST(Calibration, KeepsItsWayWhereTheStartSeesLittle)
+{
+  SimulationSettings settings = defaultSettings("open_area");
+  settings.duration = 14.0;
+  Parameters parameters = unawareParameters(settings);
+  parameters.calibration.estimate_extrinsic = true;
+  const SimulatedRun run = runOdometry(Simulation(settings), parameters);
+  std::size_t open = 0;
+  for (const JudgedScan& scan : run.scans)
+    open += scan.result.statistics.constraints.unconstrained > 0 ? 1 : 0;
+  EXPECT_GT(open, 10U);
+  EXPECT_LT(open, run.scans.size() / 2);
+  EXPECT_LT(positionError(run), 0.05) << "m";
+}
+
 TEST(Calibration, StaysAsGivenUnlessAskedFor)
 {
   const Pose correction{expSO3(Vec3(0.01, 0.0, 0.0)), Vec3(0.02, 0.0, 0.0)};

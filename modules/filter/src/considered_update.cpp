@@ -3,6 +3,8 @@
 
 #include <fastlio/filter/update.h>
 
+#include <Eigen/LU>
+
 namespace fastlio
 {
 namespace
@@ -13,13 +15,27 @@ using Square = Eigen::Matrix<double, kStateDim, kStateDim>;
 void takeOut(Square& projection, StateBlock block, const Vec3& axis)
 {
   const Mat3 rest = Mat3::Identity() - axis * axis.transpose();
-  projection.block<3, 3>(block, block) = rest * projection.block<3, 3>(block, block).eval();
+  projection.middleRows<3>(block) = rest * projection.middleRows<3>(block).eval();
 }
 
-/** Identity but for what belongs to the directions. */
-Square estimatedPart(const std::vector<MotionDirection>& directions, const Mat3& R)
+/** Moves the body where the full step moves the scan, and leaves the calibration as it is: a scan
+ * that cannot tell where the body is cannot tell where the LiDAR is on it, nor when it was there.
+ */
+Square withoutCalibration(const ScanPoseJacobian& by_state)
 {
+  const Eigen::Matrix<double, 6, kStateDim> B = by_state;
   Square projection = Square::Identity();
+  projection.topRows<6>() = B.leftCols<6>().partialPivLu().solve(B);
+  projection.bottomRows<kCalibrationDim>().setZero();
+  return projection;
+}
+
+/** What of the full step is taken. */
+Square estimatedPart(
+    const std::vector<MotionDirection>& directions, const ScanPoseJacobian& by_state, const Mat3& R)
+{
+  if (directions.empty()) return Square::Identity();
+  Square projection = withoutCalibration(by_state);
   for (const MotionDirection& direction : directions)
   {
     const Vec3& axis = direction.axis;
@@ -47,7 +63,7 @@ UpdateStep consideringStep(
   const StateVector d = boxminus(iterate, prior.x);
   const Square J_inv = priorJacobianInverse(iterate, prior.x);
   const Square P = J_inv * prior.P * J_inv.transpose();
-  const Square projection = estimatedPart(evaluation.unconstrained, iterate.R);
+  const Square projection = estimatedPart(evaluation.unconstrained, evaluation.by_state, iterate.R);
   const Eigen::Matrix<double, 6, kStateDim> B = evaluation.by_state;
   const Eigen::Matrix<double, 6, 6> S = evaluation.sums.HtRinvH;
   const Eigen::Matrix<double, kStateDim, 6> gain = projection * step.gain;

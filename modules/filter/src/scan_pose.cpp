@@ -62,4 +62,11 @@ ScanPoseJacobian scanPoseJacobian(const NavState& x, const CompensatedWith& comp
   return J;
 }
 
+Matrix6 scanPoseCovariance(const FilterState& s, const CompensatedWith& compensation)
+{
+  const Eigen::Matrix<double, 6, kStateDim> B = scanPoseJacobian(s.x, compensation);
+  const Eigen::Matrix<double, kStateDim, kStateDim> P = s.P;
+  return B * P * B.transpose();
+}
+
 }  // namespace fastlio

@@ -55,6 +55,34 @@ TEST(ConsideringStep, leavesTheDirectionAloneInAllBlocks)
   EXPECT_GT(test::eigenvaluesOf(step.P).minCoeff(), 0.0);
 }
 
+// The scan pose is known well, the calibration hardly: the gain of body pose and calibration each
+// is large, with opposite signs. Taking one without the other would throw the scan off.
+TEST(ConsideringStep, leavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
+{
+  Random random(75);
+  FilterState prior{random.state(), random.covariance(1e-3, 1e-2)};
+  prior.P.block<3, 3>(kExtrinsicTranslation, kExtrinsicTranslation) += 0.04 * Mat3::Identity();
+  prior.P.block<3, 3>(kPosition, kPosition) += 0.04 * Mat3::Identity();
+  prior.P.block<3, 3>(kPosition, kExtrinsicTranslation) -= 0.04 * prior.x.R;
+  prior.P.block<3, 3>(kExtrinsicTranslation, kPosition) -= 0.04 * prior.x.R.transpose();
+  auto evaluation = evaluationOf(test::randomMeasurements(random, 50, 0.02));
+  evaluation.by_state = scanPoseJacobian(
+      prior.x, {prior.x.extrinsic_correction, prior.x.time_offset, random.vector(1.0)});
+  evaluation.unconstrained = {{true, random.axis()}};
+  const UpdateStep full = informationStep(prior, prior.x, evaluation.sums, evaluation.by_state);
+  const UpdateStep step = consideringStep(prior, prior.x, full, evaluation);
+  EXPECT_EQ(step.dx.tail<kCalibrationDim>().norm(), 0.0);
+  EXPECT_GT(full.dx.tail<kCalibrationDim>().norm(), 1e-4);
+  const Vector6 moved = evaluation.by_state * step.dx, full_move = evaluation.by_state * full.dx;
+  EXPECT_LT((moved - full_move).tail<3>().norm(), 1e-9);
+  const auto variance = [&](const StateMatrix& P)
+  {
+    const Matrix6 C = evaluation.by_state * P * evaluation.by_state.transpose();
+    return C.bottomRightCorner<3, 3>().trace();
+  };
+  EXPECT_LT(variance(step.P), variance(prior.P));
+}
+
 TEST(ConsideringStep, leavesARotationAlone)
 {
   Random random(73);

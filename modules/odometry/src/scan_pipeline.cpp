@@ -245,8 +245,8 @@ bool ScanPipeline::mayGrowMap(const ScanResult& result) const
   if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
   if (result.status == ScanStatus::Diverged) return false;
   // A young map has few planes: it must grow as long as the prediction knows where the scan is.
-  const double position_variance =
-      filter_.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff();
+  const Matrix6 covariance = scanPoseCovariance(filter_, compensated_.compensation);
+  const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   return position_variance < std::pow(parameters_.map.max_insertion_std, 2);
 }
 
@@ -274,9 +274,9 @@ void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
   const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
   { transformToWorld(compensated_.points, T_world_scan, first, last, world_); };
   workers_->forEachChunk(world_.size(), transform);
-  Matrix6 founding = total.P.topLeftCorner<6, 6>();
+  Matrix6 founding = scanPoseCovariance(total, compensated_.compensation);
   if (state_ns_ <= young_map_.until_ns) founding += young_map_.founding_covariance;
-  map_error_.recordInsertion(++insertions_, founding, filter_.x.pose());
+  map_error_.recordInsertion(++insertions_, founding, T_world_scan);
   map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);
   edges_.growMap(T_world_scan);

@@ -12,15 +12,15 @@ namespace fastlio
 {
 namespace
 {
-ResidualModel residualModelOf(const MeasurementParameters& p, const FilterState& predicted)
+ResidualModel residualModelOf(const MeasurementParameters& p, const Matrix6& predicted)
 {
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;
   model.gate = p.max_normalized_residual;
   model.kernel = p.robust_kernel;
   model.kernel_scale = p.robust_scale;
-  model.prior_position_variance = predicted.P.block<3, 3>(kPosition, kPosition).trace();
-  model.prior_attitude_variance = predicted.P.block<3, 3>(kAttitude, kAttitude).trace();
+  model.prior_position_variance = predicted.bottomRightCorner<3, 3>().trace();
+  model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
   return model;
 }
 }  // namespace
@@ -92,7 +92,8 @@ UpdateResult ScanUpdate::run(
   world_.resize(scan.points.size());
   matches_.resize(scan.points.size());
   chunk_sums_.resize(Workers::chunks(scan.points.size()));
-  model_ = residualModelOf(parameters_.measurement, predicted);
+  model_ =
+      residualModelOf(parameters_.measurement, scanPoseCovariance(predicted, scan.compensation));
   const auto minimum = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
   std::size_t effective = 0;
   const auto measurements = [&](const NavState& iterate, int iteration)

@@ -39,4 +39,8 @@ struct CompensatedWith
 [[nodiscard]] ScanPoseJacobian scanPoseJacobian(
     const NavState& x, const CompensatedWith& compensation);
 
+/** Covariance of the scan pose, B P B^T. Body pose and calibration are often known much worse, each
+ * for itself, than where together they put the scan. */
+[[nodiscard]] Matrix6 scanPoseCovariance(const FilterState& s, const CompensatedWith& compensation);
+
 }  // namespace fastlio
