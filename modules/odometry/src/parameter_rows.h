@@ -12,8 +12,11 @@ namespace fastlio
 {
 using ParameterRows = std::vector<ParameterRow>;
 
-// Defined in parameter_rows_sensors.cpp.
+// Defined in parameter_rows_input.cpp.
 [[nodiscard]] ParameterRows inputRows();
+[[nodiscard]] ParameterRows furtherLidarRows();
+
+// Defined in parameter_rows_sensors.cpp.
 [[nodiscard]] ParameterRows initializationRows();
 [[nodiscard]] ParameterRows motionStartRows();
 [[nodiscard]] ParameterRows imuRows();

@@ -10,26 +10,6 @@ namespace
 constexpr double kRadPerDeg = 0.017453292519943295;
 }  // namespace
 
-ParameterRows inputRows()
-{
-  return {
-      {"input.lidar_sensor_label", "",
-       RegexValue{[](auto& p) { return &p.input.lidar_sensor_label; }},
-       "regular expression that the whole sensor label of the LiDAR matches; empty: found "
-       "automatically"},
-      {"input.imu_sensor_label", "", RegexValue{[](auto& p) { return &p.input.imu_sensor_label; }},
-       "regular expression that the whole sensor label of the IMU matches; empty: found "
-       "automatically"},
-      {"input.T_vehicle_imu", "m, deg", PoseValue{[](auto& p) { return &p.input.T_vehicle_imu; }},
-       "pose of the IMU in the vehicle frame as [x, y, z, yaw, pitch, roll]; null: the sensor pose "
-       "of the recording"},
-      {"input.T_vehicle_lidar", "m, deg",
-       PoseValue{[](auto& p) { return &p.input.T_vehicle_lidar; }},
-       "pose of the LiDAR in the vehicle frame as [x, y, z, yaw, pitch, roll]; null: the sensor "
-       "pose of the recording"},
-  };
-}
-
 ParameterRows initializationRows()
 {
   return {

@@ -15,8 +15,8 @@ ParameterRows allRows()
   ParameterRows all;
   for (const auto& rows :
        {inputRows(), initializationRows(), motionStartRows(), imuRows(), lidarRows(),
-        calibrationRows(), reductionRows(), featureRows(), measurementRows(), mapRows(),
-        updateRows(), restRows(), outputRows(), generalRows()})
+        furtherLidarRows(), calibrationRows(), reductionRows(), featureRows(), measurementRows(),
+        mapRows(), updateRows(), restRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -10,6 +10,8 @@
 #include <fastlio/filter/pose.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/lidar/feature_lines.h>
+#include <fastlio/lidar/point_time.h>
+#include <fastlio/lidar/sweep_time.h>
 #include <fastlio/odometry/imu_buffer.h>
 #include <fastlio/odometry/robust_kernel.h>
 
@@ -155,7 +157,24 @@ struct InputParameters
   std::string imu_sensor_label;         //!< regular expression; empty: found automatically
   std::optional<Pose> T_vehicle_imu;    //!< IMU in the vehicle frame, instead of the recording's
   std::optional<Pose> T_vehicle_lidar;  //!< LiDAR in the vehicle frame, instead of the recording's
+  PointTimeUnit point_time_unit = PointTimeUnit::Auto;
+  PointTimeReference point_time_reference = PointTimeReference::Auto;
+  MissingPointTimes missing_point_times = MissingPointTimes::Auto;
+  double sweep_start = 3.14159265358979323846;  //!< azimuth where a revolution begins [rad]
 };
+
+/** Groups `lidar_2`, `lidar_3`, `lidar_4`: LiDARs beside the first one; their points join its
+ * scans.
+ */
+struct FurtherLidarParameters
+{
+  std::string sensor_label;             //!< regular expression; empty: there is none
+  std::optional<Pose> T_vehicle_lidar;  //!< LiDAR in the vehicle frame, instead of the recording's
+  double time_offset = 0.0;             //!< added to its stamps [s]
+};
+
+/** How many of them there may be. */
+constexpr std::size_t kMostFurtherLidars = 3;
 
 /** Group `rest`: standing still in the middle of a run. */
 struct RestParameters
@@ -183,6 +202,7 @@ struct OutputParameters
 struct Parameters
 {
   InputParameters input;
+  std::array<FurtherLidarParameters, kMostFurtherLidars> further_lidars;
   InitializationParameters initialization;
   ImuParameters imu;
   LidarParameters lidar;
