@@ -5,9 +5,10 @@
 
 #if MRPT_VERSION < 0x20b04
 
+#include "point_map_stream.h"
+
 #include <mrpt/serialization/CArchive.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -15,29 +16,14 @@ IMPLEMENTS_SERIALIZABLE(CPointsMapXYZIRT, CSimplePointsMap, mrpt::maps)
 
 namespace
 {
-using mrpt::maps::CPointsMap;
 using mrpt::serialization::CArchive;
 
-// Elements read at once: a hostile length allocates no more than twice what the stream really
-// holds.
-constexpr std::size_t kChunk = 1U << 16U;
+constexpr const char* kName = "CPointsMapXYZIRT";
 
 template <typename T>
 mrpt::aligned_std_vector<T> readColumn(CArchive& in, std::uint32_t length)
 {
-  mrpt::aligned_std_vector<T> column;
-  while (column.size() < length)
-  {
-    const std::size_t begin = column.size();
-    const std::size_t count = std::min<std::size_t>(kChunk, length - begin);
-    column.resize(begin + count);
-    const std::size_t bytes = in.ReadBufferFixEndianness(column.data() + begin, count);
-    if (bytes != count * sizeof(T))
-      throw std::runtime_error(
-          "CPointsMapXYZIRT: the stream ends after " + std::to_string(begin + bytes / sizeof(T)) +
-          " of " + std::to_string(length) + " points.");
-  }
-  return column;
+  return fastlio::readColumn<mrpt::aligned_std_vector<T>>(in, length, kName);
 }
 
 template <typename T>
@@ -61,23 +47,6 @@ void writeOptionalColumn(
   const std::size_t length = column.size() == map_length ? map_length : 0;
   out << static_cast<std::uint32_t>(length);
   if (length != 0) out.WriteBufferFixEndianness(column.data(), length);
-}
-
-// MRPT older than 2.15.3 refuses version 1 of this block, which lacks one flag.
-CPointsMap::TInsertionOptions readInsertionOptions(CArchive& in)
-{
-  const auto version = in.ReadAs<std::int8_t>();
-  if (version != 0 && version != 1)
-    throw std::runtime_error(
-        "CPointsMapXYZIRT: insertion options of version " + std::to_string(version) +
-        "; versions 0 and 1 are known.");
-  CPointsMap::TInsertionOptions options;
-  in >> options.minDistBetweenLaserPoints >> options.addToExistingPointsMap >>
-      options.also_interpolate;
-  if (version == 0) in >> options.disableDeletion;
-  in >> options.fuseWithExisting >> options.isPlanarMap >> options.horizontalTolerance >>
-      options.maxDistForInterpolatePoints >> options.insertInvalidPoints;
-  return options;
 }
 
 template <typename T>
@@ -249,7 +218,7 @@ void CPointsMapXYZIRT::serializeFrom(CArchive& in, uint8_t version)
   m_intensity = readOptionalColumn<float>(in, length, "intensity");
   m_ring = readOptionalColumn<std::uint16_t>(in, length, "ring");
   m_time = readOptionalColumn<float>(in, length, "time");
-  insertionOptions = readInsertionOptions(in);
+  insertionOptions = fastlio::readInsertionOptions(in, kName);
   likelihoodOptions.readFromStream(in);
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "bounded_queue.h"
+#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/decode_ahead_source.h>
+#include <fastlio/mrpt_bridge/scan_merger.h>
 
 #include <exception>
 #include <stdexcept>
@@ -59,7 +61,9 @@ class DecodeAheadSource::Impl
     try
     {
       while (const auto observation = source_.next())
-        if (!deliver(bridge_.convert(*observation))) break;
+        if (!deliver(*observation)) break;
+      while (auto scan = merger_.flush())
+        if (!deliver(std::move(*scan))) break;
     }
     catch (...)
     {
@@ -69,14 +73,22 @@ class DecodeAheadSource::Impl
   }
 
   // False: nobody wants more.
-  bool deliver(BridgeOutput output)
+  bool deliver(const mrpt::obs::CObservation& observation)
   {
-    if (auto* sample = std::get_if<ImuSample>(&output))
-      return queue_.push({*sample, source_.progress()});
+    BridgeOutput output = bridge_.convert(observation);
+    if (const auto* sample = std::get_if<ImuSample>(&output))
+      if (!queue_.push({*sample, source_.progress()})) return false;
     if (auto* scan = std::get_if<LidarScan>(&output))
-      return queue_.push({std::move(*scan), source_.progress()});
+    {
+      if (bridge_.selection().further_lidars.empty()) return deliver(std::move(*scan));
+      merger_.add(bridge_.lidarOf(observation).value_or(0), std::move(*scan));
+    }
+    while (auto scan = merger_.next(toNanoseconds(observation.timestamp)))
+      if (!deliver(std::move(*scan))) return false;
     return true;
   }
+
+  bool deliver(LidarScan scan) { return queue_.push({std::move(scan), source_.progress()}); }
 
   void join()
   {
@@ -93,6 +105,7 @@ class DecodeAheadSource::Impl
 
   RawlogSource source_;
   ObservationBridge bridge_;
+  ScanMerger merger_;  // idle with a single LiDAR
   BoundedQueue<DecodedInput> queue_;
   std::exception_ptr failure_;
   std::thread thread_;  // last: starts when all else is there

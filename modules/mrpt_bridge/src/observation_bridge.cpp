@@ -27,14 +27,12 @@ bool isFrom(const CObservation& observation, const SensorSummary& sensor)
          observation.GetRuntimeClass()->className == sensor.class_name;
 }
 
-LidarScan fromCloud(const CloudColumns& columns, BridgeStatistics& statistics);
-
 // Some recorders drop the packets and keep the points that MRPT made of them.
 CloudColumns cachedPoints(const CObservationVelodyneScan& observation)
 {
   const auto& cached = observation.point_cloud;
   const std::size_t n = cached.size();
-  CloudColumns columns{cached.x, cached.y, cached.z, {}, {}, {}};
+  CloudColumns columns{cached.x, cached.y, cached.z, {}, {}, {}, false};
   if (cached.y.size() != n || cached.z.size() != n)
     throw std::runtime_error("the cached points of the observation are corrupt");
   if (cached.intensity.size() == n)
@@ -44,8 +42,7 @@ CloudColumns cachedPoints(const CObservationVelodyneScan& observation)
   if (cached.timestamp.size() != n) return columns;
   const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
   for (const auto& time : cached.timestamp)
-    columns.time_s.push_back(
-        static_cast<float>(static_cast<double>(toNanoseconds(time) - stamp_ns) * 1e-9));
+    columns.time.push_back(static_cast<double>(toNanoseconds(time) - stamp_ns) * 1e-9);
   return columns;
 }
 
@@ -64,31 +61,60 @@ LidarScan fromPackets(const CObservationVelodyneScan& observation, BridgeStatist
   return scan;
 }
 
-LidarScan fromCloud(const CloudColumns& columns, BridgeStatistics& statistics)
+LidarScan fromCloud(
+    CloudColumns columns, std::int64_t stamp_ns, const CloudTiming& timing,
+    BridgeStatistics& statistics)
 {
-  CloudConversion cloud = toTimedPoints(columns);
+  CloudConversion cloud = toTimedPoints(std::move(columns), stamp_ns, timing);
   statistics.points_invalid += cloud.dropped_invalid;
-  if (cloud.times != PointTimes::PerPoint) ++statistics.scans_without_point_times;
-  if (cloud.times == PointTimes::Unusable) ++statistics.scans_unusable_point_times;
   LidarScan scan;
+  scan.has_point_times =
+      cloud.times == PointTimes::PerPoint || cloud.times == PointTimes::Synthetic;
+  if (cloud.times == PointTimes::Synthetic) ++statistics.scans_synthetic_point_times;
+  if (!scan.has_point_times) ++statistics.scans_without_point_times;
+  if (cloud.times == PointTimes::Unusable) ++statistics.scans_unusable_point_times;
   scan.points = std::move(cloud.points);
   scan.dropped_invalid = cloud.dropped_invalid;
-  scan.has_point_times = cloud.times == PointTimes::PerPoint;
   return scan;
 }
 
-LidarScan toScan(const CObservation& observation, BridgeStatistics& statistics)
+LidarScan toScan(
+    const CObservation& observation, const CloudTiming& timing, BridgeStatistics& statistics)
 {
+  const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
   if (const auto* velodyne = dynamic_cast<const CObservationVelodyneScan*>(&observation))
-    return velodyne->scan_packets.empty() ? fromCloud(cachedPoints(*velodyne), statistics)
-                                          : fromPackets(*velodyne, statistics);
+  {
+    if (!velodyne->scan_packets.empty()) return fromPackets(*velodyne, statistics);
+    // Its stamps are dates already, whatever the clouds of a recording have.
+    const CloudTiming own{PointTimeReading{}, timing.sweep};
+    return fromCloud(cachedPoints(*velodyne), stamp_ns, own, statistics);
+  }
   const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
   if (cloud == nullptr)
     throw std::runtime_error(
         std::string("class ") + observation.GetRuntimeClass()->className +
         " is not supported as a LiDAR");
   if (!cloud->pointcloud) throw std::runtime_error("the observation holds no point cloud");
-  return fromCloud(readColumns(*cloud->pointcloud), statistics);
+  return fromCloud(readColumns(*cloud->pointcloud), stamp_ns, timing, statistics);
+}
+
+void dropNear(LidarScan& scan, double min_range)
+{
+  const PointColumns all = std::move(scan.points);
+  scan.points = {};
+  scan.points.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (Vec3(all.x[i], all.y[i], all.z[i]).norm() >= min_range)
+      scan.points.push_back(
+          all.x[i], all.y[i], all.z[i], all.intensity[i], all.time_offset_ns[i], all.ring[i]);
+}
+
+std::vector<FurtherLidarOptions> allLidars(const BridgeOptions& options, std::size_t count)
+{
+  std::vector<FurtherLidarOptions> lidars{{options.T_imu_lidar, options.timing, 0}};
+  lidars.insert(lidars.end(), options.further_lidars.begin(), options.further_lidars.end());
+  lidars.resize(count);
+  return lidars;
 }
 }  // namespace
 
@@ -96,15 +122,24 @@ namespace fastlio
 {
 ObservationBridge::ObservationBridge(SensorSelection selection, BridgeOptions options)
     : selection_(std::move(selection)),
-      options_(std::move(options)),
-      T_vehicle_imu_(options_.T_vehicle_imu.value_or(selection_.imu.T_vehicle_sensor))
+      lidars_(allLidars(options, 1 + selection_.further_lidars.size())),
+      further_min_range_(options.further_min_range),
+      T_vehicle_imu_(options.T_vehicle_imu.value_or(selection_.imu.T_vehicle_sensor))
 {
+}
+
+std::optional<std::size_t> ObservationBridge::lidarOf(const CObservation& observation) const
+{
+  if (isFrom(observation, selection_.lidar)) return 0;
+  for (std::size_t i = 0; i < selection_.further_lidars.size(); ++i)
+    if (isFrom(observation, selection_.further_lidars[i])) return i + 1;
+  return std::nullopt;
 }
 
 BridgeOutput ObservationBridge::convert(const CObservation& observation)
 {
   if (isFrom(observation, selection_.imu)) return convertImu(observation);
-  if (isFrom(observation, selection_.lidar)) return convertScan(observation);
+  if (const auto lidar = lidarOf(observation)) return convertScan(observation, *lidar);
   ++statistics_.other_sensors;
   return std::monostate{};
 }
@@ -135,8 +170,9 @@ BridgeOutput ObservationBridge::convertImu(const CObservation& observation)
   return *conversion.sample;
 }
 
-BridgeOutput ObservationBridge::convertScan(const CObservation& observation)
+BridgeOutput ObservationBridge::convertScan(const CObservation& observation, std::size_t lidar)
 {
+  const FurtherLidarOptions& options = lidars_[lidar];
   if (observation.timestamp == INVALID_TIMESTAMP)
   {
     ++statistics_.scans_no_stamp;
@@ -144,9 +180,11 @@ BridgeOutput ObservationBridge::convertScan(const CObservation& observation)
   }
   try
   {
-    LidarScan scan = toScan(observation, statistics_);
-    scan.stamp_ns = toNanoseconds(observation.timestamp);
-    scan.T_imu_lidar = extrinsicOf(observation);
+    LidarScan scan = toScan(observation, options.timing, statistics_);
+    scan.stamp_ns = toNanoseconds(observation.timestamp) + options.stamp_shift_ns;
+    scan.T_imu_lidar = extrinsicOf(observation, options);
+    // In a merged scan distances are those to the first LiDAR.
+    if (lidar > 0) dropNear(scan, further_min_range_);
     ++statistics_.scans_converted;
     statistics_.points_converted += scan.points.size();
     return scan;
@@ -159,9 +197,10 @@ BridgeOutput ObservationBridge::convertScan(const CObservation& observation)
   }
 }
 
-Pose ObservationBridge::extrinsicOf(const CObservation& observation) const
+Pose ObservationBridge::extrinsicOf(
+    const CObservation& observation, const FurtherLidarOptions& lidar) const
 {
-  if (options_.T_imu_lidar) return *options_.T_imu_lidar;
+  if (lidar.T_imu_lidar) return *lidar.T_imu_lidar;
   mrpt::poses::CPose3D T_vehicle_lidar;
   observation.getSensorPose(T_vehicle_lidar);
   return T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);

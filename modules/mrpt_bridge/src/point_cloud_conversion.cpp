@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/lidar/sweep_time.h>
 #include <fastlio/mrpt_bridge/point_cloud_conversion.h>
 
 #include <algorithm>
@@ -8,18 +9,18 @@
 
 namespace
 {
-using fastlio::CloudColumns;
-using fastlio::PointTimes;
+using namespace fastlio;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-// Not-a-number does not decide: single points without a time are dropped later.
-PointTimes judgeTimes(const CloudColumns& cloud)
+// Turns the time field into seconds after the stamp. Not-a-number does not decide: single points
+// without a time are dropped later.
+PointTimes readTimes(CloudColumns& cloud, std::int64_t stamp_ns, const CloudTiming& timing)
 {
-  if (cloud.time_s.empty()) return PointTimes::Absent;
+  if (cloud.time.empty() || !timing.reading) return PointTimes::Absent;
+  toSecondsAfterStamp(cloud.time, stamp_ns, *timing.reading);
   const bool any_far = std::any_of(
-      cloud.time_s.begin(), cloud.time_s.end(),
-      [](float t) { return std::abs(static_cast<double>(t)) > fastlio::kMaxTimeOffset; });
+      cloud.time.begin(), cloud.time.end(), [](double t) { return std::abs(t) > kMaxTimeOffset; });
   return any_far ? PointTimes::Unusable : PointTimes::PerPoint;
 }
 
@@ -29,19 +30,14 @@ bool isUsable(const CloudColumns& cloud, std::size_t i)
   const bool at_origin = x == 0 && y == 0 && z == 0;
   return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && !at_origin;
 }
-}  // namespace
 
-namespace fastlio
+void copyUsablePoints(const CloudColumns& cloud, CloudConversion& result)
 {
-CloudConversion toTimedPoints(const CloudColumns& cloud)
-{
-  CloudConversion result;
-  result.times = judgeTimes(cloud);
   const bool timed = result.times == PointTimes::PerPoint;
   result.points.reserve(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
-    const double time_s = timed ? static_cast<double>(cloud.time_s[i]) : 0.0;
+    const double time_s = timed ? cloud.time[i] : 0.0;
     if (!isUsable(cloud, i) || !std::isfinite(time_s))
     {
       ++result.dropped_invalid;
@@ -51,6 +47,27 @@ CloudConversion toTimedPoints(const CloudColumns& cloud)
         cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity.empty() ? 0.0F : cloud.intensity[i],
         static_cast<std::int32_t>(std::lround(time_s * kNanosecondsPerSecond)),
         cloud.ring.empty() ? std::uint16_t{0} : cloud.ring[i]);
+  }
+}
+
+void assignTimes(PointColumns& points, const SweepTiming& sweep)
+{
+  const double start = sweep.start_azimuth.value_or(startAzimuthOf(points, sweep.sense));
+  assignSweepTimes(points, sweep.sense, start, sweep.period, sweep.reference);
+}
+}  // namespace
+
+namespace fastlio
+{
+CloudConversion toTimedPoints(CloudColumns cloud, std::int64_t stamp_ns, const CloudTiming& timing)
+{
+  CloudConversion result;
+  result.times = readTimes(cloud, stamp_ns, timing);
+  copyUsablePoints(cloud, result);
+  if (result.times != PointTimes::PerPoint && timing.sweep)
+  {
+    assignTimes(result.points, *timing.sweep);
+    result.times = PointTimes::Synthetic;
   }
   return result;
 }

@@ -55,22 +55,38 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
   return std::string("No ") + nameOf(kind) + " of the recording can be used; see the reason below.";
 }
 
+using Taken = std::vector<const SensorSummary*>;
+
 const SensorSummary* bestOf(
-    const SensorSurvey& survey, SensorKind kind, const fastlio::LabelPattern& pattern)
+    const SensorSurvey& survey, SensorKind kind, const fastlio::LabelPattern& pattern,
+    const Taken& taken)
 {
   const SensorSummary* best = nullptr;
   for (const SensorSummary& sensor : survey.sensors)
   {
+    const bool free = std::find(taken.begin(), taken.end(), &sensor) == taken.end();
     const bool fits = sensor.kind == kind && sensor.usable && pattern.matches(sensor.label);
-    if (fits && (best == nullptr || sensor.observations > best->observations)) best = &sensor;
+    if (free && fits && (best == nullptr || sensor.observations > best->observations))
+      best = &sensor;
   }
   return best;
 }
 
-const SensorSummary& choose(const SensorSurvey& survey, SensorKind kind, const std::string& pattern)
+Taken askedForBeside(const SensorSurvey& survey, const fastlio::SensorPatterns& patterns)
+{
+  Taken asked;
+  for (const std::string& label : patterns.further_lidar_labels)
+    for (const SensorSummary& sensor : survey.sensors)
+      if (fastlio::LabelPattern("lidar", label).matches(sensor.label)) asked.push_back(&sensor);
+  return asked;
+}
+
+const SensorSummary& choose(
+    const SensorSurvey& survey, SensorKind kind, const std::string& pattern, const Taken& taken)
 {
   const SensorSummary* best = bestOf(
-      survey, kind, fastlio::LabelPattern(kind == SensorKind::Imu ? "imu" : "lidar", pattern));
+      survey, kind, fastlio::LabelPattern(kind == SensorKind::Imu ? "imu" : "lidar", pattern),
+      taken);
   if (best == nullptr)
     throw std::runtime_error(reasonFor(survey, kind, pattern) + whatThereIs(survey));
   return *best;
@@ -81,11 +97,20 @@ namespace fastlio
 {
 SensorSelection selectSensors(const SensorSurvey& survey, const SensorPatterns& patterns)
 {
-  const SensorSummary& lidar = choose(survey, SensorKind::Lidar, patterns.lidar_label);
-  const SensorSummary& imu = choose(survey, SensorKind::Imu, patterns.imu_label);
-  SensorSelection selection{lidar, imu, {}};
+  // "Any" for the first LiDAR does not mean those that are asked for beside it.
+  const Taken reserved = patterns.lidar_label.empty() ? askedForBeside(survey, patterns) : Taken{};
+  Taken used{
+      &choose(survey, SensorKind::Lidar, patterns.lidar_label, reserved),
+      &choose(survey, SensorKind::Imu, patterns.imu_label, {})};
+  SensorSelection selection{*used[0], *used[1], {}, {}};
+  for (const std::string& label : patterns.further_lidar_labels)
+  {
+    used.push_back(&choose(survey, SensorKind::Lidar, label, used));
+    selection.further_lidars.push_back(*used.back());
+  }
   for (const SensorSummary& sensor : survey.sensors)
-    if (&sensor != &lidar && &sensor != &imu) selection.ignored.push_back(sensor);
+    if (std::find(used.begin(), used.end(), &sensor) == used.end())
+      selection.ignored.push_back(sensor);
   return selection;
 }
 
@@ -107,7 +132,10 @@ std::string describe(const SensorSummary& sensor)
 
 std::string describe(const SensorSelection& selection)
 {
-  std::string text = "LiDAR: " + describe(selection.lidar) + "\nIMU:   " + describe(selection.imu);
+  std::string text = "LiDAR: " + describe(selection.lidar);
+  for (const SensorSummary& sensor : selection.further_lidars)
+    text += "\nLiDAR: " + describe(sensor);
+  text += "\nIMU:   " + describe(selection.imu);
   for (const SensorSummary& sensor : selection.ignored)
     text += "\nignored: " + describe(sensor);
   return text;

@@ -4,6 +4,7 @@
 #include "label_pattern.h"
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/imu_conversion.h>
+#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
 #include <fastlio/mrpt_bridge/sensor_selection.h>
 #include <fastlio/mrpt_bridge/velodyne_decoder.h>
 #include <fastlio/mrpt_bridge/xyzirt_access.h>
@@ -22,6 +23,7 @@ using namespace fastlio;
 using mrpt::obs::CObservation;
 
 constexpr double kNanosecondsPerSecond = 1e9;
+constexpr std::size_t kFewestScans = 5;
 const std::string kRotatingScan = "mrpt::obs::CObservationRotatingScan";
 
 // What one observation tells about its sensor.
@@ -70,7 +72,7 @@ Appearance appearanceOf(const mrpt::obs::CObservationPointCloud& scan)
       SensorKind::Lidar, true,
       std::string(scan.pointcloud->GetRuntimeClass()->className) + " of " +
           std::to_string(columns.size()) + " points" +
-          (columns.time_s.empty() ? ", no time per point" : " with time per point")};
+          (columns.time.empty() ? ", no time per point" : " with time per point")};
 }
 
 Appearance appearanceOf(const CObservation& observation)
@@ -106,6 +108,29 @@ SensorSummary firstSight(const CObservation& observation)
   return sensor;
 }
 
+// The time field of a scan, and how its points follow each other if it has none.
+void noteTimes(SensorSummary& sensor, const CObservation& observation)
+{
+  const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
+  const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+  if (cloud == nullptr)
+  {
+    const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
+    sensor.times_by_sensor |=
+        scan != nullptr && (!scan->scan_packets.empty() || !scan->point_cloud.timestamp.empty());
+    sensor.point_times.push_back(sampleOf(stamp_ns, {}, false));
+    return;
+  }
+  if (!cloud->pointcloud) return;
+  CloudColumns columns = readColumns(*cloud->pointcloud);
+  sensor.point_times.push_back(sampleOf(stamp_ns, columns.time, columns.single_precision_time));
+  // The first cloud may be an empty one.
+  if (sensor.sweep.coverage > 0.0) return;
+  CloudTiming untimed;
+  untimed.reading.reset();
+  sensor.sweep = shapeOf(toTimedPoints(std::move(columns), stamp_ns, untimed).points);
+}
+
 void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
 {
   const std::string class_name = observation.GetRuntimeClass()->className;
@@ -120,6 +145,7 @@ void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
     const Appearance now = appearanceOf(observation);
     if (now.usable) sensor->usable = true, sensor->detail = now.detail;
   }
+  if (sensor->kind == SensorKind::Lidar) noteTimes(*sensor, observation);
   ++sensor->observations;
   sensor->last_stamp_ns = toNanoseconds(observation.timestamp);
 }
@@ -127,10 +153,14 @@ void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
 bool hasUsable(
     const std::vector<SensorSummary>& sensors, SensorKind kind, const LabelPattern& pattern)
 {
+  // What the times of points mean shows from several scans.
+  const std::size_t least = kind == SensorKind::Lidar ? kFewestScans : 1;
   return std::any_of(
       sensors.begin(), sensors.end(),
       [&](const SensorSummary& s)
-      { return s.kind == kind && s.usable && pattern.matches(s.label); });
+      {
+        return s.kind == kind && s.usable && s.observations >= least && pattern.matches(s.label);
+      });
 }
 }  // namespace
 
@@ -139,7 +169,10 @@ namespace fastlio
 SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
 {
-  const LabelPattern lidar("lidar", patterns.lidar_label), imu("imu", patterns.imu_label);
+  const LabelPattern imu("imu", patterns.imu_label);
+  std::vector<LabelPattern> lidars{{"lidar", patterns.lidar_label}};
+  for (const std::string& label : patterns.further_lidar_labels)
+    lidars.emplace_back("lidar", label);
   const std::int64_t at_least_ns = std::llround(at_least * kNanosecondsPerSecond);
   RawlogSource source(files);
   SensorSurvey survey;
@@ -150,8 +183,11 @@ SensorSurvey surveySensors(
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
     if (survey.sensors.empty()) begin_ns = stamp_ns;
     note(survey.sensors, *observation);
-    const bool complete = hasUsable(survey.sensors, SensorKind::Lidar, lidar) &&
-                          hasUsable(survey.sensors, SensorKind::Imu, imu);
+    const bool complete = hasUsable(survey.sensors, SensorKind::Imu, imu) &&
+                          std::all_of(
+                              lidars.begin(), lidars.end(),
+                              [&](const LabelPattern& lidar)
+                              { return hasUsable(survey.sensors, SensorKind::Lidar, lidar); });
     if (complete && stamp_ns - begin_ns >= at_least_ns) break;
   }
   survey.problems = source.problems();

@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct Field
     Fixed,           // size bytes
     Counted,         // 32-bit count, count * size bytes
     CountedLists,    // 32-bit count, so many of Counted
+    NamedLists,      // 32-bit count, so many of a string and Counted
     Object,          // another object
     CountedObjects,  // 32-bit count, so many objects
     StoredCloud,     // 0 and an object, or another byte and the name of a file
@@ -51,6 +53,10 @@ Field fixed(std::size_t size)
 Field counted(std::size_t size)
 {
   return {Field::Counted, size};
+}
+Field named(std::size_t size)
+{
+  return {Field::NamedLists, size};
 }
 const Field kString = counted(1);
 const Field kPose{Field::Object};
@@ -77,10 +83,22 @@ std::vector<Field> velodyneFields()
   return fields;
 }
 
-std::map<std::string, Layout> makeLayouts()
+// A list of fields for each type of number, of which later versions have more.
+Layout genericCloud(unsigned char version)
+{
+  std::vector<Field> fields{counted(kPoint), named(4)};
+  if (version >= 1) fields.push_back(named(8));
+  fields.push_back(named(2));
+  if (version >= 2) fields.push_back(named(1));
+  if (version >= 4) fields.push_back(named(4));
+  fields.push_back(kRest);
+  return {version, fields};
+}
+
+std::multimap<std::string, Layout> makeLayouts()
 {
   const std::vector<Field> points_and_more{counted(kPoint), kRest};
-  return {
+  std::multimap<std::string, Layout> layouts{
       {"mrpt::poses::CPose3D", {3, {fixed(12 * kDouble)}}},
       {"mrpt::obs::CSensoryFrame", {2, {{Field::CountedObjects}}}},
       {"mrpt::obs::CObservationIMU", {4, imuFields()}},
@@ -93,14 +111,18 @@ std::map<std::string, Layout> makeLayouts()
       {"mrpt::maps::CSimplePointsMap", {10, points_and_more}},
       {"mrpt::maps::CColouredPointsMap", {9, points_and_more}},
       {"mrpt::maps::CWeightedPointsMap", {2, points_and_more}}};
+  for (unsigned char version = 0; version <= 4; ++version)
+    layouts.emplace("mrpt::maps::CGenericPointsMap", genericCloud(version));
+  return layouts;
 }
 
 const Layout* layoutOf(const std::string& class_name, unsigned char version)
 {
-  static const std::map<std::string, Layout> layouts = makeLayouts();
-  const auto found = layouts.find(class_name);
-  if (found == layouts.end() || found->second.version != version) return nullptr;
-  return &found->second;
+  static const std::multimap<std::string, Layout> layouts = makeLayouts();
+  const auto [begin, end] = layouts.equal_range(class_name);
+  const auto found = std::find_if(
+      begin, end, [version](const auto& entry) { return entry.second.version == version; });
+  return found == end ? nullptr : &found->second;
 }
 
 // Goes through an object field by field. Every step returns false when there is no going on, for
@@ -179,6 +201,8 @@ class Walk
         return countedBytes(field.size);
       case Field::CountedLists:
         return repeated([&] { return countedBytes(field.size); });
+      case Field::NamedLists:
+        return repeated([&] { return countedBytes(kString.size) && countedBytes(field.size); });
       case Field::Object:
         return object(depth + 1);
       case Field::CountedObjects:

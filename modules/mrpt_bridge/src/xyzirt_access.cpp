@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "generic_fields.h"
 #include <fastlio/mrpt_bridge/xyzirt_access.h>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -14,7 +15,7 @@ using fastlio::CloudColumns;
 using mrpt::maps::CPointsMapXYZI;
 using mrpt::maps::CPointsMapXYZIRT;
 
-constexpr float kSecondsPerNanosecond = 1e-9F;
+constexpr double kSecondsPerNanosecond = 1e-9;
 
 template <typename T, typename Get>
 std::vector<T> column(std::size_t length, Get get)
@@ -32,8 +33,20 @@ void readFields(const CPointsMapXYZIRT& cloud, CloudColumns& columns)
     columns.intensity = column<float>(n, [&](std::size_t i) { return cloud.getPointIntensity(i); });
   if (cloud.hasRingField())
     columns.ring = column<std::uint16_t>(n, [&](std::size_t i) { return cloud.getPointRing(i); });
-  if (cloud.hasTimeField())
-    columns.time_s = column<float>(n, [&](std::size_t i) { return cloud.getPointTime(i); });
+  if (!cloud.hasTimeField()) return;
+  columns.single_precision_time = true;
+  columns.time =
+      column<double>(n, [&](std::size_t i) { return static_cast<double>(cloud.getPointTime(i)); });
+}
+
+void readFields(const mrpt::maps::CGenericPointsMap& cloud, CloudColumns& columns)
+{
+  columns.intensity = fastlio::genericField<float>(cloud, {"intensity", "i", "I", "reflectivity"});
+  columns.ring = fastlio::genericField<std::uint16_t>(
+      cloud, {"ring", "r", "R", "line", "channel", "laser_id"});
+  columns.time = fastlio::genericField<double>(
+      cloud, {"t", "time", "timestamp", "time_offset", "offset_time", "T"},
+      &columns.single_precision_time);
 }
 
 void checkLength(const char* name, std::size_t length, std::size_t points, bool may_be_empty)
@@ -51,7 +64,7 @@ void checkLengths(const CloudColumns& columns)
   checkLength("z", columns.z.size(), n, false);
   checkLength("intensity", columns.intensity.size(), n, true);
   checkLength("ring", columns.ring.size(), n, true);
-  checkLength("time_s", columns.time_s.size(), n, true);
+  checkLength("time", columns.time.size(), n, true);
 }
 }  // namespace
 
@@ -68,6 +81,8 @@ CloudColumns readColumns(const mrpt::maps::CPointsMap& cloud)
   columns.z.assign(z.begin(), z.end());
   if (const auto* timed = dynamic_cast<const CPointsMapXYZIRT*>(&cloud))
     readFields(*timed, columns);
+  if (const auto* generic = dynamic_cast<const mrpt::maps::CGenericPointsMap*>(&cloud))
+    readFields(*generic, columns);
   if (const auto* bright = dynamic_cast<const CPointsMapXYZI*>(&cloud))
     columns.intensity =
         column<float>(cloud.size(), [&](std::size_t i) { return bright->getPointIntensity(i); });
@@ -79,16 +94,15 @@ CPointsMapXYZIRT::Ptr makeXyzirt(const CloudColumns& columns)
   checkLengths(columns);
   const std::size_t n = columns.size();
   auto cloud = CPointsMapXYZIRT::Create();
-  cloud->resize_XYZIRT(
-      n, !columns.intensity.empty(), !columns.ring.empty(), !columns.time_s.empty());
+  cloud->resize_XYZIRT(n, !columns.intensity.empty(), !columns.ring.empty(), !columns.time.empty());
   for (std::size_t i = 0; i < n; ++i)
     cloud->setPointFast(i, columns.x[i], columns.y[i], columns.z[i]);
   for (std::size_t i = 0; i < columns.intensity.size(); ++i)
     cloud->setPointIntensity(i, columns.intensity[i]);
   for (std::size_t i = 0; i < columns.ring.size(); ++i)
     cloud->setPointRing(i, columns.ring[i]);
-  for (std::size_t i = 0; i < columns.time_s.size(); ++i)
-    cloud->setPointTime(i, columns.time_s[i]);
+  for (std::size_t i = 0; i < columns.time.size(); ++i)
+    cloud->setPointTime(i, static_cast<float>(columns.time[i]));
   return cloud;
 }
 
@@ -96,9 +110,9 @@ CPointsMapXYZIRT::Ptr makeXyzirt(const PointColumns& points)
 {
   checkLength("time_offset_ns", points.time_offset_ns.size(), points.size(), false);
   CloudColumns columns{points.x, points.y, points.z, points.intensity, points.ring, {}};
-  columns.time_s = column<float>(
+  columns.time = column<double>(
       points.size(), [&](std::size_t i)
-      { return static_cast<float>(points.time_offset_ns[i]) * kSecondsPerNanosecond; });
+      { return static_cast<double>(points.time_offset_ns[i]) * kSecondsPerNanosecond; });
   return makeXyzirt(columns);
 }
 

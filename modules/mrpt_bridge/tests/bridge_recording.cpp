@@ -15,8 +15,8 @@ mrpt::obs::CObservationPointCloud::Ptr cloudAt(
   cloud->sensorLabel = label;
   cloud->timestamp = fastlio::toMrptTime(kStart + static_cast<std::int64_t>(seconds * 1e9));
   cloud->sensorPose = mrpt::poses::CPose3D(0, 0, 1, 0, 0, 0);
-  cloud->pointcloud =
-      fastlio::makeXyzirt(fastlio::CloudColumns{{1, 2}, {1, 2}, {1, 2}, {}, {}, times});
+  cloud->pointcloud = fastlio::makeXyzirt(
+      fastlio::CloudColumns{{1, 2}, {1, 2}, {1, 2}, {}, {}, {times.begin(), times.end()}, true});
   return cloud;
 }
 

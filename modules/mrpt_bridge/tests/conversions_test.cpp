@@ -85,7 +85,7 @@ TEST(Imu, defects_are_told_apart)
 
 TEST(PointCloud, times_of_either_sign_become_nanoseconds)
 {
-  const auto result = toTimedPoints({{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {-0.05F, 0.05F}});
+  const auto result = toTimedPoints({{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {-0.05F, 0.05F}}, 0);
   EXPECT_EQ(result.times, PointTimes::PerPoint);
   EXPECT_NEAR(result.points.time_offset_ns[0], -50'000'000, 2);
   EXPECT_NEAR(result.points.time_offset_ns[1], 50'000'000, 2);
@@ -102,7 +102,8 @@ TEST(PointCloud, invalid_points_are_dropped)
        {1, 1, 0, 1, 1, 0},
        {},
        {},
-       {0, 0, 0, 0, kNan, 0.1F}});
+       {0, 0, 0, 0, kNan, 0.1F}},
+      0);
   EXPECT_EQ(result.dropped_invalid, 4U);
   EXPECT_EQ(result.points.size(), 2U);
   EXPECT_EQ(result.times, PointTimes::PerPoint);
@@ -110,14 +111,14 @@ TEST(PointCloud, invalid_points_are_dropped)
 
 TEST(PointCloud, missing_and_unusable_times_are_told)
 {
-  EXPECT_EQ(toTimedPoints({{1}, {2}, {3}, {}, {}, {}}).times, PointTimes::Absent);
+  EXPECT_EQ(toTimedPoints({{1}, {2}, {3}, {}, {}, {}}, 0).times, PointTimes::Absent);
   // Absolute seconds, milliseconds.
   for (const float t : {1.7e9F, 50.0F, -3.0F, INFINITY})
   {
-    const auto result = toTimedPoints({{1, 1}, {2, 2}, {3, 3}, {}, {}, {0, t}});
+    const auto result = toTimedPoints({{1, 1}, {2, 2}, {3, 3}, {}, {}, {0, t}}, 0);
     EXPECT_EQ(result.times, PointTimes::Unusable);
     EXPECT_EQ(result.points.size(), 2U);
     EXPECT_EQ(result.points.time_offset_ns, (std::vector<std::int32_t>{0, 0}));
   }
-  EXPECT_EQ(toTimedPoints({}).points.size(), 0U);
+  EXPECT_EQ(toTimedPoints({}, 0).points.size(), 0U);
 }

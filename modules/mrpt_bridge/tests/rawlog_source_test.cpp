@@ -121,7 +121,7 @@ TEST_F(RawlogSourceTest, external_clouds_are_loaded_from_beside_the_file)
   RawlogSource source({fileOf(serialize({cloudIn("scan.bin"), cloudIn("gone.bin")}))});
   const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
   ASSERT_TRUE(read && read->pointcloud) << source.problems().front().message;
-  EXPECT_EQ(fastlio::readColumns(*read->pointcloud).time_s, std::vector<float>{0.5F});
+  EXPECT_EQ(fastlio::readColumns(*read->pointcloud).time, std::vector<double>{0.5});
   EXPECT_EQ(source.next(), nullptr);
   ASSERT_EQ(source.problems().size(), 1U);
   EXPECT_EQ(source.problems()[0].kind, ReadProblemKind::ExternalFile);

@@ -22,7 +22,8 @@ using mrpt::maps::CPointsMapXYZIRT;
 
 CloudColumns threePoints()
 {
-  return {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, {0, 5, 65535}, {-0.05F, 0.0F, 0.05F}};
+  return {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}, {0, 5, 65535}, {-0.05F, 0.0F, 0.05F},
+          true};
 }
 
 void append(std::string& bytes, const void* data, std::size_t size)
@@ -58,8 +59,8 @@ std::string expectedBytes(const CloudColumns& c, std::int8_t options_version)
   appendColumn(bytes, c.intensity);
   appendValue<std::uint32_t>(bytes, static_cast<std::uint32_t>(c.ring.size()));
   appendColumn(bytes, c.ring);
-  appendValue<std::uint32_t>(bytes, static_cast<std::uint32_t>(c.time_s.size()));
-  appendColumn(bytes, c.time_s);
+  appendValue<std::uint32_t>(bytes, static_cast<std::uint32_t>(c.time.size()));
+  appendColumn(bytes, std::vector<float>(c.time.begin(), c.time.end()));
   const CPointsMapXYZIRT defaults;
   const auto& insertion = defaults.insertionOptions;
   appendValue(bytes, options_version);
@@ -106,7 +107,7 @@ void expectEqual(const CloudColumns& a, const CloudColumns& b)
   EXPECT_EQ(a.z, b.z);
   EXPECT_EQ(a.intensity, b.intensity);
   EXPECT_EQ(a.ring, b.ring);
-  EXPECT_EQ(a.time_s, b.time_s);
+  EXPECT_EQ(a.time, b.time);
 }
 
 CloudColumns readBack(const std::string& bytes)
@@ -138,7 +139,7 @@ TEST(Xyzirt, fields_may_be_absent)
   columns.intensity.clear();
   columns.ring.clear();
   expectEqual(readBack(bytesOf(*fastlio::makeXyzirt(columns))), columns);
-  columns.time_s.clear();
+  columns.time.clear();
   expectEqual(readBack(bytesOf(*fastlio::makeXyzirt(columns))), columns);
 }
 
@@ -181,9 +182,9 @@ TEST(Xyzirt, point_columns_become_seconds)
   points.push_back(1, 2, 3, 4, 50'000'000, 7);
   points.push_back(1, 2, 3, 4, -50'000'000, 8);
   const CloudColumns columns = fastlio::readColumns(*fastlio::makeXyzirt(points));
-  ASSERT_EQ(columns.time_s.size(), 2U);
-  EXPECT_FLOAT_EQ(columns.time_s[0], 0.05F);
-  EXPECT_FLOAT_EQ(columns.time_s[1], -0.05F);
+  ASSERT_EQ(columns.time.size(), 2U);
+  EXPECT_FLOAT_EQ(static_cast<float>(columns.time[0]), 0.05F);
+  EXPECT_FLOAT_EQ(static_cast<float>(columns.time[1]), -0.05F);
   EXPECT_EQ(columns.ring, (std::vector<std::uint16_t>{7, 8}));
 }
 
@@ -206,8 +207,8 @@ TEST(Xyzirt, copies_and_appends_keep_the_fields)
   auto sum = CPointsMapXYZIRT::Create(*cloud);
   sum->insertAnotherMap(cloud.get(), mrpt::poses::CPose3D());
   const CloudColumns doubled = fastlio::readColumns(*sum);
-  ASSERT_EQ(doubled.time_s.size(), 6U);
-  EXPECT_EQ(doubled.time_s[5], 0.05F);
+  ASSERT_EQ(doubled.time.size(), 6U);
+  EXPECT_EQ(doubled.time[5], 0.05F);
   EXPECT_EQ(doubled.ring[4], 5);
 }
 
@@ -219,7 +220,7 @@ TEST(Xyzirt, reads_the_fields_of_other_maps)
   bright.setPointIntensity(0, 0.5F);
   const CloudColumns columns = fastlio::readColumns(bright);
   EXPECT_EQ(columns.intensity, std::vector<float>{0.5F});
-  EXPECT_TRUE(columns.time_s.empty());
+  EXPECT_TRUE(columns.time.empty());
 
   mrpt::maps::CSimplePointsMap plain;
   plain.insertPoint(1, 2, 3);

@@ -147,7 +147,8 @@ TEST(Observations, CloudsHoldThePointsWithTheirTimes)
     EXPECT_NEAR(
         static_cast<double>(toNanoseconds(observation->timestamp)),
         static_cast<double>(scan.stamp_ns), 300.0);
-    const CloudConversion cloud = toTimedPoints(readColumns(*observation->pointcloud));
+    const CloudConversion cloud =
+        toTimedPoints(readColumns(*observation->pointcloud), toNanoseconds(observation->timestamp));
     EXPECT_EQ(cloud.times, PointTimes::PerPoint);
     EXPECT_EQ(cloud.points.x, scan.points.x);
     EXPECT_EQ(cloud.points.ring, scan.points.ring);

@@ -23,7 +23,8 @@ struct DecodedInput
 };
 
 /** Runs a RawlogSource and an ObservationBridge ahead of the consumer, through a bounded queue. The
- * order of the inputs is that of the source. One thread consumes. */
+ * order of the inputs is that of the source; of several LiDARs the scans are merged (ScanMerger).
+ * One thread consumes. */
 class DecodeAheadSource
 {
  public:

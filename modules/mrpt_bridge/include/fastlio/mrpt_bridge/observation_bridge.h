@@ -7,6 +7,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
 #include <fastlio/mrpt_bridge/sensor_selection.h>
 
 #include <mrpt/obs/CObservation.h>
@@ -15,13 +16,25 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace fastlio
 {
+/** One of several LiDARs. */
+struct FurtherLidarOptions
+{
+  std::optional<Pose> T_imu_lidar;  //!< replaces what both sensorPoses give
+  CloudTiming timing;               //!< of its point clouds
+  std::int64_t stamp_shift_ns = 0;  //!< added to its stamps, to fit those of the first LiDAR
+};
+
 struct BridgeOptions
 {
   std::optional<Pose> T_vehicle_imu;  //!< replaces the sensorPose of the IMU's observations
   std::optional<Pose> T_imu_lidar;    //!< replaces what both sensorPoses give
+  CloudTiming timing;                 //!< of the first LiDAR's point clouds
+  std::vector<FurtherLidarOptions> further_lidars;  //!< in the order of the selection's
+  double further_min_range = 0.0;  //!< nearer points of these are left out: the platform [m]
 };
 
 /** What became of the observations; returns are counted over all scans. */
@@ -32,8 +45,9 @@ struct BridgeStatistics
               imu_no_stamp = 0;
 
   std::size_t scans_converted = 0;
-  std::size_t scans_without_point_times = 0;   //!< converted, but no deskewing
-  std::size_t scans_unusable_point_times = 0;  //!< of those: a time field that makes no sense
+  std::size_t scans_synthetic_point_times = 0;  //!< times of points from their azimuth
+  std::size_t scans_without_point_times = 0;    //!< converted, but no deskewing
+  std::size_t scans_unusable_point_times = 0;   //!< of those: a time field that makes no sense
   std::size_t scans_no_stamp = 0;
   std::size_t scans_unreadable = 0;  //!< see last_error
 
@@ -52,14 +66,19 @@ struct BridgeStatistics
 /** std::monostate: nothing for the odometry, statistics() tells why. */
 using BridgeOutput = std::variant<std::monostate, ImuSample, LidarScan>;
 
-/** Converts the observations of the selected LiDAR and IMU; counts the others. Never throws for
- * data. Not thread-safe. */
+/** Converts the observations of the selected LiDARs and IMU; counts the others. Never throws for
+ * data. Not thread-safe. Scans of several LiDARs come out one by one, see ScanMerger. */
 class ObservationBridge
 {
  public:
   explicit ObservationBridge(SensorSelection selection, BridgeOptions options = {});
 
   [[nodiscard]] BridgeOutput convert(const mrpt::obs::CObservation& observation);
+
+  /** Which LiDAR an observation is of: 0 the first, then the further ones; nothing: none of them.
+   */
+  [[nodiscard]] std::optional<std::size_t> lidarOf(
+      const mrpt::obs::CObservation& observation) const;
 
   [[nodiscard]] const BridgeStatistics& statistics() const { return statistics_; }
   [[nodiscard]] const SensorSelection& selection() const { return selection_; }
@@ -69,11 +88,13 @@ class ObservationBridge
 
  private:
   BridgeOutput convertImu(const mrpt::obs::CObservation& observation);
-  BridgeOutput convertScan(const mrpt::obs::CObservation& observation);
-  [[nodiscard]] Pose extrinsicOf(const mrpt::obs::CObservation& observation) const;
+  BridgeOutput convertScan(const mrpt::obs::CObservation& observation, std::size_t lidar);
+  [[nodiscard]] Pose extrinsicOf(
+      const mrpt::obs::CObservation& observation, const FurtherLidarOptions& lidar) const;
 
   SensorSelection selection_;
-  BridgeOptions options_;
+  std::vector<FurtherLidarOptions> lidars_;  // the first one, too
+  double further_min_range_;
   Pose T_vehicle_imu_;
   BridgeStatistics statistics_;
 };

@@ -7,8 +7,8 @@
 namespace fastlio
 {
 /** Registers every class that this module reads or writes, among them CPointsMapXYZIRT where MRPT
- * lacks it. Call it before reading or writing streams; RawlogSource does so itself. Repeated calls
- * and calls from several threads are fine. */
+ * lacks it, and CGenericPointsMap. Call it before reading or writing streams; RawlogSource does so
+ * itself. Repeated calls and calls from several threads are fine. */
 void registerBridgeClasses();
 
 }  // namespace fastlio

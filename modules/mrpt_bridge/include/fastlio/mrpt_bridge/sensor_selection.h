@@ -5,6 +5,8 @@
 #pragma once
 
 #include <fastlio/filter/pose.h>
+#include <fastlio/lidar/point_time.h>
+#include <fastlio/lidar/sweep_time.h>
 #include <fastlio/mrpt_bridge/rawlog_source.h>
 
 #include <cstddef>
@@ -33,6 +35,13 @@ struct SensorSummary
   Pose T_vehicle_sensor;  //!< sensorPose of its first observation
   std::size_t observations = 0;
   std::int64_t first_stamp_ns = 0, last_stamp_ns = 0;
+
+  /** \name Of LiDARs
+   * @{ */
+  std::vector<PointTimeSample> point_times;  //!< time fields, one per scan; points 0: no times
+  bool times_by_sensor = false;              //!< the class itself says when each point was measured
+  SweepShape sweep;                          //!< of a cloud without times
+  /** @} */
 };
 
 /** Every sensor seen; problems that reading met. */
@@ -47,6 +56,7 @@ struct SensorPatterns
 {
   std::string lidar_label;
   std::string imu_label;
+  std::vector<std::string> further_lidar_labels = {};  //!< of LiDARs beside the first
 };
 
 /** The sensors to use. */
@@ -55,9 +65,11 @@ struct SensorSelection
   SensorSummary lidar;
   SensorSummary imu;
   std::vector<SensorSummary> ignored;
+  std::vector<SensorSummary> further_lidars;  //!< in the order of the patterns
 };
 
-/** Looks at the recording until usable sensors that match have been seen and \a at_least [s] of it
+/** Looks at the recording until usable sensors that match have been seen, LiDARs in several scans, and
+ * \a at_least [s] of it
  * have passed; at all of it when there are none. */
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);

@@ -18,19 +18,21 @@ namespace fastlio
  * others is either empty (the cloud lacks the field) or as long. */
 struct CloudColumns
 {
-  std::vector<float> x, y, z;       //!< [m]
-  std::vector<float> intensity;     //!< sensor's own scale
-  std::vector<std::uint16_t> ring;  //!< laser line
-  std::vector<float> time_s;        //!< [s], relative to the stamp of the observation
+  std::vector<float> x, y, z;          //!< [m]
+  std::vector<float> intensity;        //!< sensor's own scale
+  std::vector<std::uint16_t> ring;     //!< laser line
+  std::vector<double> time;            //!< in the recording's unit, see findPointTimes()
+  bool single_precision_time = false;  //!< the field holds 32-bit numbers
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
-/** Copies the fields of any MRPT point map: all of CPointsMapXYZIRT, intensity of CPointsMapXYZI,
- * coordinates of the others. */
+/** Copies the fields of any MRPT point map: all of CPointsMapXYZIRT; of CGenericPointsMap those
+ * with a usual name ("t", "time", "timestamp", "ring", "intensity", ...) and any type; intensity of
+ * CPointsMapXYZI; coordinates of the others. */
 [[nodiscard]] CloudColumns readColumns(const mrpt::maps::CPointsMap& cloud);
 
-/** A map of the given fields.
+/** A map of the given fields; times as they are, in 32 bits.
  * \exception std::invalid_argument columns of unequal lengths (the message names the column) */
 [[nodiscard]] mrpt::maps::CPointsMapXYZIRT::Ptr makeXyzirt(const CloudColumns& columns);
 

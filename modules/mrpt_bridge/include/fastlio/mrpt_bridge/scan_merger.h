@@ -1,0 +1,57 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_merger.h Several LiDARs as one: the points of the others join the first one's scans.
+ */
+#pragma once
+
+#include <fastlio/lidar/scan.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+namespace fastlio
+{
+/** Holds scans of the first LiDAR back until those of the others that overlap them in time are
+ * there. A merged scan is in the frame of the first LiDAR; every point keeps its own time. Not
+ * thread-safe. */
+class ScanMerger
+{
+ public:
+  /** Scans of the first LiDAR wait so long beyond their end: drivers stamp scans at their start or
+   * at their end. */
+  static constexpr std::int64_t kDefaultWaitNs = 200'000'000;
+
+  explicit ScanMerger(std::int64_t wait_ns = kDefaultWaitNs) : wait_ns_(wait_ns) {}
+
+  /** \param lidar 0 is the first */
+  void add(std::size_t lidar, LidarScan scan);
+
+  /** The oldest scan of the first LiDAR, if its time is over. \param now_ns stamp that the
+   * recording has reached */
+  [[nodiscard]] std::optional<LidarScan> next(std::int64_t now_ns);
+
+  /** The same at the end of the recording. */
+  [[nodiscard]] std::optional<LidarScan> flush();
+
+  /** Points of the others that no scan of the first LiDAR is near in time. */
+  [[nodiscard]] std::size_t pointsLeftOut() const { return left_out_; }
+
+ private:
+  struct Further
+  {
+    std::size_t lidar;
+    LidarScan scan;
+  };
+
+  void join(LidarScan& first, const ScanSpan& window, Further& further);
+
+  std::int64_t wait_ns_;
+  std::deque<LidarScan> first_;
+  std::deque<Further> further_;  // what has not been taken yet
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace fastlio
