@@ -29,6 +29,10 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
 {
   RunSetup setup = setUpRun(arguments);
   logger.logStr(mrpt::system::LVL_INFO, describe(setup.selection));
+  for (const auto& note : setup.plan.notes)
+    logger.logStr(mrpt::system::LVL_INFO, note);
+  for (const auto& warning : setup.plan.warnings)
+    logger.logStr(mrpt::system::LVL_WARN, warning);
   logger.logStr(mrpt::system::LVL_INFO, "parameters: " + setup.configuration);
   catchInterruptions();
   ReplayRun run(std::move(setup), logger);

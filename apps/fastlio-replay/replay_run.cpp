@@ -50,6 +50,18 @@ std::vector<std::string> sentences(const std::vector<ReadProblem>& problems)
   return texts;
 }
 
+/** The sensors in use, and how their points get their times. */
+std::vector<std::string> sensorTexts(const RunSetup& setup)
+{
+  std::vector<std::string> texts{describe(setup.selection.lidar)};
+  for (const auto& lidar : setup.selection.further_lidars)
+    texts.push_back(describe(lidar));
+  texts.push_back(describe(setup.selection.imu));
+  for (const auto* sentences : {&setup.plan.notes, &setup.plan.warnings})
+    texts.insert(texts.end(), sentences->begin(), sentences->end());
+  return texts;
+}
+
 CIncrementalPointsMap::TCreationOptions outputMapOptions(const MapParameters& parameters)
 {
   CIncrementalPointsMap::TCreationOptions options;
@@ -76,7 +88,7 @@ RunSummary ReplayRun::execute()
   const CTicTac stopwatch;
   DecodeAheadSource source(
       RawlogSource(setup_.arguments.input_files),
-      ObservationBridge(setup_.selection, setup_.bridge));
+      ObservationBridge(setup_.selection, setup_.plan.bridge));
   try
   {
     consume(source);
@@ -182,7 +194,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.inputs = inputFiles(setup_.arguments.input_files);
   summary.configuration = setup_.configuration;
   summary.frame = setup_.frame.name;
-  summary.sensors = {describe(setup_.selection.lidar), describe(setup_.selection.imu)};
+  summary.sensors = sensorTexts(setup_);
   summary.parameters = odometry_.parameters();
   summary.input_counts = inputCounts(source.statistics(), odometry_.inputStatistics());
   summary.input_counts.push_back(

@@ -12,8 +12,9 @@ namespace fastlio
 namespace
 {
 /** Counts that are no loss. */
-constexpr std::array<std::string_view, 5> kFine = {
-    "imu_samples", "scans", "points", "other_sensors", "scans_skipped"};
+constexpr std::array<std::string_view, 6> kFine = {
+    "imu_samples",   "scans",         "points",
+    "other_sensors", "scans_skipped", "scans_with_synthetic_point_times"};
 }  // namespace
 
 std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputStatistics& odometry)
@@ -27,6 +28,7 @@ std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputS
       {"imu_out_of_order", odometry.imu_out_of_order},
       {"imu_duplicate", odometry.imu_duplicate},
       {"scans", bridge.scans_converted},
+      {"scans_with_synthetic_point_times", bridge.scans_synthetic_point_times},
       {"scans_without_point_times", bridge.scans_without_point_times},
       {"scans_with_unusable_point_times", bridge.scans_unusable_point_times},
       {"scans_without_stamp", bridge.scans_no_stamp},

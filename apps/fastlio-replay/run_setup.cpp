@@ -78,12 +78,13 @@ void requireReadable(const std::vector<std::string>& files)
   }
 }
 
-SensorSelection findSensors(const ReplayArguments& arguments, const InputParameters& input)
+/** Runs what may throw std::invalid_argument for a parameter, others for the input. */
+template <typename Step>
+auto checked(Step step)
 {
-  const SensorPatterns patterns{input.lidar_sensor_label, input.imu_sensor_label};
   try
   {
-    return selectSensors(surveySensors(arguments.input_files, patterns), patterns);
+    return step();
   }
   catch (const std::invalid_argument& e)
   {
@@ -93,16 +94,6 @@ SensorSelection findSensors(const ReplayArguments& arguments, const InputParamet
   {
     throw SetupError(ExitStatus::InputUnusable, e.what());
   }
-}
-
-/** Extrinsics of the configuration over those of the recording. */
-BridgeOptions bridgeOptionsOf(const InputParameters& input, const SensorSelection& selection)
-{
-  BridgeOptions options;
-  options.T_vehicle_imu = input.T_vehicle_imu;
-  const Pose T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
-  if (input.T_vehicle_lidar) options.T_imu_lidar = T_vehicle_imu.inverse() * *input.T_vehicle_lidar;
-  return options;
 }
 
 OutputFrame outputFrameOf(
@@ -122,10 +113,12 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   prepareOutputs(setup.arguments);
   requireReadable(arguments.input_files);
   const InputParameters& input = setup.parameters.input;
-  setup.selection = findSensors(arguments, input);
+  const SensorPatterns patterns = patternsOf(setup.parameters);
+  setup.selection = checked(
+      [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
+  setup.plan = checked([&] { return planInput(setup.selection, setup.parameters); });
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
-  setup.bridge = bridgeOptionsOf(input, setup.selection);
   setup.frame = outputFrameOf(arguments.frame, input, setup.selection);
   return setup;
 }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "command_line.h"
-#include <fastlio/mrpt_bridge/observation_bridge.h>
+#include <fastlio/mrpt_bridge/input_plan.h>
 #include <fastlio/mrpt_bridge/output/pose_output.h>
 #include <fastlio/mrpt_bridge/output/run_summary.h>
 #include <fastlio/mrpt_bridge/sensor_selection.h>
@@ -38,7 +38,7 @@ struct RunSetup
   Parameters parameters;
   std::string configuration;  //!< where the parameters come from, for people
   SensorSelection selection;
-  BridgeOptions bridge;
+  InputPlan plan;
   OutputFrame frame;
 };
 

@@ -101,7 +101,12 @@ mrpt::obs::CObservationPointCloud scanAt(double t, int index, const BoxRecording
   mrpt::obs::CObservationPointCloud scan;
   scan.sensorLabel = "lidar";
   scan.timestamp = toMrptTime(stampNs(t));
-  scan.pointcloud = makeXyzirt(scanPoints(index, recording.rotten_points));
+  const auto cloud = makeXyzirt(scanPoints(index, recording.rotten_points));
+  CloudColumns columns = readColumns(*cloud);
+  for (double& time : columns.time)
+    time *= recording.times_per_second;
+  if (!recording.point_times) columns.time.clear();
+  scan.pointcloud = makeXyzirt(columns);
   return scan;
 }
 }  // namespace

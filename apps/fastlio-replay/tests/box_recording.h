@@ -21,6 +21,8 @@ struct BoxRecording
   double shake_amplitude = 0.0;   //!< of the angular rate, at 3 Hz [rad/s]
   bool rotten_points = false;     //!< every seventh point NaN or zero, every tenth scan empty
   bool stamps_jump_back = false;  //!< some observations come with stamps one second old
+  bool point_times = true;        //!< false: clouds have no time field
+  double times_per_second = 1.0;  //!< what the time field shows for a second
 };
 
 /** Writes it: IMU at 100 Hz ("imu", 0.1 m above the vehicle's origin), 16 lines x 120 columns at

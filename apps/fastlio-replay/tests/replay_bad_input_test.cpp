@@ -170,6 +170,35 @@ TEST_F(BadInput, EmptyScansAndInvalidPointsAreCounted)
   EXPECT_EQ(summary["scans"]["diverged"], 0);
 }
 
+TEST_F(BadInput, PointTimesThatCanBeReadInTwoWaysAreAnError)
+{
+  BoxRecording recording;
+  recording.times_per_second = 5.0;
+  const std::string rawlog = record("a.rawlog", recording);
+  const auto result = replayFile(rawlog);
+  expectEnd(result, 2, "read as s a scan lasts 0.4958 s");
+  expectEnd(result, 2, "read as ms a scan lasts 0.0004958 s");
+  expectEnd(result, 2, "input.point_time_unit: s or ms");
+  const std::string config = write("c.yaml", "input:\n  point_time_unit: ms\n");
+  expectEnd(replayFile(rawlog, {"-c", config}), 0, "point times are ms after the stamp");
+}
+
+TEST_F(BadInput, PointTimesThatAreMissingAreSaidLoudly)
+{
+  BoxRecording recording;
+  recording.point_times = false;
+  const std::string rawlog = record("a.rawlog", recording);
+  const auto result = replayFile(rawlog, {"-v", "WARN"});
+  expectEnd(result, 0, "turns counter-clockwise");
+  const Json summary = Json::parse(contentOf(file("out/summary.json")));
+  EXPECT_EQ(summary["input"]["counts"]["scans_with_synthetic_point_times"], 40);
+  EXPECT_EQ(summary["input"]["counts"]["scans_without_point_times"], 0);
+  const std::string config = write("c.yaml", "input:\n  missing_point_times: none\n");
+  const auto none = replayFile(rawlog, {"-c", config, "-v", "WARN"});
+  expectEnd(none, 0, "no motion compensation");
+  expectEnd(none, 0, "40 scans_without_point_times");
+}
+
 TEST_F(BadInput, LidarThatStartsLater)
 {
   BoxRecording recording;

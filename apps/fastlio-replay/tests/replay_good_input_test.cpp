@@ -131,6 +131,23 @@ TEST_F(GoodInput, SplitRecordingGivesTheSameAsTheWhole)
     EXPECT_NEAR(split[i][0], expected[i][0], 0.02);
 }
 
+TEST_F(GoodInput, UnitOfThePointTimesDoesNotMatter)
+{
+  BoxRecording recording;
+  ASSERT_EQ(replayFile(record("s.rawlog", recording)).exit_status, 0);
+  const std::string seconds = contentOf(file("out/trajectory.tum"));
+  recording.times_per_second = 1e9;
+  const auto result = replayFile(record("ns.rawlog", recording));
+  expectEnd(result, 0, "point times are ns after the stamp");
+  const auto expected = positionsOf(seconds),
+             positions = positionsOf(contentOf(file("out/trajectory.tum")));
+  ASSERT_EQ(positions.size(), expected.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    EXPECT_NEAR(positions[i][0], expected[i][0], 1e-4);
+  const Json summary = Json::parse(contentOf(file("out/summary.json")));
+  EXPECT_NE(summary["input"]["sensors"].dump().find("ns after the stamp"), std::string::npos);
+}
+
 TEST_F(GoodInput, SkippingAndLimitingCountScans)
 {
   BoxRecording recording;
