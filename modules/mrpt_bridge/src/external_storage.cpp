@@ -4,11 +4,13 @@
 #include "external_storage.h"
 
 #include "mrpt_messages.h"
+#include "rotating_scan_stream.h"
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <filesystem>
+#include <functional>
 
 namespace
 {
@@ -31,22 +33,50 @@ std::string externalFolderOf(const std::string& rawlog)
 
 namespace fastlio
 {
+namespace
+{
+// What is kept in a file, and how to load it.
+struct External
+{
+  std::string file;  // empty: nothing
+  const char* what = "";
+  std::function<void(const std::string& path)> load;
+};
+
+External externalOf(const mrpt::obs::CObservation& observation)
+{
+  if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
+  {
+    if (!cloud->isExternallyStored()) return {};
+    return {cloud->getExternalStorageFile(), "a point cloud", [cloud](const std::string&) {
+              cloud->load();
+            }};
+  }
+  // Loading completes an observation, which MRPT regards as no change of it.
+  auto* scan = const_cast<RotatingScan*>(dynamic_cast<const RotatingScan*>(&observation));
+  if (scan == nullptr) return {};
+  return {externalFileOf(*scan), "a rotating scan", [scan](const std::string& path) {
+            loadRotatingScan(*scan, path);
+          }};
+}
+}  // namespace
+
 std::optional<std::string> loadExternal(
     const mrpt::obs::CObservation& observation, const std::string& rawlog)
 {
-  const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
-  if (cloud == nullptr || !cloud->isExternallyStored()) return std::nullopt;
+  const External external = externalOf(observation);
+  if (external.file.empty()) return std::nullopt;
   // MRPT keeps one base folder per process; files of several rawlogs may lie in several folders.
   mrpt::io::setLazyLoadPathBase(externalFolderOf(rawlog));
-  const std::string file = mrpt::io::lazy_load_absolute_path(cloud->getExternalStorageFile());
-  const std::string prefix =
-      rawlog + ": a point cloud of sensor '" + cloud->sensorLabel + "' lies in the file " + file;
+  const std::string file = mrpt::io::lazy_load_absolute_path(external.file);
+  const std::string prefix = rawlog + ": " + external.what + " of sensor '" +
+                             observation.sensorLabel + "' lies in the file " + file;
   std::error_code error;
   if (!fs::exists(file, error))
     return prefix + ", which does not exist. Copy the folder of external files along.";
   try
   {
-    cloud->load();
+    external.load(file);
     return std::nullopt;
   }
   catch (const std::exception& e)

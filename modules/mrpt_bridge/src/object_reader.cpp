@@ -4,6 +4,7 @@
 #include "object_reader.h"
 
 #include "mrpt_messages.h"
+#include "rotating_scan_stream.h"
 #include "size_check.h"
 
 #include <mrpt/rtti/CObject.h>
@@ -133,8 +134,7 @@ NextObject ObjectReader::readOne()
           ReadProblemKind::Corrupt, header->class_name, "it does not end where its lengths say"));
     try
     {
-      auto archive = mrpt::serialization::archiveFrom(*stream_);
-      auto object = archive.ReadObject();
+      auto object = readObject(*header);
       if (!object) continue;
       ++index_;
       return object;
@@ -149,6 +149,20 @@ NextObject ObjectReader::readOne()
       return fail(diagnose(header->class_name, innermostMessage(e.what())));
     }
   }
+}
+
+// MRPT reads rotating scans of its own layout only.
+mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHeader& header)
+{
+  constexpr std::uint8_t kEndFlag = 0x88;
+  auto archive = mrpt::serialization::archiveFrom(*stream_);
+  if (header.class_name != kRotatingScanClass) return archive.ReadObject();
+  std::vector<std::uint8_t> head(header.length + 1);  // and the version, which is 0 in all layouts
+  archive.ReadBuffer(head.data(), head.size());
+  auto scan = readRotatingScan(archive);
+  if (archive.ReadAs<std::uint8_t>() != kEndFlag)
+    throw std::runtime_error("the object does not end where it should");
+  return scan;
 }
 
 NextObject ObjectReader::atEndOfFile()

@@ -39,6 +39,7 @@ class ObjectReader
 
  private:
   [[nodiscard]] NextObject readOne();
+  [[nodiscard]] mrpt::serialization::CSerializable::Ptr readObject(const ObjectHeader& header);
   [[nodiscard]] NextObject atEndOfFile();
   [[nodiscard]] NextObject fail(ReadProblem problem);
   [[nodiscard]] ReadProblem diagnose(const std::string& class_name, const std::string& error) const;

@@ -5,6 +5,7 @@
 #include <fastlio/mrpt_bridge/imu_conversion.h>
 #include <fastlio/mrpt_bridge/observation_bridge.h>
 #include <fastlio/mrpt_bridge/point_cloud_conversion.h>
+#include <fastlio/mrpt_bridge/rotating_scan.h>
 #include <fastlio/mrpt_bridge/velodyne_decoder.h>
 
 #include <mrpt/obs/CObservationIMU.h>
@@ -78,6 +79,27 @@ LidarScan fromCloud(
   return scan;
 }
 
+LidarScan fromRotatingScan(
+    const mrpt::obs::CObservationRotatingScan& observation, const CloudTiming& timing,
+    BridgeStatistics& statistics)
+{
+  RotatingScanPoints rotating = pointsOf(observation);
+  statistics.points_no_return += rotating.no_return;
+  statistics.points_out_of_range += rotating.out_of_range;
+  if (!rotating.has_point_times && timing.sweep)
+  {
+    assignSweepTimes(rotating.points, *timing.sweep);
+    rotating.has_point_times = true;
+    ++statistics.scans_synthetic_point_times;
+  }
+  if (!rotating.has_point_times) ++statistics.scans_without_point_times;
+  LidarScan scan;
+  scan.points = std::move(rotating.points);
+  scan.dropped_invalid = rotating.no_return + rotating.out_of_range;
+  scan.has_point_times = rotating.has_point_times;
+  return scan;
+}
+
 LidarScan toScan(
     const CObservation& observation, const CloudTiming& timing, BridgeStatistics& statistics)
 {
@@ -89,6 +111,8 @@ LidarScan toScan(
     const CloudTiming own{PointTimeReading{}, timing.sweep};
     return fromCloud(cachedPoints(*velodyne), stamp_ns, own, statistics);
   }
+  if (const auto* rotating = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
+    return fromRotatingScan(*rotating, timing, statistics);
   const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation);
   if (cloud == nullptr)
     throw std::runtime_error(

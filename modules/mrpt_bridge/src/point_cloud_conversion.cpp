@@ -49,16 +49,16 @@ void copyUsablePoints(const CloudColumns& cloud, CloudConversion& result)
         cloud.ring.empty() ? std::uint16_t{0} : cloud.ring[i]);
   }
 }
-
-void assignTimes(PointColumns& points, const SweepTiming& sweep)
-{
-  const double start = sweep.start_azimuth.value_or(startAzimuthOf(points, sweep.sense));
-  assignSweepTimes(points, sweep.sense, start, sweep.period, sweep.reference);
-}
 }  // namespace
 
 namespace fastlio
 {
+void assignSweepTimes(PointColumns& points, const SweepTiming& sweep)
+{
+  const double start = sweep.start_azimuth.value_or(startAzimuthOf(points, sweep.sense));
+  assignSweepTimes(points, sweep.sense, start, sweep.period, sweep.reference);
+}
+
 CloudConversion toTimedPoints(CloudColumns cloud, std::int64_t stamp_ns, const CloudTiming& timing)
 {
   CloudConversion result;
@@ -66,7 +66,7 @@ CloudConversion toTimedPoints(CloudColumns cloud, std::int64_t stamp_ns, const C
   copyUsablePoints(cloud, result);
   if (result.times != PointTimes::PerPoint && timing.sweep)
   {
-    assignTimes(result.points, *timing.sweep);
+    assignSweepTimes(result.points, *timing.sweep);
     result.times = PointTimes::Synthetic;
   }
   return result;

@@ -5,6 +5,7 @@
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/imu_conversion.h>
 #include <fastlio/mrpt_bridge/point_cloud_conversion.h>
+#include <fastlio/mrpt_bridge/rotating_scan.h>
 #include <fastlio/mrpt_bridge/sensor_selection.h>
 #include <fastlio/mrpt_bridge/velodyne_decoder.h>
 #include <fastlio/mrpt_bridge/xyzirt_access.h>
@@ -24,7 +25,6 @@ using mrpt::obs::CObservation;
 
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::size_t kFewestScans = 5;
-const std::string kRotatingScan = "mrpt::obs::CObservationRotatingScan";
 
 // What one observation tells about its sensor.
 struct Appearance
@@ -75,6 +75,23 @@ Appearance appearanceOf(const mrpt::obs::CObservationPointCloud& scan)
           (columns.time.empty() ? ", no time per point" : " with time per point")};
 }
 
+Appearance appearanceOf(const mrpt::obs::CObservationRotatingScan& scan)
+{
+  try
+  {
+    const RotatingScanPoints points = pointsOf(scan);
+    return {
+        SensorKind::Lidar, true,
+        scan.lidarModel + ", " + std::to_string(scan.rowCount) + " rows, " +
+            std::to_string(points.points.size()) + " points" +
+            (points.has_point_times ? " with time per column" : ", no time per point")};
+  }
+  catch (const std::runtime_error& e)
+  {
+    return {SensorKind::Lidar, false, e.what()};
+  }
+}
+
 Appearance appearanceOf(const CObservation& observation)
 {
   if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation))
@@ -83,12 +100,8 @@ Appearance appearanceOf(const CObservation& observation)
     return appearanceOf(*scan);
   if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
     return appearanceOf(*scan);
-  if (observation.GetRuntimeClass()->className == kRotatingScan)
-    return {
-        SensorKind::Lidar, false,
-        "a range image without the elevation of its rows; convert it to point clouds with the time "
-        "of "
-        "each point"};
+  if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation))
+    return appearanceOf(*scan);
   return {};
 }
 
@@ -116,6 +129,8 @@ void noteTimes(SensorSummary& sensor, const CObservation& observation)
   if (cloud == nullptr)
   {
     const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
+    const auto* rotating = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation);
+    sensor.times_by_sensor |= rotating != nullptr && rotating->sweepDuration > 0.0;
     sensor.times_by_sensor |=
         scan != nullptr && (!scan->scan_packets.empty() || !scan->point_cloud.timestamp.empty());
     sensor.point_times.push_back(sampleOf(stamp_ns, {}, false));
@@ -157,8 +172,7 @@ bool hasUsable(
   const std::size_t least = kind == SensorKind::Lidar ? kFewestScans : 1;
   return std::any_of(
       sensors.begin(), sensors.end(),
-      [&](const SensorSummary& s)
-      {
+      [&](const SensorSummary& s) {
         return s.kind == kind && s.usable && s.observations >= least && pattern.matches(s.label);
       });
 }

@@ -3,6 +3,8 @@
 
 #include "size_check.h"
 
+#include "rotating_scan_stream.h"
+
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
@@ -31,6 +33,8 @@ struct Field
     NamedLists,      // 32-bit count, so many of a string and Counted
     Object,          // another object
     CountedObjects,  // 32-bit count, so many objects
+    ImageSize,       // 16-bit rows and columns, which the images behind refer to
+    RotatingImages,  // images of that size, in one of two layouts
     StoredCloud,     // 0 and an object, or another byte and the name of a file
     Unknown          // what follows depends on the version of MRPT
   };
@@ -95,6 +99,12 @@ Layout genericCloud(unsigned char version)
   return {version, fields};
 }
 
+std::vector<Field> rotatingScanFields()
+{
+  return {fixed(kStamp),      kString, {Field::ImageSize}, fixed(4 * kDouble),     kString,
+          fixed(2 * kDouble), kPose,   fixed(kStamp + 1),  {Field::RotatingImages}};
+}
+
 std::multimap<std::string, Layout> makeLayouts()
 {
   const std::vector<Field> points_and_more{counted(kPoint), kRest};
@@ -103,6 +113,7 @@ std::multimap<std::string, Layout> makeLayouts()
       {"mrpt::obs::CSensoryFrame", {2, {{Field::CountedObjects}}}},
       {"mrpt::obs::CObservationIMU", {4, imuFields()}},
       {"mrpt::obs::CObservationVelodyneScan", {2, velodyneFields()}},
+      {fastlio::kRotatingScanClass, {0, rotatingScanFields()}},
       {"mrpt::obs::CObservationPointCloud",
        {0, {kString, fixed(kStamp), kPose, {Field::StoredCloud}}}},
       {"mrpt::maps::CPointsMapXYZIRT",
@@ -191,6 +202,54 @@ class Walk
     return stream_.byteAt(at_ - 1) == 0 ? object(depth + 1) : countedBytes(kString.size);
   }
 
+  bool imageSize()
+  {
+    if (!skip(4)) return false;
+    rows_ = shortAt(at_ - 4);
+    columns_ = shortAt(at_ - 2);
+    return true;
+  }
+
+  // An image: 16-bit columns and rows, so many values.
+  bool image(std::size_t value_size)
+  {
+    if (!skip(4)) return false;
+    pixels_ = std::size_t{shortAt(at_ - 4)} * shortAt(at_ - 2);
+    return skip(pixels_ * value_size);
+  }
+
+  bool images()
+  {
+    if (!image(2)) return false;
+    const std::size_t range_pixels = pixels_;
+    if (!image(1) || !skip(2)) return false;
+    for (int layers = shortAt(at_ - 2); layers > 0; --layers)
+      if (!countedBytes(kString.size) || !skip(2 * range_pixels)) return false;
+    return true;
+  }
+
+  // Inside of a frame MRPT itself reads them, and only its own layout.
+  bool rotatingImages(int depth)
+  {
+    if (!stream_.holds(at_, 4)) return stop(SizeVerdict::RunsOut);
+    const auto layout = fastlio::layoutOf(
+        {stream_.byteAt(at_), stream_.byteAt(at_ + 1), stream_.byteAt(at_ + 2),
+         stream_.byteAt(at_ + 3)},
+        rows_, columns_);
+    if (depth > 0 && layout != fastlio::kNativeRotatingScan) return stop(SizeVerdict::Misaligned);
+    if (layout == fastlio::RotatingScanLayout::Images) return images();
+    if (layout == fastlio::RotatingScanLayout::Neither) return stop(SizeVerdict::Misaligned);
+    if (!skip(1)) return false;
+    if (stream_.byteAt(at_ - 1) != 0) return countedBytes(kString.size);
+    constexpr std::size_t kPointBytes = 12;
+    return images() && image(kPointBytes);
+  }
+
+  [[nodiscard]] std::uint16_t shortAt(std::size_t at) const
+  {
+    return static_cast<std::uint16_t>(stream_.byteAt(at) | (stream_.byteAt(at + 1) << 8U));
+  }
+
   bool walk(const Field& field, int depth)
   {
     switch (field.kind)
@@ -207,6 +266,10 @@ class Walk
         return object(depth + 1);
       case Field::CountedObjects:
         return repeated([&] { return object(depth + 1); });
+      case Field::ImageSize:
+        return imageSize();
+      case Field::RotatingImages:
+        return rotatingImages(depth);
       case Field::StoredCloud:
         return storedCloud(depth);
       case Field::Unknown:
@@ -216,7 +279,9 @@ class Walk
   }
 
   ObjectStream& stream_;
-  std::size_t at_ = 0;  // from the start of the object at hand
+  std::size_t at_ = 0;                    // from the start of the object at hand
+  std::uint16_t rows_ = 0, columns_ = 0;  // of the rotating scan at hand
+  std::size_t pixels_ = 0;                // of its last image
   SizeVerdict verdict_ = SizeVerdict::Plausible;
 };
 }  // namespace

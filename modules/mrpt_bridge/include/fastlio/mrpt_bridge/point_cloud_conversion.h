@@ -50,6 +50,9 @@ struct CloudConversion
   std::size_t dropped_invalid = 0;  //!< not finite (also in time), or at the origin
 };
 
+/** Gives every point the time that its azimuth tells. */
+void assignSweepTimes(PointColumns& points, const SweepTiming& sweep);
+
 /** Points at (0, 0, 0) are what drivers write for "no return"; they are dropped like NaN. */
 [[nodiscard]] CloudConversion toTimedPoints(
     CloudColumns cloud, std::int64_t stamp_ns, const CloudTiming& timing = {});

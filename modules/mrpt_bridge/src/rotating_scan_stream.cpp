@@ -1,0 +1,190 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "rotating_scan_stream.h"
+
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::serialization::CArchive;
+
+constexpr std::uint8_t kSerialized = 1, kText = 2;
+
+std::uint16_t shortAt(const std::array<std::uint8_t, 4>& bytes, std::size_t at)
+{
+  return static_cast<std::uint16_t>(bytes.at(at) | (bytes.at(at + 1) << 8U));
+}
+
+struct Size
+{
+  std::uint16_t columns = 0, rows = 0;
+
+  [[nodiscard]] std::size_t count() const { return std::size_t{columns} * rows; }
+};
+
+Size readSize(CArchive& in)
+{
+  Size size;
+  size.columns = in.ReadAs<std::uint16_t>();
+  size.rows = in.ReadAs<std::uint16_t>();
+  return size;
+}
+
+template <typename Matrix>
+void readImage(CArchive& in, const Size& size, Matrix& image)
+{
+  image.resize(size.rows, size.columns);
+  if (size.count() > 0) in.ReadBufferFixEndianness(&image(0, 0), size.count());
+}
+
+void readImages(CArchive& in, const Size& size, RotatingScan& scan)
+{
+  readImage(in, size, scan.rangeImage);
+  readImage(in, readSize(in), scan.intensityImage);
+  scan.rangeOtherLayers.clear();
+  const auto layers = in.ReadAs<std::uint16_t>();
+  for (std::uint16_t i = 0; i < layers; ++i)
+  {
+    std::string name;
+    in >> name;
+    readImage(in, size, scan.rangeOtherLayers[name]);
+  }
+}
+
+void readPoints(CArchive& in, RotatingScan& scan)
+{
+  const Size size = readSize(in);
+#if MRPT_VERSION >= 0x20b04
+  scan.organizedPoints.resize(size.rows, size.columns);
+  for (auto& point : scan.organizedPoints)
+    in >> point.x >> point.y >> point.z;
+#else
+  scan.points.resize(size.count());
+  for (auto& point : scan.points)
+    in >> point.x >> point.y >> point.z;
+#endif
+}
+
+void setExternal(RotatingScan& scan, std::uint8_t format, const std::string& file)
+{
+  if (format > kText)
+    throw std::runtime_error(
+        "CObservationRotatingScan: images are kept in format " + std::to_string(format) +
+        ", which is not known.");
+#if MRPT_VERSION >= 0x20b04
+  scan.setAsExternalStorage(
+      file, static_cast<mrpt::obs::CObservationRotatingScan::ExternalStorageFormat>(format));
+#else
+  scan.external_format = format;
+  scan.external_file = file;
+#endif
+}
+
+/** The layout since 2.11.4, of which four bytes have been read. */
+void readWithPrefix(CArchive& in, const std::array<std::uint8_t, 4>& bytes, RotatingScan& scan)
+{
+  const auto fifth = in.ReadAs<std::uint8_t>();
+  if (bytes[0] != 0)
+  {
+    std::string file(bytes[1] | (bytes[2] << 8U) | (bytes[3] << 16U), '\0');
+    if (fifth != 0) throw std::runtime_error("CObservationRotatingScan: absurd name of a file.");
+    in.ReadBuffer(file.data(), file.size());
+    setExternal(scan, bytes[0], file);
+    return;
+  }
+  const Size size{shortAt(bytes, 1), static_cast<std::uint16_t>(bytes[3] | (fifth << 8U))};
+  readImages(in, size, scan);
+  readPoints(in, scan);
+}
+
+#if MRPT_VERSION < 0x20b04
+/** Lines of `x y z range intensity row column`. */
+void loadText(RotatingScan& scan, const std::string& path)
+{
+  std::ifstream in(path);
+  scan.rangeImage.setZero(scan.rowCount, scan.columnCount);
+  scan.intensityImage.setZero(scan.rowCount, scan.columnCount);
+  scan.points.assign(std::size_t{scan.rowCount} * scan.columnCount, {0, 0, 0});
+  float x = 0, y = 0, z = 0;
+  unsigned range = 0, intensity = 0, row = 0, column = 0;
+  while (in >> x >> y >> z >> range >> intensity >> row >> column)
+  {
+    if (row >= scan.rowCount || column >= scan.columnCount)
+      throw std::runtime_error(
+          "row " + std::to_string(row) + " or column " + std::to_string(column) +
+          " is outside of the scan");
+    scan.rangeImage(row, column) = static_cast<std::uint16_t>(range);
+    scan.intensityImage(row, column) = static_cast<std::uint8_t>(intensity);
+    scan.points[std::size_t{row} * scan.columnCount + column] = {x, y, z};
+  }
+  if (!in.eof()) throw std::runtime_error("a line is not `x y z range intensity row column`");
+}
+#endif
+}  // namespace
+
+RotatingScanLayout layoutOf(
+    const std::array<std::uint8_t, 4>& bytes, std::uint16_t rows, std::uint16_t columns)
+{
+  if (shortAt(bytes, 0) == columns && shortAt(bytes, 2) == rows) return RotatingScanLayout::Images;
+  const bool external = bytes[0] == kSerialized || bytes[0] == kText;
+  if (external || (bytes[0] == 0 && shortAt(bytes, 1) == columns))
+    return RotatingScanLayout::StoragePrefix;
+  return RotatingScanLayout::Neither;
+}
+
+std::shared_ptr<RotatingScan> readRotatingScan(CArchive& in)
+{
+  auto scan = std::make_shared<RotatingScan>();
+  in >> scan->timestamp >> scan->sensorLabel >> scan->rowCount >> scan->columnCount >>
+      scan->rangeResolution >> scan->startAzimuth >> scan->azimuthSpan >> scan->sweepDuration >>
+      scan->lidarModel >> scan->minRange >> scan->maxRange >> scan->sensorPose >>
+      scan->originalReceivedTimestamp >> scan->has_satellite_timestamp;
+  std::array<std::uint8_t, 4> bytes{};
+  in.ReadBuffer(bytes.data(), bytes.size());
+  switch (layoutOf(bytes, scan->rowCount, scan->columnCount))
+  {
+    case RotatingScanLayout::Images:
+      readImages(in, {shortAt(bytes, 0), shortAt(bytes, 2)}, *scan);
+      return scan;
+    case RotatingScanLayout::StoragePrefix:
+      readWithPrefix(in, bytes, *scan);
+      return scan;
+    case RotatingScanLayout::Neither:
+      break;
+  }
+  throw std::runtime_error(
+      "CObservationRotatingScan: no image of the " + std::to_string(scan->columnCount) + " x " +
+      std::to_string(scan->rowCount) + " pixels that it should have");
+}
+
+std::string externalFileOf(const RotatingScan& scan)
+{
+#if MRPT_VERSION >= 0x20b04
+  return scan.isExternallyStored() ? scan.getExternalStorageFile() : std::string();
+#else
+  return scan.external_file;
+#endif
+}
+
+void loadRotatingScan(RotatingScan& scan, const std::string& path)
+{
+#if MRPT_VERSION >= 0x20b04
+  (void)path;  // MRPT looks for it in its base folder
+  scan.load();
+#else
+  if (scan.external_format == kText) return loadText(scan, path);
+  mrpt::io::CFileGZInputStream file(path);
+  auto in = mrpt::serialization::archiveFrom(file);
+  readImages(in, readSize(in), scan);
+  readPoints(in, scan);
+#endif
+}
+
+}  // namespace fastlio
