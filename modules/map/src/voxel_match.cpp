@@ -73,9 +73,9 @@ PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, flo
     // Voxel number kNoVoxel exists and has no plane.
     const VoxelPlane& plane = shards[query.shard].voxel(number).plane();
     if (!plane.valid()) continue;
-    const float shared = plane.offsetVariance(x, y, z);
-    // Roughness that the sensor's noise does not explain belongs to each point.
-    const float variance = shared + plane.roughness;
+    // What the surface departs from the plane stays where it is: like the plane's offset it is one
+    // error for all points that meet it, in this scan and in the next.
+    const float variance = plane.offsetVariance(x, y, z) + plane.roughness;
     if (best.valid() && variance >= best.variance) continue;
     best = {
         plane.nx,
@@ -83,7 +83,7 @@ PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, flo
         plane.nz,
         plane.offset(),
         variance,
-        shared,
+        variance,
         VoxelShards::numberOf(number, query.shard),
         plane.born,
         plane.normalVariance()};

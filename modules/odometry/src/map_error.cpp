@@ -96,12 +96,27 @@ TwistCovariance MapErrorModel::foundingCovariance(const std::vector<PlaneGroup>&
     if (next != foundings_.begin()) std::prev(next)->share += group.weight;
   }
   TwistCovariance mean = TwistCovariance::Zero();
+  TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
   for (Founding& founding : foundings_)
   {
-    if (founding.share > 0.0) mean += founding.share / total * founding.covariance;
+    const double share = total > 0.0 ? founding.share / total : 0.0;
     founding.share = 0.0;
+    remembered *= founding.memory;
+    mean += share * (founding.inherited + share * founding.own + 2.0 * remembered);
+    remembered += share * founding.own;
   }
   return mean;
+}
+
+void MapErrorModel::thinOut()
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < foundings_.size(); i += 2)
+  {
+    if (i > 0) foundings_[i].memory *= foundings_[i - 1].memory;
+    foundings_[kept++] = foundings_[i];
+  }
+  foundings_.resize(kept);
 }
 
 void MapErrorModel::propagate(const StateMatrix& transition)
@@ -126,6 +141,7 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
   const AlignedStateBy6 gain = gainOf(update);
   const AlignedStateMatrix keep = AlignedStateMatrix::Identity() -
                                   gain * scan.information * (update.constrained * update.by_state);
+  memory_ *= std::clamp(keep.topLeftCorner<6, 6>().trace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
   const AlignedStateBy6 in_planes = G * C_planes, in_founding = G * C_founding;
   const AlignedStateBy6 kept_planes = scan.persistence * (keep * Y_planes_);
@@ -154,16 +170,13 @@ StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const
 }
 
 void MapErrorModel::recordInsertion(
-    std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu)
+    std::uint32_t scan, const FoundingError& pose_error, const Pose& T_world_scan)
 {
-  if (foundings_.size() >= kMaxFoundings)
-  {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < foundings_.size(); i += 2)
-      foundings_[kept++] = foundings_[i];
-    foundings_.resize(kept);
-  }
-  foundings_.push_back({scan, twistCovariance(pose_covariance, T_world_imu), 0.0});
+  if (foundings_.size() >= kMaxFoundings) thinOut();
+  foundings_.push_back(
+      {scan, twistCovariance(pose_error.inherited, T_world_scan),
+       twistCovariance(pose_error.own, T_world_scan), memory_, 0.0});
+  memory_ = 1.0;
 }
 
 }  // namespace fastlio

@@ -274,8 +274,10 @@ void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
   const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
   { transformToWorld(compensated_.points, T_world_scan, first, last, world_); };
   workers_->forEachChunk(world_.size(), transform);
-  Matrix6 founding = scanPoseCovariance(total, compensated_.compensation);
-  if (state_ns_ <= young_map_.until_ns) founding += young_map_.founding_covariance;
+  FoundingError founding;
+  founding.own = scanPoseCovariance(filter_, compensated_.compensation);
+  founding.inherited = scanPoseCovariance(total, compensated_.compensation) - founding.own;
+  if (state_ns_ <= young_map_.until_ns) founding.inherited += young_map_.founding_covariance;
   map_error_.recordInsertion(++insertions_, founding, T_world_scan);
   map_->insert(world_, T_world_scan * p_imu_lidar);
   map_->removeOutside(filter_.x.p, parameters_.map.radius);

@@ -67,7 +67,7 @@ void requireValid(const MotionTiming& timing)
 {
   const bool valid = std::isfinite(timing.rate) && timing.rate > 0.0 && timing.rest >= 0.0 &&
                      std::isfinite(timing.blend) && timing.blend > 0.0 &&
-                     std::isfinite(timing.stop_at);
+                     std::isfinite(timing.stop_at) && std::isfinite(timing.start);
   if (valid) return;
   throw std::invalid_argument(
       "Motion: rest " + std::to_string(timing.rest) + " s, blend " + std::to_string(timing.blend) +
@@ -104,14 +104,16 @@ double MotionTiming::stopTime() const
 {
   // Start and stop each cost half of the blend.
   return stop_at < 0.0 ? std::numeric_limits<double>::infinity()
-                       : std::max(rest + stop_at / rate + blend, rest + 2.0 * blend);
+                       : std::max(rest + (stop_at - start) / rate + blend, rest + 2.0 * blend);
 }
 
 Jet MotionTiming::at(double t) const
 {
   const double begin = std::clamp((t - rest) / blend, 0.0, 1.0);
-  const SmoothStep start = smoothStep(begin);
-  Jet u{blend * start.integral + std::max(0.0, t - rest - blend), start.value, start.slope / blend};
+  const SmoothStep run_up = smoothStep(begin);
+  Jet u{
+      blend * run_up.integral + std::max(0.0, t - rest - blend), run_up.value,
+      run_up.slope / blend};
   const double stop = stopTime();
   if (t > stop - blend)
   {
@@ -121,7 +123,7 @@ Jet MotionTiming::at(double t) const
     u.first -= end.value;
     u.second -= end.slope / blend;
   }
-  return {u.value * rate, u.first * rate, u.second * rate};
+  return {start + u.value * rate, u.first * rate, u.second * rate};
 }
 
 Motion::Motion(CarrierPath path, const MotionTiming& timing)

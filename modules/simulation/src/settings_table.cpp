@@ -48,6 +48,12 @@ Rows generalRows()
 }
 , "factor on the speed of the motion, rotation included"
 }
+, {"path_start", "s", RealSetting{[](S & s) -> auto& {return s.path_start;
+}
+, 0.0, 36000.0
+}
+, "where on the scenario's path to start: time of its motion"
+}
 ,
 }
 ;

@@ -32,7 +32,8 @@ MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, cons
   MotionTiming timing;
   timing.rest = s.rest;
   timing.rate = s.speed;
-  if (walksOneLoop(s, row, path)) timing.stop_at = path.loop_time;
+  timing.start = s.path_start;
+  if (walksOneLoop(s, row, path)) timing.stop_at = s.path_start + path.loop_time;
   return timing;
 }
 

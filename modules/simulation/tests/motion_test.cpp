@@ -91,6 +91,21 @@ TEST(MotionTiming, StartsAndStopsSmoothly)
   EXPECT_NEAR(timing.at(timing.stopTime() + 5.0).value, 10.0, 1e-12);
 }
 
+TEST(MotionTiming, StartsFurtherOnThePath)
+{
+  MotionTiming early, late;
+  early.rate = late.rate = 1.5;
+  early.stop_at = 10.0;
+  late.start = 4.0;
+  late.stop_at = 14.0;
+  for (double t = 0.0; t < early.stopTime() + 1.0; t += 0.137)
+  {
+    EXPECT_NEAR(late.at(t).value, early.at(t).value + 4.0, 1e-12);
+    EXPECT_EQ(late.at(t).first, early.at(t).first);
+  }
+  EXPECT_EQ(late.stopTime(), early.stopTime());
+}
+
 TEST(Motion, RejectsImpossibleTiming)
 {
   MotionTiming timing;

@@ -53,6 +53,13 @@ struct LinearizedUpdate
   ScanGain gain = ScanGain::Zero();           //!< G of the filter's gain
 };
 
+/** Covariance of a scan pose from which planes were founded, as Matrix6 of scanPoseCovariance(). */
+struct FoundingError
+{
+  Matrix6 inherited = Matrix6::Zero();  //!< by the map's own error: common to all scans
+  Matrix6 own = Matrix6::Zero();        //!< by the noise of this scan and of those shortly before
+};
+
 /** Tracks what the map's errors do to the whole state. */
 class MapErrorModel
 {
@@ -70,24 +77,29 @@ class MapErrorModel
   /** The same, some way after the last scan. \param transition product of the Fx since then */
   [[nodiscard]] StateMatrix additionAfter(const StateMatrix& transition) const;
 
-  /** Remembers with what total covariance of the scan pose insertion number \a scan was made. */
-  void recordInsertion(std::uint32_t scan, const Matrix6& pose_covariance, const Pose& T_world_imu);
+  /** Remembers how well the scan pose was known when insertion number \a scan was made. */
+  void recordInsertion(
+      std::uint32_t scan, const FoundingError& pose_error, const Pose& T_world_scan);
 
  private:
   struct Founding
   {
     std::uint32_t scan = 0;
-    TwistCovariance covariance = TwistCovariance::Zero();
+    TwistCovariance inherited = TwistCovariance::Zero();
+    TwistCovariance own = TwistCovariance::Zero();
+    double memory = 0.0;  // how much of the own error of the founding before is in this one's
     double share = 0.0;
   };
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
+  void thinOut();
   [[nodiscard]] TwistCovariance foundingCovariance(const std::vector<PlaneGroup>& groups);
 
   StateMatrix E_ = StateMatrix::Zero();              //!< cov e
   StateMatrix counted_twice_ = StateMatrix::Zero();  //!< of the points' noise in P, the shared part
   StateBy6 Y_planes_ = StateBy6::Zero();             //!< cov(e, eta) of the planes' own errors
   StateBy6 Y_founding_ = StateBy6::Zero();           //!< the same of the founding poses'
+  double memory_ = 0.0;                              // since the last insertion
   std::vector<Founding> foundings_;                  // ascending by scan
 };
 

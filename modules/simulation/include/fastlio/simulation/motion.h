@@ -56,6 +56,7 @@ struct MotionTiming
   double rest = 2.5;   //!< at rest from 0 to here [s]
   double blend = 2.0;  //!< then this long until the full rate [s]
   double rate = 1.0;   //!< motion time per time
+  double start = 0.0;  //!< motion time at rest [s]
   double stop_at =
       -1.0;  //!< motion time at which the platform comes to rest; negative: it never does
 

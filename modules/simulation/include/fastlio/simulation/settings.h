@@ -69,6 +69,7 @@ struct SimulationSettings
   double gravity = 9.81;                              //!< [m/s^2]
   double rest = 2.5;                                  //!< time at rest at the start [s]
   double speed = 1.0;                                 //!< factor on the motion's speed
+  double path_start = 0.0;  //!< where on the scenario's path to start: time of its motion [s]
   LidarSettings lidar;
   ImuSettings imu;
 };
