@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "cloud_formats.h"
 #include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/xyzirt_access.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -95,11 +95,12 @@ RawPacket encodePacket(const FiredSweep& fired, std::size_t first, std::int64_t 
 CObservationPointCloud::Ptr toPointCloud(
     const FiredSweep& fired, const SimulationSettings& settings)
 {
+  const CloudFormat format(settings.lidar);
   auto observation = CObservationPointCloud::Create();
   observation->sensorLabel = kLidarLabel;
-  observation->timestamp = toMrptTime(deliveredStamp(fired, settings));
+  observation->timestamp = toMrptTime(deliveredStamp(fired, settings) + format.stampShift());
   observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
-  observation->pointcloud = makeXyzirt(pointsOf(fired));
+  observation->pointcloud = format.encode(pointsOf(fired), deliveredStamp(fired, settings));
   return observation;
 }
 }  // namespace
@@ -140,7 +141,8 @@ CObservationVelodyneScan::Ptr toVelodyneScan(
 mrpt::obs::CObservation::Ptr toLidarObservation(const Simulation& simulation, std::size_t index)
 {
   const FiredSweep fired = simulation.fire(index);
-  if (simulation.settings().lidar.kind == LidarKind::Vlp16)
+  const LidarSettings& lidar = simulation.settings().lidar;
+  if (lidar.kind == LidarKind::Vlp16 && lidar.cloud == LidarCloud::Native)
     return toVelodyneScan(fired, simulation.settings());
   return toPointCloud(fired, simulation.settings());
 }

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/simulation/settings_table.h>
+#include "settings_rows.h"
 
 namespace fastlio
 {
@@ -275,7 +275,7 @@ Rows imuFaultRows()
 Rows makeTable()
 {
   Rows table;
-  for (const Rows& rows : {generalRows(), lidarRows(), imuNoiseRows(), imuFaultRows()})
+  for (const Rows& rows : {generalRows(), lidarRows(), cloudRows(), imuNoiseRows(), imuFaultRows()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }

@@ -99,6 +99,13 @@ struct Parser
     s.member(settings) = static_cast<LidarKind>(found - names.begin());
     return true;
   }
+  bool operator()(const ChoiceSetting& s) const
+  {
+    const auto found = std::find(s.names.begin(), s.names.end(), text);
+    if (found == s.names.end()) return false;
+    s.write(settings, static_cast<std::size_t>(found - s.names.begin()));
+    return true;
+  }
   bool operator()(const VectorSetting& s) const
   {
     const auto v = numbers<3>(text);
@@ -133,6 +140,10 @@ struct Formatter
   {
     return std::string(lidarKindNames().at(static_cast<std::size_t>(s.member(settings))));
   }
+  std::string operator()(const ChoiceSetting& s)
+  {
+    return std::string(s.names.at(s.read(settings)));
+  }
   std::string operator()(const VectorSetting& s)
   {
     const Vec3& v = s.member(settings);
@@ -149,6 +160,14 @@ struct Formatter
 
 struct Describer
 {
+  static std::string oneOf(const std::vector<std::string_view>& names)
+  {
+    std::string text = "one of";
+    for (const auto name : names)
+      text += " " + std::string(name);
+    return text;
+  }
+
   std::string operator()(const RealSetting& s) const
   {
     return "a number from " + formatted(s.min) + " to " + formatted(s.max);
@@ -163,13 +182,8 @@ struct Describer
     return "whole seconds from 0 to " + std::to_string(kLastEpoch);
   }
   std::string operator()(const SwitchSetting&) const { return "true or false"; }
-  std::string operator()(const KindSetting&) const
-  {
-    std::string text = "one of";
-    for (const auto name : lidarKindNames())
-      text += " " + std::string(name);
-    return text;
-  }
+  std::string operator()(const KindSetting&) const { return oneOf(lidarKindNames()); }
+  std::string operator()(const ChoiceSetting& s) const { return oneOf(s.names); }
   std::string operator()(const VectorSetting&) const { return "three numbers: x,y,z"; }
   std::string operator()(const PoseSetting&) const { return "six numbers: x,y,z,yaw,pitch,roll"; }
 };

@@ -25,7 +25,7 @@ constexpr const char* kLidarLabel = "lidar";
     const FiredSweep& fired, const SimulationSettings& settings);
 
 /** Sweep number index in the class that its sensor's recordings have: CObservationVelodyneScan for
- * vlp16, CObservationPointCloud with CPointsMapXYZIRT for the others. */
+ * vlp16, CObservationPointCloud with CPointsMapXYZIRT for the others; or what lidar.cloud says. */
 [[nodiscard]] mrpt::obs::CObservation::Ptr toLidarObservation(
     const Simulation& simulation, std::size_t index);
 

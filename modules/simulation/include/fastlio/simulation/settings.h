@@ -20,6 +20,33 @@ enum class LidarKind
   Livox   //!< non-repetitive rosette
 };
 
+/** In which class a recording has the scans. */
+enum class LidarCloud
+{
+  Native,   //!< what the sensor's driver records: raw packets (vlp16) or CPointsMapXYZIRT
+  Xyzirt,   //!< CPointsMapXYZIRT: times of 32 bits
+  Generic,  //!< CGenericPointsMap: times of 64 bits
+  Xyzi      //!< CPointsMapXYZI: no times
+};
+
+/** Unit of the times of points in a cloud. */
+enum class CloudTimeUnit
+{
+  Seconds,
+  Milliseconds,
+  Microseconds,
+  Nanoseconds
+};
+
+/** What is the zero of the times of points, and the stamp of the scan. */
+enum class CloudTimeReference
+{
+  Start,    //!< the first shot
+  Middle,   //!< half a sweep later
+  End,      //!< a sweep later
+  Absolute  //!< times count from 1970; the stamp is that of the first shot
+};
+
 /** The LiDAR. */
 struct LidarSettings
 {
@@ -36,6 +63,9 @@ struct LidarSettings
   double dropout = 0.01;        //!< share of returns that are lost
   double time_offset = 0.0;     //!< added to the true stamps (LiDAR clock minus IMU clock) [s]
   Pose T_imu_lidar;             //!< mounting
+  LidarCloud cloud = LidarCloud::Native;
+  CloudTimeUnit time_unit = CloudTimeUnit::Seconds;
+  CloudTimeReference time_reference = CloudTimeReference::Start;
 };
 
 /** The inertial sensor. */

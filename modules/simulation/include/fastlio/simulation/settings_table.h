@@ -7,6 +7,7 @@
 
 #include <fastlio/simulation/settings.h>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -54,6 +55,14 @@ struct KindSetting
   SettingMember<LidarKind> member;
 };
 
+/** One of several names; the i-th stands for the enumerator with the value i. */
+struct ChoiceSetting
+{
+  std::vector<std::string_view> names;
+  std::size_t (*read)(const SimulationSettings&);
+  void (*write)(SimulationSettings&, std::size_t);
+};
+
 /** Three finite numbers. */
 struct VectorSetting
 {
@@ -67,8 +76,8 @@ struct PoseSetting
 };
 
 using SettingValue = std::variant<
-    RealSetting, CountSetting, SeedSetting, EpochSetting, SwitchSetting, KindSetting, VectorSetting,
-    PoseSetting>;
+    RealSetting, CountSetting, SeedSetting, EpochSetting, SwitchSetting, KindSetting, ChoiceSetting,
+    VectorSetting, PoseSetting>;
 
 /** One setting. */
 struct SettingRow

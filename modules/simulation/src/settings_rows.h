@@ -1,0 +1,16 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file settings_rows.h Rows of settingsTable() that stand in files of their own (internal). */
+#pragma once
+
+#include <fastlio/simulation/settings_table.h>
+
+#include <vector>
+
+namespace fastlio
+{
+// Defined in settings_rows_cloud.cpp.
+[[nodiscard]] std::vector<SettingRow> cloudRows();
+
+}  // namespace fastlio
