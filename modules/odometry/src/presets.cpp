@@ -1,0 +1,125 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/odometry/presets.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kColumns = 100;
+constexpr double kFullCircle = 0.9;          // share of the azimuths
+constexpr double kElevationTolerance = 4.0;  // [deg]
+
+/** Comment lines of at most kColumns characters. */
+std::string comment(const std::string& text)
+{
+  std::istringstream words(text);
+  std::string lines, line = "#";
+  for (std::string word; words >> word;)
+  {
+    if (line.size() + 1 + word.size() > kColumns)
+    {
+      lines += line + "\n";
+      line = "#";
+    }
+    line += " " + word;
+  }
+  return lines + line + "\n";
+}
+
+std::string lowerCase(std::string text)
+{
+  std::transform(
+      text.begin(), text.end(), text.begin(),
+      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/** Length of the longest of the preset's words that the label contains; 0: none. */
+std::size_t namedBy(const Preset& preset, const std::string& label)
+{
+  std::istringstream words{std::string(preset.words)};
+  std::size_t longest = 0;
+  for (std::string word; words >> word;)
+    if (label.find(word) != std::string::npos) longest = std::max(longest, word.size());
+  return longest;
+}
+
+/** Difference of the field of view [deg]; infinite when lines or circle say no. */
+double difference(const Preset& preset, const LidarAppearance& lidar)
+{
+  constexpr double kNever = 1e9;
+  if (preset.full_circle != (lidar.coverage >= kFullCircle)) return kNever;
+  if (preset.lines > 0 && lidar.lines > 0 && preset.lines != lidar.lines) return kNever;
+  return std::max(std::abs(preset.lowest - lidar.lowest), std::abs(preset.highest - lidar.highest));
+}
+
+std::string appearanceText(const LidarAppearance& lidar)
+{
+  std::array<char, 120> text{};
+  const std::string lines = lidar.lines > 0 ? std::to_string(lidar.lines) + " lines, " : "";
+  std::snprintf(
+      text.data(), text.size(), "%selevations %.0f to %.0f deg, %.0f %% of the azimuths",
+      lines.c_str(), lidar.lowest, lidar.highest, 100.0 * lidar.coverage);
+  return text.data();
+}
+}  // namespace
+
+Parameters parametersOf(const Preset& preset)
+{
+  Parameters p;
+  p.lidar.min_range = preset.min_range;
+  p.lidar.max_range = preset.max_range;
+  p.measurement.range_noise = preset.range_noise;
+  if (!preset.imu) return p;
+  p.input.T_vehicle_lidar = Pose{};
+  p.input.T_vehicle_imu = Pose{Mat3::Identity(), *preset.imu};
+  return p;
+}
+
+std::string headerOf(const Preset& preset)
+{
+  std::string text = comment(
+      std::string(preset.title) +
+      ". Every parameter with its effect, range, unit and default; keys that are left out keep "
+      "their "
+      "defaults.");
+  text += comment("Figures: " + std::string(preset.source) + ".");
+  if (preset.imu)
+    text += comment(
+        "For the built-in IMU: T_vehicle_imu is its place in the frame of the points, which is "
+        "taken "
+        "as that of the vehicle. With another IMU, or a recording with the poses of its sensors, "
+        "set "
+        "both T to null.");
+  if (!preset.remark.empty()) text += comment(std::string(preset.remark) + ".");
+  return text;
+}
+
+PresetMatch fittingPreset(const LidarAppearance& lidar)
+{
+  const std::string label = lowerCase(lidar.label);
+  const Preset* named = nullptr;
+  const Preset* alike = nullptr;
+  for (const Preset& preset : presetTable())
+  {
+    const std::size_t length = namedBy(preset, label);
+    if (length > 0 && (named == nullptr || length > namedBy(*named, label))) named = &preset;
+    const double now = difference(preset, lidar);
+    if (now <= kElevationTolerance && (alike == nullptr || now < difference(*alike, lidar)))
+      alike = &preset;
+  }
+  if (named != nullptr) return {named, "the label or model '" + lidar.label + "' names it", true};
+  if (alike != nullptr) return {alike, "it looks like that: " + appearanceText(lidar), false};
+  return {nullptr, "no preset looks like it: " + appearanceText(lidar), false};
+}
+
+}  // namespace fastlio
