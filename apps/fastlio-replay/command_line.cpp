@@ -4,6 +4,7 @@
 #include "command_line.h"
 
 #include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/mrpt_bridge/output/standard_exporters.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
@@ -84,6 +85,11 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--output-tum-path", arguments.output_tum_path,
          "Write the trajectory (TUM format) to this file, with or without --output-dir")
       ->type_name("FILE");
+  app.add_option(
+         "--export", arguments.exporters,
+         "Files to write into --output-dir, by the names listed below; default: those without *")
+      ->delimiter(',')
+      ->type_name("NAME,...");
   app.add_flag(
       "--imu-rate", arguments.imu_rate,
       "Also write imu_rate.csv: the state at each inertial sample (sets output.imu_rate)");
@@ -114,13 +120,15 @@ void requireOutput(const ReplayArguments& arguments)
     throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
   if (arguments.imu_rate && arguments.output_directory.empty())
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
+  if (!arguments.exporters.empty() && arguments.output_directory.empty())
+    throw CLI::RequiredError("--output-dir, where --export writes,");
 }
 }  // namespace
 
 std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const* argv)
 {
   CLI::App app(kDescription, "fastlio-replay");
-  app.footer(kFooter);
+  app.footer("Files (--export):\n" + exporterHelp() + "\n" + kFooter);
   ReplayArguments arguments;
   addInputOptions(app, arguments);
   addOutputOptions(app, arguments);

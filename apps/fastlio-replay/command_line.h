@@ -25,6 +25,7 @@ struct ReplayArguments
   std::optional<std::string> imu_sensor_label;    //!< overrides input.imu_sensor_label
   std::size_t skip_first_n = 0;                   //!< scans that are left out at the start
   std::size_t only_first_n = 0;                   //!< scans that are used after those; 0: all
+  std::vector<std::string> exporters;             //!< overrides output.exporters
   bool imu_rate = false;                          //!< sets the parameter output.imu_rate
   std::string frame = "vehicle";                  //!< or "imu"
   std::optional<int> threads;                     //!< overrides the parameter `threads`

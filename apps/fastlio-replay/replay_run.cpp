@@ -62,12 +62,27 @@ std::vector<std::string> sensorTexts(const RunSetup& setup)
   return texts;
 }
 
-CIncrementalPointsMap::TCreationOptions outputMapOptions(const MapParameters& parameters)
+OutputMapOptions outputMapOptions(const RunSetup& setup)
 {
-  CIncrementalPointsMap::TCreationOptions options;
-  options.min_spacing = parameters.output_spacing;
-  options.cell_size = 3.0 * parameters.output_spacing;
+  constexpr double kPointsPerMillion = 1e6;
+  const OutputParameters& output = setup.parameters.output;
+  OutputMapOptions options;
+  options.spacing = setup.parameters.map.output_spacing;
+  options.tile_size = output.tile_size;
+  options.points_in_memory = static_cast<std::size_t>(output.map_memory * kPointsPerMillion);
+  options.directory = setup.arguments.output_directory;
   return options;
+}
+
+OutputOptions outputOptions(const RunSetup& setup)
+{
+  return {
+      setup.arguments.output_directory,
+      setup.arguments.output_tum_path,
+      setup.frame,
+      setup.parameters.output,
+      {setup.arguments.input_files, setup.selection, setup.plan.bridge},
+      setup.parameters.lidar.time_offset};
 }
 }  // namespace
 
@@ -75,10 +90,8 @@ ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
     : setup_(std::move(setup)),
       logger_(logger),
       odometry_(setup_.parameters),
-      exporters_(makeStandardExporters(
-          {setup_.arguments.output_directory, setup_.arguments.output_tum_path, setup_.frame,
-           setup_.parameters.output.imu_rate})),
-      output_map_(outputMapOptions(setup_.parameters.map)),
+      exporters_(makeExporters(outputOptions(setup_))),
+      output_map_(outputMapOptions(setup_)),
       progress_(logger)
 {
 }
@@ -157,8 +170,8 @@ void ReplayRun::take(const ScanResult& result)
 /** The map for the user is denser than what the odometry matches with. */
 void ReplayRun::extendOutputMap()
 {
-  const WorldPoints& points = odometry_.registeredPoints();
-  output_map_.insertPoints(points.x.data(), points.y.data(), points.z.data(), points.size());
+  if (!exporters_.needMap()) return;
+  output_map_.insert(outputPointsOf(odometry_.registeredPoints(), odometry_.registeredFields()));
 }
 
 /** Tells when scans start to fare differently; every scan at DEBUG. */

@@ -6,7 +6,6 @@
 
 #include "progress_meter.h"
 #include "run_setup.h"
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/mrpt_bridge/decode_ahead_source.h>
 #include <fastlio/mrpt_bridge/output/exporter.h>
 #include <fastlio/odometry/odometry.h>
@@ -46,7 +45,7 @@ class ReplayRun
   mrpt::system::COutputLogger& logger_;
   Odometry odometry_;
   ExporterSet exporters_;
-  CIncrementalPointsMap output_map_;
+  OutputMap output_map_;
   ProgressMeter progress_;
   RunStatistics statistics_;
   double input_share_ = 0.0;  //!< of the input's bytes that have been read

@@ -8,12 +8,27 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 namespace fastlio
 {
 namespace
 {
 namespace fs = std::filesystem;
+
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string list;
+  for (const auto& name : names)
+    list += (list.empty() ? "" : ",") + name;
+  return list;
+}
+
+/** Whether a list of names, separated by commas, has this one. */
+bool names(const std::string& list, const std::string& name)
+{
+  return std::regex_search(list, std::regex("(^|[, \t])" + name + "([, \t]|$)"));
+}
 
 Parameters loadConfiguration(const ReplayArguments& arguments)
 {
@@ -27,7 +42,9 @@ Parameters loadConfiguration(const ReplayArguments& arguments)
     throw SetupError(ExitStatus::Usage, e.what());
   }
   if (arguments.threads) parameters.threads = *arguments.threads;
-  if (arguments.imu_rate) parameters.output.imu_rate = true;
+  OutputParameters& output = parameters.output;
+  if (!arguments.exporters.empty()) output.exporters = joined(arguments.exporters);
+  if (arguments.imu_rate || names(output.exporters, "imu_rate")) output.imu_rate = true;
   auto& input = parameters.input;
   input.lidar_sensor_label = arguments.lidar_sensor_label.value_or(input.lidar_sensor_label);
   input.imu_sensor_label = arguments.imu_sensor_label.value_or(input.imu_sensor_label);

@@ -29,6 +29,8 @@ std::string contentOf(const std::string& path)
 {
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+  const int nothing = open("/dev/null", O_RDONLY);  // for programs that wait for a key
+  if (nothing < 0 || dup2(nothing, STDIN_FILENO) < 0) _exit(126);
   std::vector<std::string> texts = command;  // execv wants text that it could change
   std::vector<char*> arguments;
   arguments.reserve(texts.size() + 1);

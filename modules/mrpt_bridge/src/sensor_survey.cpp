@@ -180,6 +180,11 @@ bool hasUsable(
 
 namespace fastlio
 {
+SensorSummary summarizeSensor(const CObservation& observation)
+{
+  return firstSight(observation);
+}
+
 SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
 {

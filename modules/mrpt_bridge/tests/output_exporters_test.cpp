@@ -11,6 +11,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <cstring>
 #include <map>
 
 namespace fastlio
@@ -20,18 +21,12 @@ namespace
 using testing::contentOf;
 using testing::dataLinesOf;
 using testing::madeUpResult;
+using testing::smallMap;
+using testing::smallMapPoints;
 using testing::split;
 using testing::TemporaryFolder;
 
 constexpr std::int64_t kStamp = 1'403'636'580'838'555'648;
-
-mrpt::maps::CSimplePointsMap smallMap()
-{
-  mrpt::maps::CSimplePointsMap map;
-  for (int i = 0; i < 5000; ++i)  // more than one block of the writer
-    map.insertPointFast(0.5F * static_cast<float>(i), -1.25F, 1e-3F * static_cast<float>(i));
-  return map;
-}
 
 /** Feeds the results and finishes; the files are complete then. */
 void run(Exporter& exporter, const std::vector<ScanResult>& results)
@@ -40,7 +35,7 @@ void run(Exporter& exporter, const std::vector<ScanResult>& results)
     exporter.onScan(result);
   const RunSummary summary;
   const auto map = smallMap();
-  for (const auto& file : exporter.finish({summary, map}))
+  for (const auto& file : exporter.finish({summary, *map}))
     EXPECT_EQ(file.bytes, std::filesystem::file_size(file.path)) << file.path;
 }
 
@@ -189,10 +184,64 @@ TEST(MapPly, IsReadByMrpt)
   EXPECT_EQ(contentOf(folder.file("m.ply")).rfind("ply\nformat binary_little_endian 1.0\n", 0), 0U);
   mrpt::maps::CSimplePointsMap read;
   ASSERT_TRUE(read.loadFromPlyFile(folder.file("m.ply")));
-  const auto written = smallMap();
-  EXPECT_TRUE(read.getPointsBufferRef_x() == written.getPointsBufferRef_x());
-  EXPECT_TRUE(read.getPointsBufferRef_y() == written.getPointsBufferRef_y());
-  EXPECT_TRUE(read.getPointsBufferRef_z() == written.getPointsBufferRef_z());
+  const auto written = smallMapPoints();
+  EXPECT_TRUE(std::equal(
+      written.x.begin(), written.x.end(), read.getPointsBufferRef_x().begin(),
+      read.getPointsBufferRef_x().end()));
+  EXPECT_TRUE(std::equal(
+      written.y.begin(), written.y.end(), read.getPointsBufferRef_y().begin(),
+      read.getPointsBufferRef_y().end()));
+  EXPECT_TRUE(std::equal(
+      written.z.begin(), written.z.end(), read.getPointsBufferRef_z().begin(),
+      read.getPointsBufferRef_z().end()));
+}
+
+/** Point i of a binary file, behind its header. */
+std::pair<std::array<float, 4>, double> pointOf(const std::string& content, std::size_t i)
+{
+  constexpr std::size_t kBytes = 24;
+  const std::size_t points = 5000;
+  const char* at = content.data() + content.size() - (points - i) * kBytes;
+  std::pair<std::array<float, 4>, double> point;
+  std::memcpy(point.first.data(), at, sizeof point.first);
+  std::memcpy(&point.second, at + sizeof point.first, sizeof point.second);
+  return point;
+}
+
+TEST(MapFiles, HoldIntensityAndTime)
+{
+  const TemporaryFolder folder;
+  run(*makePlyMapExporter(folder.file("m.ply")), {});
+  run(*makePcdMapExporter(folder.file("m.pcd")), {});
+  run(*makeTextMapExporter(folder.file("m.txt")), {});
+  const std::string pcd = contentOf(folder.file("m.pcd"));
+  EXPECT_NE(pcd.find("\nPOINTS 5000\nDATA binary\n"), std::string::npos);
+  EXPECT_NE(pcd.find("\nSIZE 4 4 4 4 8\n"), std::string::npos);
+  const std::array<float, 4> expected = {2000.0F, -1.25F, 4.0F, 160.0F};
+  for (const auto& content : {contentOf(folder.file("m.ply")), pcd})
+  {
+    const auto [values, time] = pointOf(content, 4000);
+    EXPECT_EQ(values, expected);
+    EXPECT_NEAR(time, 1403636504.0, 1e-6);
+  }
+  const auto lines = dataLinesOf(folder.file("m.txt"));
+  ASSERT_EQ(lines.size(), 5000U);
+  EXPECT_EQ(lines[4000], "2000.0000 -1.2500 4.0000 160 1403636504.000000000");
+}
+
+TEST(TrajectoryKitti, HoldsMatricesRowByRow)
+{
+  const TemporaryFolder folder;
+  const ScanResult result = madeUpResult(kStamp);
+  run(*makeKittiExporter(folder.file("k"), {"imu", {}}), {result});
+  const auto cells = split(dataLinesOf(folder.file("k")).at(0), ' ');
+  ASSERT_EQ(cells.size(), 12U);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      EXPECT_NEAR(
+          std::stod(cells.at(static_cast<std::size_t>(4 * row + column))),
+          column < 3 ? result.filter.x.R(row, column) : result.filter.x.p[row], 1e-9);
+  EXPECT_EQ(dataLinesOf(folder.file("k_times")).at(0), "1403636580.838555648");
 }
 
 TEST(MetricMap, IsAGzippedObjectOfAStandardClass)
@@ -206,7 +255,14 @@ TEST(MetricMap, IsAGzippedObjectOfAStandardClass)
   const auto object = archive.ReadObject();
   const auto read = std::dynamic_pointer_cast<mrpt::maps::CSimplePointsMap>(object);
   ASSERT_TRUE(read);
-  EXPECT_TRUE(read->getPointsBufferRef_z() == smallMap().getPointsBufferRef_z());
+  const auto written = smallMapPoints();
+  EXPECT_TRUE(std::equal(
+      written.x.begin(), written.x.end(), read->getPointsBufferRef_x().begin(),
+      read->getPointsBufferRef_x().end()));
+  EXPECT_TRUE(std::equal(
+      written.z.begin(), written.z.end(), read->getPointsBufferRef_z().begin(),
+      read->getPointsBufferRef_z().end()));
+  EXPECT_EQ(read->insertionOptions.maxDistForInterpolatePoints, 2.0F);  // what comes after them
 }
 
 /** An exporter that fails on its second scan. */
@@ -236,7 +292,7 @@ TEST(ExporterSet, OneFailureLeavesTheOthersComplete)
   for (int i = 0; i < 5; ++i)
     set.onScan(madeUpResult(kStamp + i));
   EXPECT_EQ(set.problems().size(), 1U);
-  RunSummary summary = set.finish({}, smallMap());
+  RunSummary summary = set.finish({}, *smallMap());
   EXPECT_EQ(dataLinesOf(folder.file("t.tum")).size(), 5U);
   EXPECT_EQ(summary.outputs.size(), 1U);
   ASSERT_EQ(summary.output_problems.size(), 1U);
@@ -244,12 +300,20 @@ TEST(ExporterSet, OneFailureLeavesTheOthersComplete)
   EXPECT_EQ(exitStatusOf(summary), ExitStatus::OutputFailed);
 }
 
+OutputOptions optionsFor(const TemporaryFolder& folder)
+{
+  OutputOptions options;
+  options.directory = folder.path();
+  options.tum_path = folder.file("extra.tum");
+  return options;
+}
+
 TEST(ExporterSet, StandardFilesAreAllThere)
 {
   const TemporaryFolder folder;
-  ExporterSet set = makeStandardExporters({folder.path(), folder.file("extra.tum"), {}});
+  ExporterSet set = makeExporters(optionsFor(folder));
   set.onScan(madeUpResult(kStamp));
-  const RunSummary summary = set.finish({}, smallMap());
+  const RunSummary summary = set.finish({}, *smallMap());
   EXPECT_TRUE(summary.output_problems.empty());
   for (const auto* name :
        {"trajectory.tum", "extra.tum", "states.csv", "covariance.csv", "timing.csv", "map.ply",
@@ -257,6 +321,55 @@ TEST(ExporterSet, StandardFilesAreAllThere)
     EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
   EXPECT_EQ(summary.outputs.size(), 8U);
   EXPECT_EQ(contentOf(folder.file("extra.tum")), contentOf(folder.file("trajectory.tum")));
+}
+
+TEST(ExporterSet, NamesChooseTheFiles)
+{
+  const TemporaryFolder folder;
+  OutputOptions options = optionsFor(folder);
+  options.tum_path.clear();
+  options.parameters.exporters = "kitti, states";
+  ExporterSet set = makeExporters(options);
+  EXPECT_FALSE(set.needMap());
+  const RunSummary summary = set.finish({}, *smallMap());
+  std::vector<std::string> names;
+  for (const auto& output : summary.outputs)
+    names.push_back(std::filesystem::path(output.path).filename().string());
+  EXPECT_EQ(
+      names, (std::vector<std::string>{
+                 "trajectory.kitti", "trajectory.kitti_times", "states.csv", "summary.json"}));
+}
+
+TEST(ExporterSet, AnUnknownNameIsAnsweredWithThoseThatThereAre)
+{
+  const TemporaryFolder folder;
+  OutputOptions options = optionsFor(folder);
+  options.parameters.exporters = "states,plz";
+  try
+  {
+    (void)makeExporters(options);
+    FAIL();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    const std::string message = e.what();
+    EXPECT_NE(message.find("'plz'"), std::string::npos) << message;
+    EXPECT_NE(message.find("simplemap"), std::string::npos) << message;
+  }
+}
+
+/** A program's own format: a class and a row. */
+TEST(ExporterSet, TakesFurtherKinds)
+{
+  const TemporaryFolder folder;
+  OutputOptions options = optionsFor(folder);
+  options.parameters.exporters = "mine";
+  auto kinds = exporterKinds();
+  kinds.push_back({"mine", "mine.tum", "as trajectory", false, [](const OutputOptions& o) {
+                     return makeTumExporter(o.path("mine.tum"), o.frame);
+                   }});
+  (void)makeExporters(options, kinds).finish({}, *smallMap());
+  EXPECT_TRUE(std::filesystem::exists(folder.file("mine.tum")));
 }
 
 }  // namespace

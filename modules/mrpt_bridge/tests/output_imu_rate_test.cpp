@@ -4,8 +4,6 @@
 #include "output_test_support.h"
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>
 
-#include <mrpt/maps/CSimplePointsMap.h>
-
 namespace fastlio
 {
 namespace
@@ -34,9 +32,13 @@ ImuRateState madeUpState(std::int64_t stamp_ns)
 /** Rows of imu_rate.csv, header first, after one scan with the states before it. */
 std::vector<std::string> written(const std::string& folder, const OutputFrame& frame)
 {
-  ExporterSet set = makeStandardExporters({folder, "", frame, true});
+  OutputOptions options;
+  options.directory = folder;
+  options.frame = frame;
+  options.parameters.imu_rate = true;
+  ExporterSet set = makeExporters(options);
   set.onScan(madeUpResult(kStamp + 10), {madeUpState(kStamp), madeUpState(kStamp + 5)});
-  const mrpt::maps::CSimplePointsMap map;
+  const OutputMap map;
   EXPECT_TRUE(set.finish({}, map).output_problems.empty());
   return dataLinesOf(folder + "/imu_rate.csv");
 }
@@ -82,8 +84,10 @@ TEST(ImuRateCsv, OfAVehicleHasItsOwnVelocityAndCovariance)
 TEST(ImuRateCsv, IsWrittenOnlyWhenAskedFor)
 {
   const TemporaryFolder folder;
-  ExporterSet set = makeStandardExporters({folder.path(), "", {}, false});
-  const mrpt::maps::CSimplePointsMap map;
+  OutputOptions options;
+  options.directory = folder.path();
+  ExporterSet set = makeExporters(options);
+  const OutputMap map;
   (void)set.finish({}, map);
   EXPECT_FALSE(std::filesystem::exists(folder.file("imu_rate.csv")));
 }

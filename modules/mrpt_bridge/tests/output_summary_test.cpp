@@ -5,8 +5,6 @@
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>
 #include <fastlio/odometry/parameter_table.h>
 
-#include <mrpt/maps/CSimplePointsMap.h>
-
 #include <nlohmann/json.hpp>
 
 namespace fastlio
@@ -130,7 +128,7 @@ Json writtenSummary(const RunSummary& run)
 {
   const TemporaryFolder folder;
   const auto exporter = makeSummaryExporter(folder.file("summary.json"));
-  const mrpt::maps::CSimplePointsMap map;
+  const OutputMap map;
   exporter->finish({run, map});
   return Json::parse(contentOf(folder.file("summary.json")));
 }

@@ -5,10 +5,12 @@
 #pragma once
 
 #include "temporary_folder.h"
+#include <fastlio/mrpt_bridge/output/output_map.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -32,6 +34,33 @@ inline std::vector<std::string> split(const std::string& line, char separator)
   for (std::string cell; std::getline(in, cell, separator);)
     cells.push_back(cell);
   return cells;
+}
+
+constexpr std::int64_t kMapStamp = 1'403'636'500'000'000'000;
+
+/** 2500 m of points: more than one tile, more than one block of the writers. */
+inline OutputPoints smallMapPoints()
+{
+  OutputPoints points;
+  for (int i = 0; i < 5000; ++i)
+  {
+    points.x.push_back(0.5F * static_cast<float>(i));
+    points.y.push_back(-1.25F);
+    points.z.push_back(1e-3F * static_cast<float>(i));
+    points.intensity.push_back(static_cast<float>(i % 256));
+    points.stamp_ns.push_back(kMapStamp + std::int64_t{i} * 1'000'000);
+  }
+  return points;
+}
+
+/** The same as what exporters get. */
+inline std::unique_ptr<OutputMap> smallMap()
+{
+  OutputMapOptions options;
+  options.spacing = 0.0;
+  auto map = std::make_unique<OutputMap>(options);
+  map->insert(smallMapPoints());
+  return map;
 }
 
 /** A result whose every number differs from the others. */

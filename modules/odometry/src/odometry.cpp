@@ -200,6 +200,10 @@ const WorldPoints& Odometry::registeredPoints() const
 {
   return impl_->pipeline_.registeredPoints();
 }
+const RegisteredFields& Odometry::registeredFields() const
+{
+  return impl_->pipeline_.registeredFields();
+}
 const std::vector<ImuRateState>& Odometry::imuRateStates() const
 {
   return impl_->pipeline_.imuRateStates();

@@ -75,7 +75,8 @@ std::optional<std::string> valueProblem(const ParameterRow& row, const Parameter
           [](const BooleanValue&) { return Problem{}; },
           [&](const ChoiceValue& v) { return choiceProblem(v, p, row); },
           [&p](const RegexValue& v) { return regexProblem(v.member.of(p)); },
-          [&p](const PoseValue& v) { return poseProblem(v.member.of(p)); }},
+          [&p](const PoseValue& v) { return poseProblem(v.member.of(p)); },
+          [](const TextValue&) { return Problem{}; }},
       row.value);
 }
 

@@ -109,7 +109,12 @@ ParsedValue withValue(const ParameterRow& row, const Parameters& p, const yaml::
             const auto text = scalarText(node);
             return text ? stored(row, p, v, *text) : wrongType(row, p, node);
           },
-          [&](const PoseValue& v) { return readPose(row, p, v, node); }},
+          [&](const PoseValue& v) { return readPose(row, p, v, node); },
+          [&](const TextValue& v)
+          {
+            const auto text = scalarText(node);
+            return text ? stored(row, p, v, *text) : wrongType(row, p, node);
+          }},
       row.value);
 }
 

@@ -35,7 +35,10 @@ using ParameterRows = std::vector<ParameterRow>;
 // Defined in parameter_rows_rest.cpp.
 [[nodiscard]] ParameterRows restRows();
 
+// Defined in parameter_rows_output.cpp.
 [[nodiscard]] ParameterRows outputRows();
+
+// Defined in parameter_rows_estimation.cpp.
 [[nodiscard]] ParameterRows generalRows();
 
 }  // namespace fastlio

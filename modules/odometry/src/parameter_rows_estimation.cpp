@@ -107,15 +107,6 @@ ParameterRows updateRows()
   };
 }
 
-ParameterRows outputRows()
-{
-  return {
-      {"output.imu_rate", "", BooleanValue{[](auto& p) { return &p.output.imu_rate; }},
-       "true: also gives the state at each inertial sample, predicted from the latest scan before "
-       "it (imu_rate.csv)"},
-  };
-}
-
 ParameterRows generalRows()
 {
   return {

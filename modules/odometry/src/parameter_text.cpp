@@ -35,7 +35,8 @@ std::string valueText(const ParameterRow& row, const Parameters& p)
           {
             const auto& pose = v.member.of(p);
             return pose ? poseText(*pose) : std::string("null");
-          }},
+          },
+          [&p](const TextValue& v) { return singleQuoted(v.member.of(p)); }},
       row.value);
 }
 
@@ -57,14 +58,15 @@ std::string allowedText(const ParameterRow& row)
           },
           [](const RegexValue&) { return std::string("a regular expression"); },
           [](const PoseValue&)
-          { return std::string("[x, y, z, yaw, pitch, roll] in m and deg, or null"); }},
+          { return std::string("[x, y, z, yaw, pitch, roll] in m and deg, or null"); },
+          [](const TextValue& v) { return std::string(v.allowed); }},
       row.value);
 }
 
 std::string typeText(const ParameterRow& row)
 {
-  constexpr std::array<const char*, 6> kNames = {"number", "whole number", "boolean",
-                                                 "choice", "text",         "pose"};
+  constexpr std::array<const char*, 7> kNames = {"number", "whole number", "boolean", "choice",
+                                                 "text",   "pose",         "text"};
   return kNames.at(row.value.index());
 }
 

@@ -99,13 +99,14 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   constrainGravity();
   state_ns_ = span.end_ns;
   result.filter = considerMapError(update.gain);
+  result.map_share = (result.filter.P - filter_.P).topLeftCorner<6, 6>();
   judge(update, result);
   if (parameters_.rest.enabled) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
-    growMap(scan.T_imu_lidar.p, result.filter);  // eq. 21
+    growMap(scan, result.filter);  // eq. 21
   else
-    world_.resize(0);
+    forgetPoints();
   if (result.status == ScanStatus::FirstScan) filter_.P += young_map_.open_after_first_scan;
   describeUpdate(update, result.statistics);
   describeScan(scan, result.statistics);
@@ -117,7 +118,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
 void ScanPipeline::skipScan()
 {
   imu_rate_.clear();
-  world_.resize(0);
+  forgetPoints();
 }
 
 void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistics) const
@@ -239,17 +240,6 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
         prediction_finite_ ? "" : "; the inertial data overflowed the prediction");
 }
 
-bool ScanPipeline::mayGrowMap(const ScanResult& result) const
-{
-  if (rest_.restingTime() > parameters_.rest.map_time) return false;
-  if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
-  if (result.status == ScanStatus::Diverged) return false;
-  // A young map has few planes: it must grow as long as the prediction knows where the scan is.
-  const Matrix6 covariance = scanPoseCovariance(filter_, compensated_.compensation);
-  const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  return position_variance < std::pow(parameters_.map.max_insertion_std, 2);
-}
-
 FilterState ScanPipeline::considerMapError(const ScanGain& gain)
 {
   LinearizedUpdate update;
@@ -264,25 +254,6 @@ FilterState ScanPipeline::considerMapError(const ScanGain& gain)
   FilterState total = filter_;
   total.P += map_error_.addition();
   return total;
-}
-
-void ScanPipeline::growMap(const Vec3& p_imu_lidar, const FilterState& total)
-{
-  const Stopwatch watch;
-  const Pose T_world_scan = scanPose(filter_.x, compensated_.compensation);
-  world_.resize(compensated_.points.size());
-  const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
-  { transformToWorld(compensated_.points, T_world_scan, first, last, world_); };
-  workers_->forEachChunk(world_.size(), transform);
-  FoundingError founding;
-  founding.own = scanPoseCovariance(filter_, compensated_.compensation);
-  founding.inherited = scanPoseCovariance(total, compensated_.compensation) - founding.own;
-  if (state_ns_ <= young_map_.until_ns) founding.inherited += young_map_.founding_covariance;
-  map_error_.recordInsertion(++insertions_, founding, T_world_scan);
-  map_->insert(world_, T_world_scan * p_imu_lidar);
-  map_->removeOutside(filter_.x.p, parameters_.map.radius);
-  edges_.growMap(T_world_scan);
-  timings_.insert = watch.milliseconds();
 }
 
 }  // namespace fastlio

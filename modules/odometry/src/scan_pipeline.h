@@ -46,6 +46,9 @@ class ScanPipeline
   /** What the last scan added to the map; empty when nothing. */
   [[nodiscard]] const WorldPoints& registeredPoints() const { return world_; }
 
+  /** Intensity and time of those points. */
+  [[nodiscard]] const RegisteredFields& registeredFields() const { return fields_; }
+
   /** The prediction of the last scan at each inertial sample on the way (output.imu_rate). */
   [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const { return imu_rate_; }
 
@@ -70,7 +73,9 @@ class ScanPipeline
   void considerRest(ScanResult& result);
   [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
   void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
-  void growMap(const Vec3& p_imu_lidar, const FilterState& total);
+  void growMap(const LidarScan& scan, const FilterState& total);
+  void keepFields(const LidarScan& scan);
+  void forgetPoints();
   [[nodiscard]] FilterState considerMapError(const ScanGain& gain);
 
   Parameters parameters_;
@@ -100,6 +105,7 @@ class ScanPipeline
   std::vector<ImuRateState> imu_rate_;
   CompensatedScan compensated_;
   WorldPoints world_;
+  RegisteredFields fields_;
   StageTimings timings_;
 };
 

@@ -32,7 +32,9 @@ void ScanPipeline::considerRest(ScanResult& result)
   filter_ = update->posterior;
   map_error_.propagate(update->kept);  // the map's error goes through the same correction
   result.filter = filter_;
-  result.filter.P += map_error_.addition();
+  const StateMatrix map_share = map_error_.addition();
+  result.filter.P += map_share;
+  result.map_share = map_share.topLeftCorner<6, 6>();
   result.statistics.at_rest = true;
 }
 

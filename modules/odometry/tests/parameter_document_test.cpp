@@ -73,6 +73,8 @@ Parameters withRandomValue(const ParameterRow& row, Parameters p, Random& random
     choice->write(p, random() % choice->names.size());
   if (const auto* regex = std::get_if<RegexValue>(&row.value))
     regex->member.in(p) = R"(it's # a: 'label' \d+ "[a-z]*" )" + std::to_string(random() % 100);
+  if (const auto* text = std::get_if<TextValue>(&row.value))
+    text->member.in(p) = "it's # a: 'list', of " + std::to_string(random() % 100);
   if (const auto* pose = std::get_if<PoseValue>(&row.value))
     pose->member.in(p) =
         Pose{Eigen::Quaterniond::UnitRandom().toRotationMatrix(), 10.0 * Vec3::Random()};

@@ -3,6 +3,7 @@
 
 #include <fastlio/mrpt_bridge/output/exporter.h>
 
+#include <algorithm>
 #include <exception>
 
 namespace fastlio
@@ -30,7 +31,14 @@ void ExporterSet::onScan(const ScanResult& result, const std::vector<ImuRateStat
   }
 }
 
-RunSummary ExporterSet::finish(RunSummary summary, const mrpt::maps::CPointsMap& map)
+bool ExporterSet::needMap() const
+{
+  return std::any_of(
+      exporters_.begin(), exporters_.end(),
+      [](const auto& exporter) { return exporter && exporter->needsMap(); });
+}
+
+RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map)
 {
   summary.output_problems.insert(summary.output_problems.end(), problems_.begin(), problems_.end());
   for (auto& exporter : exporters_)

@@ -1,45 +1,39 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "gzip_file.h"
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>
 
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/io/zip.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace fastlio
 {
 namespace
 {
-constexpr int kFastestCompression = 1;
+constexpr unsigned char kLengthBits = 0x7F;
 
-/** A map of a class that every MRPT program knows, whatever the run's own map class. */
-mrpt::maps::CSimplePointsMap plainCopyOf(const mrpt::maps::CPointsMap& map)
+/** What an archive holds of a map without points, around its number of points. */
+struct EmptyMap
 {
-  const auto& x = map.getPointsBufferRef_x();
-  const auto& y = map.getPointsBufferRef_y();
-  const auto& z = map.getPointsBufferRef_z();
-  mrpt::maps::CSimplePointsMap copy;
-  copy.reserve(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i)
-    copy.insertPointFast(x[i], y[i], z[i]);
-  return copy;
-}
+  std::string before;  //!< class and version
+  std::string after;   //!< options
+};
 
-/** The serialised object, gzipped in memory: MRPT's gzip file stream does not tell a full disk. */
-std::vector<std::uint8_t> serializedAndGzipped(const mrpt::maps::CSimplePointsMap& map)
+/** A class that every MRPT program knows, whatever the run's own map class. */
+EmptyMap serializedEmptyMap()
 {
   mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream) << map;
-  const auto* first = static_cast<const std::uint8_t*>(stream.getRawBufferData());
-  const std::vector<std::uint8_t> plain(first, first + stream.getTotalBytesCount());
-  std::vector<std::uint8_t> gzipped;
-  if (!mrpt::io::zip::compress_gz_data_block(plain, gzipped, kFastestCompression))
-    throw std::runtime_error("the map could not be compressed; is there enough memory?");
-  return gzipped;
+  mrpt::serialization::archiveFrom(stream) << mrpt::maps::CSimplePointsMap();
+  const auto* first = static_cast<const char*>(stream.getRawBufferData());
+  const std::string bytes(first, first + stream.getTotalBytesCount());
+  const std::size_t name_length = static_cast<unsigned char>(bytes.at(0)) & kLengthBits;
+  const std::size_t header = 1 + name_length + 1;  // length, name, version
+  return {bytes.substr(0, header), bytes.substr(header + sizeof(std::uint32_t))};
 }
 
 class MetricMapExporter : public Exporter
@@ -48,16 +42,31 @@ class MetricMapExporter : public Exporter
   explicit MetricMapExporter(const std::string& path) : file_(path) {}
 
   void onScan(const ScanResult& /*result*/) override {}
+  [[nodiscard]] bool needsMap() const override { return true; }
 
+  /** As CSimplePointsMap serialises itself, without ever having all points in memory: their number,
+   * then all x, all y, all z. */
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
-    const auto bytes = serializedAndGzipped(plainCopyOf(end.map));
-    file_.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (end.map.size() > std::numeric_limits<std::uint32_t>::max())
+      throw std::runtime_error("map.metricmap cannot hold more than 2^32 points; use map.ply");
+    const EmptyMap empty = serializedEmptyMap();
+    file_.write(empty.before);
+    auto archive = mrpt::serialization::archiveFrom(file_);
+    archive << static_cast<std::uint32_t>(end.map.size());
+    for (const auto column : {&OutputPoints::x, &OutputPoints::y, &OutputPoints::z})
+      end.map.forEachTile(
+          [&](const OutputPoints& tile)
+          {
+            const std::vector<float>& values = tile.*column;
+            archive.WriteBufferFixEndianness(values.data(), values.size());
+          });
+    file_.write(empty.after);
     return {file_.commit()};
   }
 
  private:
-  AtomicFile file_;
+  GzipFile file_;
 };
 }  // namespace
 

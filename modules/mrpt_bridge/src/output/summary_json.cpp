@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 Json valueOf(const ParameterRow& row, const Parameters& parameters)
 {
   if (const auto* text = std::get_if<RegexValue>(&row.value)) return text->member.of(parameters);
+  if (const auto* text = std::get_if<TextValue>(&row.value)) return text->member.of(parameters);
   const std::string yaml = valueText(row, parameters);
   const Json value = Json::parse(yaml, nullptr, false);
   return value.is_discarded() ? Json(yaml) : value;

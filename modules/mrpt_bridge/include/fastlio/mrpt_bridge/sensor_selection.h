@@ -74,6 +74,9 @@ struct SensorSelection
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);
 
+/** What a single observation tells about its sensor. */
+[[nodiscard]] SensorSummary summarizeSensor(const mrpt::obs::CObservation& observation);
+
 /** Of several that match, the one with most observations is taken.
  * \exception std::invalid_argument a pattern is not a regular expression
  * \exception std::runtime_error no usable LiDAR or IMU matches: lists what there is, and says what

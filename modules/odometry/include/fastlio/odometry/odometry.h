@@ -61,6 +61,9 @@ class Odometry
    * not join the map. Valid until the next call of next() or flush(). */
   [[nodiscard]] const WorldPoints& registeredPoints() const;
 
+  /** Intensity and time of those points; with the same lifetime. */
+  [[nodiscard]] const RegisteredFields& registeredFields() const;
+
   /** With output.imu_rate: the states at the inertial samples after the scan before the last one up
    * to the last one's end, predicted from the former: what was known at those instants. Stamps
    * ascend over all calls. Empty while the pose is not trusted. Valid until the next call of next()

@@ -76,14 +76,21 @@ struct RegexValue
   ParameterMember<std::string> member;
 };
 
+/** Any text; may be empty. */
+struct TextValue
+{
+  ParameterMember<std::string> member;
+  std::string_view allowed;  //!< what may stand there, for people
+};
+
 /** A pose as six numbers [x y z yaw pitch roll], metres and degrees, or `null`. */
 struct PoseValue
 {
   ParameterMember<std::optional<Pose>> member;
 };
 
-using ParameterValue =
-    std::variant<RealValue, IntegerValue, BooleanValue, ChoiceValue, RegexValue, PoseValue>;
+using ParameterValue = std::variant<
+    RealValue, IntegerValue, BooleanValue, ChoiceValue, RegexValue, PoseValue, TextValue>;
 
 /** One parameter. */
 struct ParameterRow

@@ -192,10 +192,28 @@ struct RestParameters
   double map_time = 3.0;  //!< at rest for longer than this, scans do not join the map [s]
 };
 
-/** Group `output`. */
+/** How an odometry rawlog is built. */
+enum class RawlogForm
+{
+  Observations,  //!< single observations in order of time
+  Actions        //!< pairs of actions (motion) and sensory frames
+};
+
+/** Group `output`. Only imu_rate is used by Odometry itself, the others by who writes files. */
 struct OutputParameters
 {
-  bool imu_rate = false;  //!< states between scans, at each inertial sample
+  bool imu_rate = false;           //!< states between scans, at each inertial sample
+  std::string exporters;           //!< names, separated by commas; empty: the standard ones
+  double tile_size = 50.0;         //!< edge of the pieces that a map is kept in [m]
+  double map_memory = 5.0;         //!< so many points of the map stay in memory [million]
+  double keyframe_distance = 1.0;  //!< a key frame after so much travel [m]
+  double keyframe_angle = 0.3490658503988659;  //!< or so much rotation [rad] (YAML: deg)
+  RawlogForm rawlog_form = RawlogForm::Observations;
+  bool rawlog_pass_through = true;  //!< also the input's observations
+  bool rawlog_scan_2d = true;       //!< also a levelled planar scan
+  int scan_2d_rays = 720;           //!< of the levelled planar scan
+  double scan_2d_height = 0.0;      //!< of its plane above the LiDAR [m]
+  double scan_2d_thickness = 0.2;   //!< of the slice that it is cut from [m]
 };
 
 /** Everything that configures an Odometry. */

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fastlio
 {
@@ -53,6 +54,13 @@ struct ScanStatistics
   ScanConstraints constraints;  //!< directions that the scan did not constrain, and left alone
 };
 
+/** What the LiDAR told about the points of Odometry::registeredPoints(), in their order. */
+struct RegisteredFields
+{
+  std::vector<float> intensity;        //!< sensor's own scale
+  std::vector<std::int64_t> stamp_ns;  //!< when each point was measured, UNIX epoch
+};
+
 /** The outcome of one scan. */
 struct ScanResult
 {
@@ -61,6 +69,9 @@ struct ScanResult
   ScanStatus status = ScanStatus::Initializing;
   std::string message;  //!< why, when the status is not Tracking
   FilterState filter;   //!< state and covariance, IMU body in the world frame
+  /** The share of filter.P's pose block that comes from the map's errors: nearly the same for
+   * scans that follow each other, so it tells little about the motion between them. */
+  Matrix6 map_share = Matrix6::Zero();
   ScanStatistics statistics;
   StageTimings milliseconds;
 };

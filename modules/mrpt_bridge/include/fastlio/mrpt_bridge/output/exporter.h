@@ -5,11 +5,10 @@
 #pragma once
 
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/mrpt_bridge/output/output_map.h>
 #include <fastlio/mrpt_bridge/output/run_summary.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/scan_result.h>
-
-#include <mrpt/maps/CPointsMap.h>
 
 #include <memory>
 #include <string>
@@ -20,8 +19,8 @@ namespace fastlio
 /** What is known when the last scan is done. */
 struct RunEnd
 {
-  const RunSummary& summary;          //!< with the outputs of the exporters that finished before
-  const mrpt::maps::CPointsMap& map;  //!< final map, world frame
+  const RunSummary& summary;  //!< with the outputs of the exporters that finished before
+  const OutputMap& map;       //!< final map, world frame; empty unless an exporter needs it
 };
 
 /** Turns a run into one or more files. Constructors open the files, so that an unwritable place is
@@ -43,6 +42,9 @@ class Exporter
    * \exception std::runtime_error the file cannot be written */
   virtual void onImuRate(const std::vector<ImuRateState>& /*states*/) {}
 
+  /** Whether finish() needs the map. */
+  [[nodiscard]] virtual bool needsMap() const { return false; }
+
   /** Completes the files and gives them their final names.
    * \exception std::runtime_error the file cannot be written */
   virtual std::vector<OutputFile> finish(const RunEnd& end) = 0;
@@ -59,7 +61,10 @@ class ExporterSet
 
   /** Finishes all, in the order they were added.
    * \return the summary, completed with outputs and output_problems */
-  [[nodiscard]] RunSummary finish(RunSummary summary, const mrpt::maps::CPointsMap& map);
+  [[nodiscard]] RunSummary finish(RunSummary summary, const OutputMap& map);
+
+  /** Whether any of them needs the map: otherwise none has to be collected. */
+  [[nodiscard]] bool needMap() const;
 
   /** Sentences about exporters that failed so far. */
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
