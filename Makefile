@@ -13,7 +13,7 @@ EXPERIMENTS_DIR ?= experiments-output
 BUILD_DIR := build/$(PRESET)
 
 .DEFAULT_GOAL := help
-.PHONY: help dependencies lint-dependencies configure build test instructions benchmark demo scenarios \
+.PHONY: help dependencies test-dependencies lint-dependencies configure build test instructions benchmark demo scenarios \
   experiments docs format lint clean
 
 help:
@@ -33,6 +33,9 @@ help:
 dependencies:
 	@cmake/install_dependencies.sh build
 
+test-dependencies:
+	@cmake/install_dependencies.sh build test
+
 lint-dependencies:
 	@cmake/install_dependencies.sh build lint
 
@@ -42,7 +45,7 @@ configure: dependencies
 build: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS)
 
-test: build
+test: test-dependencies build
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
 	ctest --preset $(PRESET) --parallel $(JOBS)
 

@@ -2,12 +2,14 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [lint] [benchmark] [instructions]      (default: build)
+# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions]      (default: build)
 set -eu
 
 build_packages="g++ cmake ninja-build
-  libmrpt-maps-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
+  libmrpt-maps-dev libmrpt-slam-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev"
+# MRPT's own programs, which the tests run on our outputs.
+test_packages="mrpt-apps"
 lint_packages="clang-format clang-tidy"
 benchmark_packages="libbenchmark-dev"
 instructions_packages="valgrind"
@@ -38,11 +40,12 @@ wanted=""
 for set in "${@:-build}"; do
   case "$set" in
     build) wanted="$wanted $build_packages" ;;
+    test) wanted="$wanted $test_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, lint, benchmark, instructions" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions" >&2
       exit 2
       ;;
   esac

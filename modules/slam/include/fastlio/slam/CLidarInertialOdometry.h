@@ -1,0 +1,100 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file CLidarInertialOdometry.h The odometry as MRPT programs use one: made by name, set up from
+ * YAML, fed with observations. */
+#pragma once
+
+#include <fastlio/mrpt_bridge/output/pose_track.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <mrpt/containers/yaml.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/rtti/CObject.h>
+#include <mrpt/system/COutputLogger.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace fastlio
+{
+/** What a scan gave. */
+struct OdometryEstimate
+{
+  ScanResult result;  //!< of the IMU
+  /** Of the vehicle, to which the sensorPoses of the observations refer; nothing when the pose is
+   * not to be trusted. */
+  std::optional<TrackedPose> vehicle;
+};
+
+/** LiDAR-inertial odometry behind the interface of MRPT's class registry:
+ *
+ * \code
+ * mrpt::system::loadPluginModules("libmrpt_fastlio_plugin.so");
+ * auto object = mrpt::rtti::classFactory("fastlio::CLidarInertialOdometry");
+ * auto odometry = std::dynamic_pointer_cast<fastlio::CLidarInertialOdometry>(object);
+ * odometry->initialize(mrpt::containers::yaml::FromFile("params.yaml"));
+ * odometry->onNewObservation(observation);
+ * \endcode
+ *
+ * Sensors: of each kind the first that is usable and whose label matches input.lidar_sensor_label
+ * or input.imu_sensor_label; observations of others are left alone. Scans are processed once
+ * inertial samples reach their end, inside of onNewObservation(). One thread uses an object. */
+class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
+{
+  DEFINE_MRPT_OBJECT(CLidarInertialOdometry, fastlio)
+
+ public:
+  using Callback = std::function<void(const OdometryEstimate&)>;
+
+  CLidarInertialOdometry();
+  ~CLidarInertialOdometry() override;
+  CLidarInertialOdometry(const CLidarInertialOdometry& other) = delete;
+  CLidarInertialOdometry& operator=(const CLidarInertialOdometry& other) = delete;
+  CLidarInertialOdometry(CLidarInertialOdometry&&) = delete;
+  CLidarInertialOdometry& operator=(CLidarInertialOdometry&&) = delete;
+
+  /** Takes parameters (docs/parameters.md; an empty document: all defaults) and starts anew.
+   * \exception std::invalid_argument lists every problem of the document */
+  void initialize(const mrpt::containers::yaml& parameters);
+  /** The same with parameters that were set in code. */
+  void initialize(const Parameters& parameters);
+
+  /** Takes an observation of any class; those of other sensors are left alone. Before initialize(),
+   * the defaults count. Data never throw: what cannot be used is logged. */
+  void onNewObservation(const mrpt::obs::CObservation::Ptr& observation);
+
+  /** No more observations: also processes scans that reach beyond the inertial data. */
+  void finish();
+
+  /** Called for every scan, from within onNewObservation() and finish(). */
+  void setCallback(Callback callback);
+
+  /** The latest scan's result; nothing before the first. */
+  [[nodiscard]] const std::optional<OdometryEstimate>& latest() const;
+
+  /** The points of a scan of the LiDAR in use, without taking it in; nothing for observations of
+   * other sensors, and as long as the sensors are not known. */
+  [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation);
+
+  /** All poses of the vehicle so far. */
+  [[nodiscard]] const PoseTrack& track() const;
+
+  /** The points of the map that scans are matched with: a copy. */
+  [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr map() const;
+
+  [[nodiscard]] const Parameters& parameters() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/** Registers the classes of this module with mrpt::rtti; runs by itself when the library is loaded.
+ */
+void registerSlamClasses();
+
+}  // namespace fastlio

@@ -1,0 +1,142 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "online_sensors.h"
+#include <fastlio/map/register_classes.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/mrpt_bridge/register_classes.h>
+#include <fastlio/odometry/odometry.h>
+#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/slam/CLidarInertialOdometry.h>
+
+#include <mrpt/core/initializer.h>
+
+#include <utility>
+
+IMPLEMENTS_MRPT_OBJECT(CLidarInertialOdometry, mrpt::rtti::CObject, fastlio)
+
+MRPT_INITIALIZER(registerFastlioSlamClasses)
+{
+  fastlio::registerSlamClasses();
+}
+
+namespace fastlio
+{
+void registerSlamClasses()
+{
+  registerBridgeClasses();
+  registerMapClasses();
+  mrpt::rtti::registerClass(CLASS_ID(fastlio::CLidarInertialOdometry));
+}
+
+class CLidarInertialOdometry::Impl
+{
+ public:
+  explicit Impl(const Parameters& parameters) : odometry_(parameters), sensors_(parameters.input) {}
+
+  /** What the observation was, for the log; empty when it was used or belongs to other sensors. */
+  std::string take(const mrpt::obs::CObservation& observation)
+  {
+    BridgeOutput output = sensors_.convert(observation);
+    if (auto* sample = std::get_if<ImuSample>(&output)) odometry_.addImu(*sample);
+    if (auto* scan = std::get_if<LidarScan>(&output)) odometry_.addScan(std::move(*scan));
+    return sensors_.takeMessage();
+  }
+
+  std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation)
+  {
+    BridgeOutput output = sensors_.convertScan(observation);
+    auto* scan = std::get_if<LidarScan>(&output);
+    return scan == nullptr ? std::nullopt : std::optional<LidarScan>(std::move(*scan));
+  }
+
+  void drain(bool at_end)
+  {
+    while (const auto result = at_end ? odometry_.flush() : odometry_.next())
+      announce(*result);
+  }
+
+  [[nodiscard]] const Odometry& odometry() const { return odometry_; }
+  [[nodiscard]] const PoseTrack& track() const { return track_; }
+
+  std::optional<OdometryEstimate> latest;
+  Callback callback;
+
+ private:
+  void announce(const ScanResult& result)
+  {
+    if (track_.poses().empty()) track_ = PoseTrack({"vehicle", sensors_.T_vehicle_imu().inverse()});
+    track_.add(result);
+    latest = OdometryEstimate{result, std::nullopt};
+    if (hasPose(result.status)) latest->vehicle = track_.poses().back();
+    if (callback) callback(*latest);
+  }
+
+  Odometry odometry_;
+  OnlineSensors sensors_;
+  PoseTrack track_{{}};
+};
+
+CLidarInertialOdometry::CLidarInertialOdometry()
+    : mrpt::system::COutputLogger("fastlio::CLidarInertialOdometry"),
+      impl_(std::make_unique<Impl>(Parameters{}))
+{
+}
+CLidarInertialOdometry::~CLidarInertialOdometry() = default;
+
+void CLidarInertialOdometry::initialize(const mrpt::containers::yaml& parameters)
+{
+  initialize(parameters.empty() ? Parameters{} : loadParameters(parameters));
+}
+
+void CLidarInertialOdometry::initialize(const Parameters& parameters)
+{
+  Callback callback = std::move(impl_->callback);
+  impl_ = std::make_unique<Impl>(parameters);
+  impl_->callback = std::move(callback);
+}
+
+void CLidarInertialOdometry::onNewObservation(const mrpt::obs::CObservation::Ptr& observation)
+{
+  if (!observation) return;
+  const std::string message = impl_->take(*observation);
+  if (!message.empty()) logStr(mrpt::system::LVL_INFO, message);
+  impl_->drain(false);
+}
+
+std::optional<LidarScan> CLidarInertialOdometry::decode(const mrpt::obs::CObservation& observation)
+{
+  return impl_->decode(observation);
+}
+
+void CLidarInertialOdometry::finish()
+{
+  impl_->drain(true);
+}
+
+void CLidarInertialOdometry::setCallback(Callback callback)
+{
+  impl_->callback = std::move(callback);
+}
+
+const std::optional<OdometryEstimate>& CLidarInertialOdometry::latest() const
+{
+  return impl_->latest;
+}
+
+const PoseTrack& CLidarInertialOdometry::track() const
+{
+  return impl_->track();
+}
+
+mrpt::maps::CSimplePointsMap::Ptr CLidarInertialOdometry::map() const
+{
+  return impl_->odometry().map().toPointsMap();
+}
+
+const Parameters& CLidarInertialOdometry::parameters() const
+{
+  return impl_->odometry().parameters();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,227 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/mrpt_compat.h>
+#include <fastlio/mrpt_bridge/output/levelled_scan.h>
+#include <fastlio/mrpt_bridge/output/mrpt_poses.h>
+#include <fastlio/mrpt_bridge/output/scan_in_world.h>
+#include <fastlio/slam/CMetricMapBuilderLIO.h>
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/poses/CPosePDF.h>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::obs::CObservation;
+
+constexpr std::size_t kMostWaiting = 100;
+
+std::int64_t nanoseconds(double seconds)
+{
+  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+}
+
+/** The scan's points as the LiDAR would have seen them from one place: where it was at the stamp.
+ */
+mrpt::obs::CObservationPointCloud::Ptr compensatedCloud(
+    const LidarScan& scan, const PoseTrack& track, const Pose& T_world_lidar)
+{
+  const OutputPoints world = scanInWorld(scan, track);
+  const Pose T_lidar_world = T_world_lidar.inverse();
+  auto cloud = mrpt::maps::CSimplePointsMap::Create();
+  cloud->reserve(world.size());
+  for (std::size_t i = 0; i < world.size(); ++i)
+  {
+    const Vec3 p =
+        T_lidar_world * Vec3(
+                            static_cast<double>(world.x[i]), static_cast<double>(world.y[i]),
+                            static_cast<double>(world.z[i]));
+    cloud->insertPointFast(
+        static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+  }
+  cloud->mark_as_modified();
+  auto observation = mrpt::obs::CObservationPointCloud::Create();
+  observation->timestamp = toMrptTime(scan.stamp_ns);
+  observation->pointcloud = cloud;
+  return observation;
+}
+
+mrpt::maps::TSetOfMetricMapInitializers orPoints(
+    const mrpt::maps::TSetOfMetricMapInitializers& maps)
+{
+  if (maps.size() > 0) return maps;
+  mrpt::maps::TSetOfMetricMapInitializers points;
+  mrpt::maps::CSimplePointsMap::TMapDefinition definition;
+  definition.insertionOpts.minDistBetweenLaserPoints = 0.1F;
+  points.push_back(definition);
+  return points;
+}
+}  // namespace
+
+CMetricMapBuilderLIO::CMetricMapBuilderLIO(
+    const Parameters& parameters, const mrpt::maps::TSetOfMetricMapInitializers& maps)
+    : parameters_(parameters),
+      definitions_(orPoints(maps)),
+      rule_(parameters.output.keyframe_distance, parameters.output.keyframe_angle)
+{
+  initialize();
+}
+
+CMetricMapBuilderLIO::~CMetricMapBuilderLIO() = default;
+
+void CMetricMapBuilderLIO::initialize(
+    const mrpt::maps::CSimpleMap& initialMap, const mrpt::poses::CPosePDF* x0)
+{
+  const std::lock_guard lock(mutex_);
+  // Nothing is changed when the parameters are refused.
+  odometry_.initialize(parameters_);
+  rule_ = KeyFrameRule(parameters_.output.keyframe_distance, parameters_.output.keyframe_angle);
+  T_map_start_ = x0 == nullptr ? Pose{} : toPose(mrpt::poses::CPose3D(x0->getMeanVal()));
+  T_map_world_.reset();
+  waiting_.clear();
+  views_ = initialMap;
+  metric_map_.setListOfMaps(definitions_);
+  for (std::size_t i = 0; i < views_.size(); ++i)
+  {
+    const KeyFrameView view = keyFrame(views_, i);
+    const mrpt::poses::CPose3D pose = view.pose->getMeanVal();
+    view.frame->insertObservationsInto(metric_map_, pose);
+  }
+}
+
+void CMetricMapBuilderLIO::processActionObservation(
+    mrpt::obs::CActionCollection& /*action*/, mrpt::obs::CSensoryFrame& observations)
+{
+  for (const auto& observation : observations)
+    processObservation(observation);
+}
+
+void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observation)
+{
+  if (!observation) return;
+  const std::lock_guard lock(mutex_);
+  odometry_.onNewObservation(observation);
+  placeOrigin();
+  if (!options.enableMapUpdating) return;
+  if (auto scan = odometry_.decode(*observation))
+  {
+    scan->stamp_ns += nanoseconds(parameters_.lidar.time_offset);
+    waiting_.push_back({observation, std::move(*scan)});
+    if (waiting_.size() > kMostWaiting) waiting_.pop_front();  // no pose in sight
+  }
+  takeKeyFrames();
+}
+
+/** The first pose tells where the odometry's world is: the vehicle starts at T_map_start_. */
+void CMetricMapBuilderLIO::placeOrigin()
+{
+  const auto& poses = odometry_.track().poses();
+  if (T_map_world_ || poses.empty()) return;
+  const Pose& T_world_vehicle = poses.front().T_world_body;
+  Pose T_world_ground = toPose(mrpt::poses::CPose3D(onGround(T_world_vehicle)));
+  T_world_ground.p.z() = T_world_vehicle.p.z();
+  T_map_world_ = T_map_start_ * T_world_ground.inverse();
+}
+
+/** The pose at a scan's stamp is known when the next scan has been processed. */
+void CMetricMapBuilderLIO::takeKeyFrames()
+{
+  const auto& poses = odometry_.track().poses();
+  while (!waiting_.empty() && !poses.empty())
+  {
+    if (spanOf(waiting_.front().scan).end_ns > poses.back().stamp_ns) return;
+    const Waiting waiting = std::move(waiting_.front());
+    waiting_.pop_front();
+    const auto pose = odometry_.track().at(waiting.scan.stamp_ns);
+    if (pose && rule_.accept(pose->T_world_body)) addKeyFrame(waiting, *pose);
+  }
+}
+
+void CMetricMapBuilderLIO::addKeyFrame(const Waiting& waiting, const TrackedPose& pose)
+{
+  const LidarScan& scan = waiting.scan;
+  const PoseTrack& track = odometry_.track();
+  const Pose T_world_lidar = pose.T_world_body * mountingOn(track, scan);
+  const auto cloud = compensatedCloud(scan, track, T_world_lidar);
+  // MRPT 2.5 takes no notice of the robot's pose for this class, so the sensor's says it all.
+  cloud->sensorPose = toMrptPose(*T_map_world_ * T_world_lidar);
+  const auto planar = levelledScan(scan, track, planarOptions());
+  const mrpt::poses::CPose3D ground(
+      mrpt::poses::CPose2D(toMrptPose(*T_map_world_)) + onGround(pose.T_world_body));
+  for (auto& map : metric_map_.maps)
+    if (!map->insertObservation(*cloud, mrpt::poses::CPose3D()) && planar)
+      map->insertObservation(*planar, ground);
+
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(waiting.raw);
+  const Vec3& v = pose.velocity;
+  const Vec3& w = pose.angular_velocity;
+  const TrackedPose in_map = fromStart(pose);
+  insertKeyFrame(
+      views_, toMrptPdf(in_map.T_world_body, in_map.covariance), frame,
+      {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
+}
+
+LevelledScanOptions CMetricMapBuilderLIO::planarOptions() const
+{
+  LevelledScanOptions planar;
+  planar.rays = parameters_.output.scan_2d_rays;
+  planar.height = parameters_.output.scan_2d_height;
+  planar.thickness = parameters_.output.scan_2d_thickness;
+  planar.max_range = parameters_.lidar.max_range;
+  return planar;
+}
+
+TrackedPose CMetricMapBuilderLIO::fromStart(const TrackedPose& pose) const
+{
+  TrackedPose moved = pose;
+  const Pose T_map_world = T_map_world_.value_or(Pose{});
+  moved.T_world_body = T_map_world * pose.T_world_body;
+  Matrix6 J = Matrix6::Identity();
+  J.bottomRightCorner<3, 3>() = T_map_world.R;
+  moved.covariance = J * pose.covariance * J.transpose();
+  return moved;
+}
+
+mrpt::poses::CPose3DPDF::Ptr CMetricMapBuilderLIO::getCurrentPoseEstimation() const
+{
+  const std::lock_guard lock(mutex_);
+  const auto& poses = odometry_.track().poses();
+  TrackedPose pose;
+  pose.T_world_body = T_map_start_;
+  if (!poses.empty()) pose = fromStart(poses.back());
+  return mrpt::poses::CPose3DPDFGaussian::Create(toMrptPdf(pose.T_world_body, pose.covariance));
+}
+
+void CMetricMapBuilderLIO::getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const
+{
+  const std::lock_guard lock(mutex_);
+  out_map = views_;
+}
+
+unsigned int CMetricMapBuilderLIO::getCurrentlyBuiltMapSize()
+{
+  const std::lock_guard lock(mutex_);
+  return static_cast<unsigned int>(views_.size());
+}
+
+BuiltMap CMetricMapBuilderLIO::getCurrentlyBuiltMetricMap() const
+{
+  return asBuiltMap(metric_map_);
+}
+
+void CMetricMapBuilderLIO::saveCurrentEstimationToImage(
+    const std::string& file, bool /*formatEMF_BMP*/)
+{
+  const std::lock_guard lock(mutex_);
+  metric_map_.saveMetricMapRepresentationToFile(file);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,91 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "walk.h"
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/slam/CLidarInertialOdometry.h>
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+namespace fastlio
+{
+namespace
+{
+using testing::observations;
+using testing::walk;
+
+CLidarInertialOdometry::Ptr madeByName()
+{
+  registerSlamClasses();
+  const auto object = mrpt::rtti::classFactory("fastlio::CLidarInertialOdometry");
+  auto odometry = std::dynamic_pointer_cast<CLidarInertialOdometry>(object);
+  if (odometry) odometry->setMinLoggingLevel(mrpt::system::LVL_WARN);
+  return odometry;
+}
+
+TEST(CLidarInertialOdometry, MadeByNameAndSetUpFromYamlItFollowsTheWalk)
+{
+  const auto odometry = madeByName();
+  ASSERT_TRUE(odometry);
+  const Parameters parameters = matchingParameters(walk().settings());
+  odometry->initialize(mrpt::containers::yaml::FromText(toYaml(parameters)));
+  std::size_t called = 0;
+  odometry->setCallback([&called](const OdometryEstimate&) { ++called; });
+  for (const auto& observation : observations())
+    odometry->onNewObservation(observation);
+  odometry->finish();
+  EXPECT_NEAR(static_cast<double>(called), static_cast<double>(walk().scanCount()), 3.0);
+  ASSERT_TRUE(odometry->latest() && odometry->latest()->vehicle);
+  const TrackedPose& last = *odometry->latest()->vehicle;
+  const Pose T_true_first = walk().truth(odometry->track().poses().front().stamp_ns).T_world_imu;
+  const Pose T_true_last = walk().truth(last.stamp_ns).T_world_imu;
+  const Pose expected = T_true_first.inverse() * T_true_last;
+  const Pose seen = odometry->track().poses().front().T_world_body.inverse() * last.T_world_body;
+  EXPECT_GT(expected.p.norm(), 1.0);
+  EXPECT_LT((expected.p - seen.p).norm(), 0.1);
+  EXPECT_GT(odometry->map()->size(), 1000U);
+}
+
+TEST(CLidarInertialOdometry, RefusesBadYamlAndStaysAsItWas)
+{
+  const auto odometry = madeByName();
+  ASSERT_TRUE(odometry);
+  const auto bad = mrpt::containers::yaml::FromText("lidar: {min_rage: 1.0}");
+  EXPECT_THROW(odometry->initialize(bad), std::invalid_argument);
+  EXPECT_EQ(odometry->parameters().lidar.min_range, Parameters{}.lidar.min_range);
+}
+
+TEST(CLidarInertialOdometry, LeavesOtherSensorsAlone)
+{
+  const auto odometry = madeByName();
+  ASSERT_TRUE(odometry);
+  odometry->initialize(mrpt::containers::yaml::FromText("input: {imu_sensor_label: 'other'}"));
+  odometry->onNewObservation(nullptr);
+  odometry->onNewObservation(mrpt::obs::CObservationOdometry::Create());
+  for (std::size_t i = 0; i < 900; ++i)
+    odometry->onNewObservation(observations()[i]);
+  odometry->finish();
+  EXPECT_FALSE(odometry->latest());
+}
+
+TEST(CLidarInertialOdometry, InitializeStartsAnew)
+{
+  const auto odometry = madeByName();
+  ASSERT_TRUE(odometry);
+  std::vector<Vec3> ends;
+  for (int run = 0; run < 2; ++run)
+  {
+    odometry->initialize(matchingParameters(walk().settings()));
+    EXPECT_FALSE(odometry->latest());
+    for (std::size_t i = 0; i < 900; ++i)
+      odometry->onNewObservation(observations()[i]);
+    ASSERT_TRUE(odometry->latest() && odometry->latest()->vehicle);
+    ends.push_back(odometry->latest()->vehicle->T_world_body.p);
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+}
+
+}  // namespace
+}  // namespace fastlio
