@@ -24,7 +24,6 @@ namespace
 {
 using RawlogEdit = StackTest;
 using IcpSlam = StackTest;
-using RbpfSlam = StackTest;
 using ObservationsToMap = StackTest;
 using GraphSlam = StackTest;
 
