@@ -2,17 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "planar_error.h"
+#include "rewrite.h"
 #include "stack_run.h"
 #include "surface_distance.h"
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/mrpt_compat.h>
 
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <iostream>
@@ -69,40 +67,17 @@ TEST_F(RawlogEdit, ListsTheOdometryOfEveryScan)
         << result.output;
 }
 
-/** Odometry at 10 Hz and a planar scan per second: at 10 Hz, scans of a walk find each other
- * without any odometry. */
-void keepEveryTenthScan(const std::string& from, const std::string& to)
-{
-  mrpt::io::CFileGZInputStream in(from);
-  mrpt::io::CFileGZOutputStream out(to);
-  auto reading = mrpt::serialization::archiveFrom(in);
-  auto writing = mrpt::serialization::archiveFrom(out);
-  std::size_t scans = 0;
-  try
-  {
-    while (true)
-    {
-      const auto object = reading.ReadObject();
-      const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
-      const std::string label = observation ? observation->sensorLabel : "";
-      if (label == "levelled_scan" && scans++ % 10 != 0) continue;
-      if (label != "lidar" && label != "imu") writing << *object;
-    }
-  }
-  catch (const mrpt::serialization::CExceptionEOF&)
-  {
-    // The end.
-  }
-}
-
-/** 2D SLAM on the planar scans, with our odometry and without. */
+/** 2D SLAM on a planar scan per second, with our motions at 10 Hz and without: at ten scans per
+ * second, those of a walk find each other without any odometry. */
 TEST_F(IcpSlam, MapsBetterWithTheOdometry)
 {
   REQUIRE_PROGRAM("icp-slam");
   REQUIRE_PROGRAM("rawlog-edit");
-  keepEveryTenthScan(stack().output("observations", "odometry.rawlog"), file("with.rawlog"));
+  constexpr std::size_t kPeriod = 10;
+  keepFewScans(stack().output("actions", "odometry.rawlog"), file("with.rawlog"), kPeriod);
+  keepFewScans(stack().output("observations", "odometry.rawlog"), file("few.rawlog"), kPeriod);
   const auto removed =
-      run("rawlog-edit", {"--remove-label", "odometry,odometry_2d", "-i", file("with.rawlog"), "-o",
+      run("rawlog-edit", {"--remove-label", "odometry,odometry_2d", "-i", file("few.rawlog"), "-o",
                           file("without.rawlog"), "--overwrite"});
   ASSERT_EQ(removed.exit_status, 0) << removed.output;
   std::map<std::string, PlanarError> errors;
@@ -116,7 +91,7 @@ TEST_F(IcpSlam, MapsBetterWithTheOdometry)
     tell("icp-slam " + name + " odometry", errors[name]);
   }
   EXPECT_GT(errors["with"].key_frames, 10U);
-  EXPECT_LT(errors["with"].rms, 0.05);
+  EXPECT_LT(errors["with"].rms, 0.1);
   EXPECT_LT(errors["with"].rms, 0.5 * errors["without"].rms);
 }
 
