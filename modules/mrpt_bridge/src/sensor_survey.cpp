@@ -180,34 +180,39 @@ bool hasUsable(
 
 namespace fastlio
 {
-SensorSummary summarizeSensor(const CObservation& observation)
+void noteObservation(SensorSurvey& survey, const CObservation& observation)
 {
-  return firstSight(observation);
+  if (observation.timestamp != INVALID_TIMESTAMP) note(survey.sensors, observation);
 }
 
-SensorSurvey surveySensors(
-    const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
+bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns)
 {
   const LabelPattern imu("imu", patterns.imu_label);
   std::vector<LabelPattern> lidars{{"lidar", patterns.lidar_label}};
   for (const std::string& label : patterns.further_lidar_labels)
     lidars.emplace_back("lidar", label);
+  return hasUsable(survey.sensors, SensorKind::Imu, imu) &&
+         std::all_of(
+             lidars.begin(), lidars.end(),
+             [&](const LabelPattern& lidar)
+             { return hasUsable(survey.sensors, SensorKind::Lidar, lidar); });
+}
+
+SensorSurvey surveySensors(
+    const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
+{
   const std::int64_t at_least_ns = std::llround(at_least * kNanosecondsPerSecond);
   RawlogSource source(files);
   SensorSurvey survey;
   std::int64_t begin_ns = 0;
+  (void)isComplete(survey, patterns);  // patterns that are none are told before reading
   while (const auto observation = source.next())
   {
     if (observation->timestamp == INVALID_TIMESTAMP) continue;
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
     if (survey.sensors.empty()) begin_ns = stamp_ns;
-    note(survey.sensors, *observation);
-    const bool complete = hasUsable(survey.sensors, SensorKind::Imu, imu) &&
-                          std::all_of(
-                              lidars.begin(), lidars.end(),
-                              [&](const LabelPattern& lidar)
-                              { return hasUsable(survey.sensors, SensorKind::Lidar, lidar); });
-    if (complete && stamp_ns - begin_ns >= at_least_ns) break;
+    noteObservation(survey, *observation);
+    if (stamp_ns - begin_ns >= at_least_ns && isComplete(survey, patterns)) break;
   }
   survey.problems = source.problems();
   return survey;

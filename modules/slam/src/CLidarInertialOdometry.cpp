@@ -32,22 +32,22 @@ void registerSlamClasses()
 class CLidarInertialOdometry::Impl
 {
  public:
-  explicit Impl(const Parameters& parameters) : odometry_(parameters), sensors_(parameters.input) {}
+  explicit Impl(const Parameters& parameters) : odometry_(parameters), sensors_(parameters) {}
 
   /** What the observation was, for the log; empty when it was used or belongs to other sensors. */
-  std::string take(const mrpt::obs::CObservation& observation)
+  std::string take(const mrpt::obs::CObservation::ConstPtr& observation)
   {
-    BridgeOutput output = sensors_.convert(observation);
-    if (auto* sample = std::get_if<ImuSample>(&output)) odometry_.addImu(*sample);
-    if (auto* scan = std::get_if<LidarScan>(&output)) odometry_.addScan(std::move(*scan));
+    for (BridgeOutput& output : sensors_.convert(observation))
+    {
+      if (auto* sample = std::get_if<ImuSample>(&output)) odometry_.addImu(*sample);
+      if (auto* scan = std::get_if<LidarScan>(&output)) odometry_.addScan(std::move(*scan));
+    }
     return sensors_.takeMessage();
   }
 
   std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation)
   {
-    BridgeOutput output = sensors_.convertScan(observation);
-    auto* scan = std::get_if<LidarScan>(&output);
-    return scan == nullptr ? std::nullopt : std::optional<LidarScan>(std::move(*scan));
+    return sensors_.decode(observation);
   }
 
   void drain(bool at_end)
@@ -96,10 +96,10 @@ void CLidarInertialOdometry::initialize(const Parameters& parameters)
   impl_->callback = std::move(callback);
 }
 
-void CLidarInertialOdometry::onNewObservation(const mrpt::obs::CObservation::Ptr& observation)
+void CLidarInertialOdometry::onNewObservation(const mrpt::obs::CObservation::ConstPtr& observation)
 {
   if (!observation) return;
-  const std::string message = impl_->take(*observation);
+  const std::string message = impl_->take(observation);
   if (!message.empty()) logStr(mrpt::system::LVL_INFO, message);
   impl_->drain(false);
 }

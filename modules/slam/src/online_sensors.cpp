@@ -3,67 +3,69 @@
 
 #include "online_sensors.h"
 
-#include <mrpt/rtti/CObject.h>
+#include <fastlio/mrpt_bridge/input_plan.h>
 
 namespace fastlio
 {
 namespace
 {
-std::regex patternOf(const std::string& label)
-{
-  return std::regex(label.empty() ? ".*" : label);
-}
-
-void takeIfUsable(
-    const SensorSummary& sensor, SensorKind kind, const std::regex& label,
-    std::optional<SensorSummary>& chosen)
-{
-  if (chosen || sensor.kind != kind || !sensor.usable) return;
-  if (std::regex_match(sensor.label, label)) chosen = sensor;
-}
+constexpr std::size_t kMostKept = 5000;
 }  // namespace
 
-OnlineSensors::OnlineSensors(const InputParameters& input)
-    : input_(input),
-      lidar_label_(patternOf(input.lidar_sensor_label)),
-      imu_label_(patternOf(input.imu_sensor_label))
+OnlineSensors::OnlineSensors(const Parameters& parameters)
+    : parameters_(parameters), patterns_(patternsOf(parameters))
 {
+  patterns_.further_lidar_labels.clear();  // one LiDAR is used here
+  (void)isComplete(survey_, patterns_);    // tells of labels that are no patterns
 }
 
-BridgeOutput OnlineSensors::convert(const mrpt::obs::CObservation& observation)
+std::vector<BridgeOutput> OnlineSensors::convert(
+    const mrpt::obs::CObservation::ConstPtr& observation)
 {
-  if (!bridge_) look(observation);
-  if (!bridge_) return std::monostate{};
-  return bridge_->convert(observation);
-}
-
-BridgeOutput OnlineSensors::convertScan(const mrpt::obs::CObservation& observation)
-{
-  const bool is_scan = bridge_ && observation.sensorLabel == lidar_->label &&
-                       observation.GetRuntimeClass()->className == lidar_->class_name;
-  return is_scan ? bridge_->convert(observation) : BridgeOutput{};
-}
-
-void OnlineSensors::look(const mrpt::obs::CObservation& observation)
-{
-  const SensorSummary sensor = summarizeSensor(observation);
-  takeIfUsable(sensor, SensorKind::Lidar, lidar_label_, lidar_);
-  takeIfUsable(sensor, SensorKind::Imu, imu_label_, imu_);
-  if (lidar_ && imu_) start();
+  std::vector<BridgeOutput> outputs;
+  if (bridge_)
+  {
+    outputs.push_back(bridge_->convert(*observation));
+    return outputs;
+  }
+  if (failed_) return outputs;
+  kept_.push_back(observation);
+  if (kept_.size() > kMostKept) kept_.pop_front();
+  noteObservation(survey_, *observation);
+  if (isComplete(survey_, patterns_)) start();
+  if (!bridge_) return outputs;
+  for (const auto& kept : std::exchange(kept_, {}))
+    outputs.push_back(bridge_->convert(*kept));
+  return outputs;
 }
 
 void OnlineSensors::start()
 {
-  SensorSelection selection;
-  selection.lidar = *lidar_;
-  selection.imu = *imu_;
-  BridgeOptions options;
-  options.T_vehicle_imu = input_.T_vehicle_imu;
-  const Pose T_vehicle_imu = input_.T_vehicle_imu.value_or(imu_->T_vehicle_sensor);
-  if (input_.T_vehicle_lidar)
-    options.T_imu_lidar = T_vehicle_imu.inverse() * *input_.T_vehicle_lidar;
-  message_ = describe(selection);
-  bridge_.emplace(std::move(selection), std::move(options));
+  try
+  {
+    SensorSelection selection = selectSensors(survey_, patterns_);
+    const InputPlan plan = planInput(selection, parameters_);
+    message_ = describe(selection);
+    for (const auto* sentences : {&plan.notes, &plan.warnings})
+      for (const auto& sentence : *sentences)
+        message_ += "\n" + sentence;
+    bridge_.emplace(std::move(selection), plan.bridge);
+  }
+  catch (const std::exception& e)
+  {
+    failed_ = true;
+    kept_.clear();
+    message_ = std::string("the odometry cannot start: ") + e.what();
+  }
+}
+
+std::optional<LidarScan> OnlineSensors::decode(const mrpt::obs::CObservation& observation)
+{
+  if (!bridge_ || bridge_->lidarOf(observation) != std::optional<std::size_t>(0))
+    return std::nullopt;
+  BridgeOutput output = bridge_->convert(observation);
+  auto* scan = std::get_if<LidarScan>(&output);
+  return scan == nullptr ? std::nullopt : std::optional<LidarScan>(std::move(*scan));
 }
 
 Pose OnlineSensors::T_vehicle_imu() const

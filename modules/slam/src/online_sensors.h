@@ -9,26 +9,28 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include <deque>
 #include <optional>
-#include <regex>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace fastlio
 {
-/** An ObservationBridge that is set up by the first usable observation of either kind. Those that
- * come before both sensors are known are not used. */
+/** An ObservationBridge that is set up by what comes in: observations are kept until the sensors
+ * and what their times mean are known, and converted then. */
 class OnlineSensors
 {
  public:
-  /** \exception std::regex_error a label is not a regular expression (parameters that were checked
-   * have none such) */
-  explicit OnlineSensors(const InputParameters& input);
+  /** \exception std::invalid_argument a label is not a regular expression */
+  explicit OnlineSensors(const Parameters& parameters);
 
-  [[nodiscard]] BridgeOutput convert(const mrpt::obs::CObservation& observation);
+  /** Everything that this observation makes available, in order. */
+  [[nodiscard]] std::vector<BridgeOutput> convert(
+      const mrpt::obs::CObservation::ConstPtr& observation);
 
-  /** The same for scans only: others are nothing, and do not count. */
-  [[nodiscard]] BridgeOutput convertScan(const mrpt::obs::CObservation& observation);
+  /** A scan of the LiDAR in use; nothing for others, and as long as the sensors are not known. */
+  [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation);
 
   /** What the user should know, once. */
   [[nodiscard]] std::string takeMessage() { return std::exchange(message_, {}); }
@@ -37,13 +39,14 @@ class OnlineSensors
   [[nodiscard]] Pose T_vehicle_imu() const;
 
  private:
-  void look(const mrpt::obs::CObservation& observation);
   void start();
 
-  InputParameters input_;
-  std::regex lidar_label_, imu_label_;
-  std::optional<SensorSummary> lidar_, imu_;
+  Parameters parameters_;
+  SensorPatterns patterns_;
+  SensorSurvey survey_;
+  std::deque<mrpt::obs::CObservation::ConstPtr> kept_;
   std::optional<ObservationBridge> bridge_;
+  bool failed_ = false;
   std::string message_;
 };
 

@@ -74,8 +74,11 @@ struct SensorSelection
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);
 
-/** What a single observation tells about its sensor. */
-[[nodiscard]] SensorSummary summarizeSensor(const mrpt::obs::CObservation& observation);
+/** A survey while observations come in: takes one in. */
+void noteObservation(SensorSurvey& survey, const mrpt::obs::CObservation& observation);
+
+/** Usable sensors that match have been seen, LiDARs in several scans. */
+[[nodiscard]] bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns);
 
 /** Of several that match, the one with most observations is taken.
  * \exception std::invalid_argument a pattern is not a regular expression

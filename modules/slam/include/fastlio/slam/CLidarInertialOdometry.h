@@ -41,8 +41,10 @@ struct OdometryEstimate
  * \endcode
  *
  * Sensors: of each kind the first that is usable and whose label matches input.lidar_sensor_label
- * or input.imu_sensor_label; observations of others are left alone. Scans are processed once
- * inertial samples reach their end, inside of onNewObservation(). One thread uses an object. */
+ * or input.imu_sensor_label; observations of others are left alone, and so are further LiDARs. The
+ * first few scans are kept until it is clear what the times of their points mean. Scans are
+ * processed once inertial samples reach their end, inside of onNewObservation(). One thread uses an
+ * object. */
 class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
 {
   DEFINE_MRPT_OBJECT(CLidarInertialOdometry, fastlio)
@@ -65,7 +67,7 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
 
   /** Takes an observation of any class; those of other sensors are left alone. Before initialize(),
    * the defaults count. Data never throw: what cannot be used is logged. */
-  void onNewObservation(const mrpt::obs::CObservation::Ptr& observation);
+  void onNewObservation(const mrpt::obs::CObservation::ConstPtr& observation);
 
   /** No more observations: also processes scans that reach beyond the inertial data. */
   void finish();
