@@ -98,6 +98,27 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
       ->capture_default_str();
 }
 
+void addMapOptions(CLI::App& app, ReplayArguments& arguments)
+{
+  auto* map = app.add_option(
+                     "--map-in", arguments.map_in,
+                     "Start in this map of an earlier run: PLY, PCD, or an archive of MRPT")
+                  ->type_name("FILE");
+  app.add_option(
+         "--initial-pose", arguments.initial_pose,
+         "About where the body (--frame) is in that map: x,y,z,yaw,pitch,roll [m, deg]; default: "
+         "the "
+         "map's origin")
+      ->delimiter(',')
+      ->expected(6)
+      ->needs(map)
+      ->type_name("X,Y,Z,YAW,PITCH,ROLL");
+  app.add_flag(
+         "--no-map-update", arguments.no_map_update,
+         "Only localise: the map stays as it is (sets map.update: false)")
+      ->needs(map);
+}
+
 void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 {
   app.add_option(
@@ -132,6 +153,7 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
   ReplayArguments arguments;
   addInputOptions(app, arguments);
   addOutputOptions(app, arguments);
+  addMapOptions(app, arguments);
   addRunOptions(app, arguments);
   try
   {

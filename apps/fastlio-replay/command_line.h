@@ -27,6 +27,9 @@ struct ReplayArguments
   std::size_t only_first_n = 0;                   //!< scans that are used after those; 0: all
   std::vector<std::string> exporters;             //!< overrides output.exporters
   bool imu_rate = false;                          //!< sets the parameter output.imu_rate
+  std::string map_in;                             //!< a saved map to start in; empty: none
+  std::vector<double> initial_pose;               //!< x y z yaw pitch roll [m, deg]; empty: origin
+  bool no_map_update = false;                     //!< sets the parameter map.update to false
   std::string frame = "vehicle";                  //!< or "imu"
   std::optional<int> threads;                     //!< overrides the parameter `threads`
   mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;

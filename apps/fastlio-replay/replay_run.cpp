@@ -74,6 +74,14 @@ OutputMapOptions outputMapOptions(const RunSetup& setup)
   return options;
 }
 
+/** A map that grows on is saved as a whole. */
+OutputPoints withoutFields(const WorldPoints& points)
+{
+  return outputPointsOf(
+      points,
+      {std::vector<float>(points.size(), 0.0F), std::vector<std::int64_t>(points.size(), 0)});
+}
+
 OutputOptions outputOptions(const RunSetup& setup)
 {
   return {
@@ -94,6 +102,11 @@ ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
       output_map_(outputMapOptions(setup_)),
       progress_(logger)
 {
+  if (!setup_.saved_map) return;
+  odometry_.startIn(*setup_.saved_map);
+  if (setup_.parameters.map.update && exporters_.needMap())
+    output_map_.insert(withoutFields(setup_.saved_map->points));
+  setup_.saved_map.reset();  // the odometry has taken it
 }
 
 RunSummary ReplayRun::execute()
@@ -114,7 +127,7 @@ RunSummary ReplayRun::execute()
   progress_.clear();
   RunSummary summary = summarize(source);
   summary.wall_seconds = stopwatch.Tac();
-  return exporters_.finish(std::move(summary), output_map_);
+  return exporters_.finish(std::move(summary), output_map_, &odometry_.map());
 }
 
 void ReplayRun::consume(DecodeAheadSource& source)

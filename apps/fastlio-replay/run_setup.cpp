@@ -4,6 +4,8 @@
 #include "run_setup.h"
 
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/saved_map_file.h>
 #include <fastlio/odometry/parameter_yaml.h>
 
 #include <filesystem>
@@ -42,6 +44,7 @@ Parameters loadConfiguration(const ReplayArguments& arguments)
     throw SetupError(ExitStatus::Usage, e.what());
   }
   if (arguments.threads) parameters.threads = *arguments.threads;
+  if (arguments.no_map_update) parameters.map.update = false;
   OutputParameters& output = parameters.output;
   if (!arguments.exporters.empty()) output.exporters = joined(arguments.exporters);
   if (arguments.imu_rate || names(output.exporters, "imu_rate")) output.imu_rate = true;
@@ -113,6 +116,32 @@ auto checked(Step step)
   }
 }
 
+/** The pose of the body that is written about, as the user gives it. */
+Pose poseOf(const std::vector<double>& numbers)
+{
+  constexpr double kRadPerDeg = 0.017453292519943295;
+  if (numbers.empty()) return {};
+  return toPose(mrpt::poses::CPose3D(
+      numbers[0], numbers[1], numbers[2], kRadPerDeg * numbers[3], kRadPerDeg * numbers[4],
+      kRadPerDeg * numbers[5]));
+}
+
+std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const OutputFrame& frame)
+{
+  if (arguments.map_in.empty()) return std::nullopt;
+  try
+  {
+    SavedMap saved = loadSavedMap(arguments.map_in);
+    if (!arguments.initial_pose.empty())
+      saved.T_map_imu = poseOf(arguments.initial_pose) * frame.T_imu_body.inverse();
+    return saved;
+  }
+  catch (const std::exception& e)
+  {
+    throw SetupError(ExitStatus::InputUnusable, e.what());
+  }
+}
+
 OutputFrame outputFrameOf(
     const std::string& name, const InputParameters& input, const SensorSelection& selection)
 {
@@ -137,6 +166,7 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
   setup.frame = outputFrameOf(arguments.frame, input, setup.selection);
+  setup.saved_map = savedMapOf(arguments, setup.frame);
   return setup;
 }
 

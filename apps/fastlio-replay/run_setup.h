@@ -10,7 +10,9 @@
 #include <fastlio/mrpt_bridge/output/run_summary.h>
 #include <fastlio/mrpt_bridge/sensor_selection.h>
 #include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/saved_map.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -40,6 +42,7 @@ struct RunSetup
   SensorSelection selection;
   InputPlan plan;
   OutputFrame frame;
+  std::optional<SavedMap> saved_map;  //!< to start in
 };
 
 /** Loads the parameters, makes the output places, looks for the sensors, in this order.

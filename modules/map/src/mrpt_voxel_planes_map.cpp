@@ -53,6 +53,7 @@ WorldPoints pointsOf(
 
 CVoxelPlanesMap::CVoxelPlanesMap() : CVoxelPlanesMap(TCreationOptions{}) {}
 CVoxelPlanesMap::CVoxelPlanesMap(const TCreationOptions& options) : planes_(options.planes) {}
+CVoxelPlanesMap::CVoxelPlanesMap(const VoxelPlaneMap& planes) : planes_(planes) {}
 CVoxelPlanesMap::~CVoxelPlanesMap() = default;
 
 CVoxelPlanesMap::CVoxelPlanesMap(const CVoxelPlanesMap& other)

@@ -70,6 +70,11 @@ std::size_t VoxelPlaneMap::memoryBytes() const
   return impl_->shards.memoryBytes();
 }
 
+std::uint32_t VoxelPlaneMap::insertionCount() const
+{
+  return impl_->scan;
+}
+
 std::size_t VoxelPlaneMap::pointCount() const
 {
   return impl_->shards.finestCount();

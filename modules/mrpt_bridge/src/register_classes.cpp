@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "newer_points_maps.h"
 #include <fastlio/mrpt_bridge/CGenericPointsMap.h>
 #include <fastlio/mrpt_bridge/CPointsMapXYZIRT.h>
 #include <fastlio/mrpt_bridge/register_classes.h>
@@ -17,6 +18,7 @@ bool registerOnce()
   mrpt::obs::registerAllClasses_mrpt_obs();
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(CPointsMapXYZIRT, mrpt::maps));
   mrpt::rtti::registerClass(CLASS_ID_NAMESPACE(CGenericPointsMap, mrpt::maps));
+  fastlio::registerNewerPointsMaps();
   return true;
 }
 }  // namespace

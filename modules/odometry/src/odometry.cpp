@@ -7,6 +7,7 @@
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/odometry/parameter_yaml.h>
 
+#include <stdexcept>
 #include <utility>
 
 namespace fastlio
@@ -175,6 +176,15 @@ Odometry::Odometry(const Parameters& parameters) : impl_(std::make_unique<Impl>(
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
+
+void Odometry::startIn(const SavedMap& map)
+{
+  if (map.empty())
+    throw std::invalid_argument("Odometry::startIn: the map has no points; was it saved?");
+  if (impl_->pipeline_.started())
+    throw std::logic_error("Odometry::startIn: call it before the first scan.");
+  impl_->pipeline_.useSavedMap(map);
+}
 
 void Odometry::addImu(const ImuSample& sample)
 {

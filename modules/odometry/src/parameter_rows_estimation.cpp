@@ -59,6 +59,10 @@ ParameterRows mapRows()
        "planes: voxels at several scales that hold a ready plane, one lookup each; knn: a plane "
        "through the exact nearest points, as in the paper; kdtree: the same through nanoflann, "
        "rebuilt for each scan, slow: the reference"},
+      {"map.update", "", BooleanValue{[](auto& p) { return &p.map.update; }},
+       "false: a map that the run is started in (--map-in) stays as it is; without such a map it "
+       "has "
+       "no effect"},
       {"map.output_spacing", "m",
        RealValue{[](auto& p) { return &p.map.output_spacing; }, 0.01, 100.0},
        "least distance between the points of the map that is saved; smaller: denser and larger "

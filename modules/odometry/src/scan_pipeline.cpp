@@ -6,6 +6,7 @@
 #include "calibration_prior.h"
 #include "map_factory.h"
 #include "prediction.h"
+#include "start_in_map.h"
 #include "stopwatch.h"
 
 #include <Eigen/Eigenvalues>
@@ -57,6 +58,7 @@ void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const 
 {
   young_map_ = young_map;
   filter_ = state;
+  if (start_in_map_) filter_ = placedInMap(state, *start_in_map_, parameters_.initialization);
   filter_ = withCalibrationPrior(filter_, parameters_.calibration);
   constrainGravity();
   state_ns_ = stamp_ns;
@@ -92,8 +94,9 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.stamp_ns = span.end_ns;
   const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
   reduce(scan, span.end_ns);
-  compensate(scan, span, predicted);                      // eq. 9-10
-  const UpdateResult update = updateWithScan(predicted);  // eq. 12-20
+  compensate(scan, span, predicted);  // eq. 9-10
+  const UpdateResult update =
+      start_in_map_ ? findInMap(predicted) : updateWithScan(predicted);  // eq. 12-20
   filter_ = update.posterior;
   filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3)
   constrainGravity();
@@ -101,6 +104,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.filter = considerMapError(update.gain);
   result.map_share = (result.filter.P - filter_.P).topLeftCorner<6, 6>();
   judge(update, result);
+  if (start_in_map_) tellNotFound(result);
   if (parameters_.rest.enabled) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))

@@ -17,6 +17,7 @@
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
 #include <fastlio/parallel/workers.h>
 
@@ -33,6 +34,8 @@ class ScanPipeline
   explicit ScanPipeline(const Parameters& parameters);
 
   void start(const FilterState& state, std::int64_t stamp_ns, const YoungMap& young_map = {});
+  /** Matches with a map that is there already, from the first scan on; before start(). */
+  void useSavedMap(const SavedMap& saved);
   [[nodiscard]] bool started() const { return state_ns_ != 0; }
   /** Instant of the state [ns]. */
   [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
@@ -67,6 +70,9 @@ class ScanPipeline
   [[nodiscard]] FilterState propagateTo(std::int64_t end_ns, const ImuBuffer& imu);
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
+  [[nodiscard]] UpdateResult findInMap(const FilterState& predicted);
+  [[nodiscard]] UpdateResult approach(const FilterState& candidate, const StateMatrix& P);
+  void tellNotFound(ScanResult& result);
   void constrainGravity();
   void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
@@ -91,6 +97,9 @@ class ScanPipeline
   bool prediction_finite_ = true;
   bool pose_trusted_ = true;
   double imu_gap_s_ = 0.0;
+  std::optional<Pose> start_in_map_;  //!< about where; nothing once the map has been found
+  double share_in_map_ = 0.0;         //!< of the points, when it was looked for last
+  bool map_is_given_ = false;
   PlaneGrouping planes_;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;

@@ -10,6 +10,7 @@ namespace fastlio
 {
 bool ScanPipeline::mayGrowMap(const ScanResult& result) const
 {
+  if (start_in_map_ || (map_is_given_ && !parameters_.map.update)) return false;
   if (rest_.restingTime() > parameters_.rest.map_time) return false;
   if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
   if (result.status == ScanStatus::Diverged) return false;
@@ -52,7 +53,7 @@ void ScanPipeline::growMap(const LidarScan& scan, const FilterState& total)
   if (state_ns_ <= young_map_.until_ns) founding.inherited += young_map_.founding_covariance;
   map_error_.recordInsertion(++insertions_, founding, T_world_scan);
   map_->insert(world_, T_world_scan * scan.T_imu_lidar.p);
-  map_->removeOutside(filter_.x.p, parameters_.map.radius);
+  if (!map_is_given_) map_->removeOutside(filter_.x.p, parameters_.map.radius);
   edges_.growMap(T_world_scan);
   keepFields(scan);
   timings_.insert = watch.milliseconds();

@@ -38,7 +38,7 @@ bool ExporterSet::needMap() const
       [](const auto& exporter) { return exporter && exporter->needsMap(); });
 }
 
-RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map)
+RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces)
 {
   summary.output_problems.insert(summary.output_problems.end(), problems_.begin(), problems_.end());
   for (auto& exporter : exporters_)
@@ -46,7 +46,7 @@ RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map)
     if (!exporter) continue;
     try
     {
-      for (auto& file : exporter->finish({summary, map}))
+      for (auto& file : exporter->finish({summary, map, surfaces}))
         summary.outputs.push_back(std::move(file));
     }
     catch (const std::exception& e)

@@ -82,6 +82,8 @@ const std::vector<ExporterKind>& exporterKinds()
        [](const Options& o) { return makeTextMapExporter(o.path("map.txt")); }},
       {"metricmap", "map.metricmap", "map for MRPT programs", true,
        [](const Options& o) { return makeMetricMapExporter(o.path("map.metricmap")); }},
+      {"planes", "map.planes", "map of planes that scans were matched with, for --map-in", false,
+       [](const Options& o) { return makePlanesExporter(o.path("map.planes")); }},
       {"simplemap", "keyframes.simplemap", "key frames with their raw scans", false,
        makeSimpleMapExporter},
       {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},

@@ -67,6 +67,8 @@ class CVoxelPlanesMap : public mrpt::maps::CMetricMap, public NearestNeighborsIn
   CVoxelPlanesMap();
   /** \exception std::invalid_argument an option is out of its range (the message names it) */
   explicit CVoxelPlanesMap(const TCreationOptions& options);
+  /** A copy of the odometry's map. */
+  explicit CVoxelPlanesMap(const VoxelPlaneMap& planes);
   CVoxelPlanesMap(const CVoxelPlanesMap& other);
   CVoxelPlanesMap& operator=(const CVoxelPlanesMap& other);
   ~CVoxelPlanesMap() override;

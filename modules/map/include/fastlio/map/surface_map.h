@@ -57,6 +57,9 @@ class SurfaceMap
   /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
   virtual void removeOutside(const Vec3& center, double radius) = 0;
 
+  /** Insertions so far, which PlaneMatch::born counts; 0 for maps that do not tell. */
+  [[nodiscard]] virtual std::uint32_t insertionCount() const { return 0; }
+
   /** Number of points held. */
   [[nodiscard]] virtual std::size_t pointCount() const = 0;
 

@@ -53,6 +53,7 @@ class VoxelPlaneMap : public SurfaceMap
       std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
+  [[nodiscard]] std::uint32_t insertionCount() const override;
   /** Number of finest voxels with points. */
   [[nodiscard]] std::size_t pointCount() const override;
   /** The mean point of each finest voxel. */

@@ -68,9 +68,8 @@ struct SensorSelection
   std::vector<SensorSummary> further_lidars;  //!< in the order of the patterns
 };
 
-/** Looks at the recording until usable sensors that match have been seen, LiDARs in several scans, and
- * \a at_least [s] of it
- * have passed; at all of it when there are none. */
+/** Looks at the recording until usable sensors that match have been seen, LiDARs in several scans,
+ * and \a at_least [s] of it have passed; at all of it when there are none. */
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);
 

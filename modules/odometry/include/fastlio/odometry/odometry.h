@@ -10,6 +10,7 @@
 #include <fastlio/lidar/scan.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <memory>
@@ -41,6 +42,12 @@ class Odometry
   ~Odometry();
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;
+
+  /** Starts in a map of an earlier run instead of an empty one: the first scan is searched around
+   * the pose that is given, scans before it is found are Initializing. Without map.update the map
+   * stays as it is. Nothing is dropped from it for being far away. \exception std::invalid_argument
+   * the map is empty \exception std::logic_error scans were processed before */
+  void startIn(const SavedMap& map);
 
   /** Samples that are not finite, repeated or older than the newest one are counted and dropped. */
   void addImu(const ImuSample& sample);

@@ -50,6 +50,10 @@ struct InitializationParameters
       0.017453292519943295;              //!< prior of the gyro bias in motion, zero mean [rad/s]
   double motion_max_velocity_std = 0.5;  //!< a start in motion knows its velocity so well [m/s]
   GravityModel gravity_model = GravityModel::Free;
+  double pose_position_std = 0.5;               //!< of a start in a given map [m]
+  double pose_yaw_std = 0.08726646259971648;    //!< the same [rad]; 5 deg
+  double pose_tilt_std = 0.008726646259971648;  //!< of the map's vertical [rad]; 0.5 deg
+  double map_share = 0.5;          //!< share of the points that must match a given map at first
   bool align_with_gravity = true;  //!< world z axis up; false: world = first IMU frame (paper)
 };
 
@@ -140,6 +144,7 @@ enum class MapType
 struct MapParameters
 {
   MapType type = MapType::Planes;
+  bool update = true;           //!< false: a given map stays as it is
   double output_spacing = 0.1;  //!< least distance between the points of the map that is saved [m]
   double radius = 150.0;        //!< points farther from the sensor than this may be dropped [m]
   double max_insertion_std = 0.2;  //!< a scan without matches joins below this position error [m]

@@ -21,6 +21,8 @@ struct RunEnd
 {
   const RunSummary& summary;  //!< with the outputs of the exporters that finished before
   const OutputMap& map;       //!< final map, world frame; empty unless an exporter needs it
+  /** What scans were matched with, when there is something. */
+  const SurfaceMap* surfaces = nullptr;
 };
 
 /** Turns a run into one or more files. Constructors open the files, so that an unwritable place is
@@ -61,7 +63,8 @@ class ExporterSet
 
   /** Finishes all, in the order they were added.
    * \return the summary, completed with outputs and output_problems */
-  [[nodiscard]] RunSummary finish(RunSummary summary, const OutputMap& map);
+  [[nodiscard]] RunSummary finish(
+      RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces = nullptr);
 
   /** Whether any of them needs the map: otherwise none has to be collected. */
   [[nodiscard]] bool needMap() const;

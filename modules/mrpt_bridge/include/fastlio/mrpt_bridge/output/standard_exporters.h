@@ -88,6 +88,10 @@ struct ExporterKind
 /** `map.metricmap`: a gzipped, serialised mrpt::maps::CSimplePointsMap. */
 [[nodiscard]] std::unique_ptr<Exporter> makeMetricMapExporter(const std::string& path);
 
+/** `map.planes`: the map of planes that scans were matched with, a gzipped, serialised
+ * fastlio::CVoxelPlanesMap. */
+[[nodiscard]] std::unique_ptr<Exporter> makePlanesExporter(const std::string& path);
+
 /** `keyframes.simplemap`: a gzipped mrpt::maps::CSimpleMap of the raw scans of key frames. */
 [[nodiscard]] std::unique_ptr<Exporter> makeSimpleMapExporter(const OutputOptions& options);
 

@@ -1,0 +1,66 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "replay_test_support.h"
+
+#include <sstream>
+
+namespace fastlio::testing
+{
+namespace
+{
+using SavedMaps = ReplayTest;
+
+std::array<double, 3> firstPosition(const std::string& tum)
+{
+  std::istringstream in(tum);
+  double t = 0;
+  std::array<double, 3> p{};
+  in >> t >> p[0] >> p[1] >> p[2];
+  return p;
+}
+
+/** Every format of a map leads back to where it began. */
+TEST_F(SavedMaps, StartWhereTheEarlierRunDid)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  ASSERT_EQ(replayFile(rawlog, {"--export", "ply,pcd,metricmap,planes,trajectory"}).exit_status, 0);
+  const auto expected = firstPosition(contentOf(file("out/trajectory.tum")));
+  for (const auto* map : {"map.ply", "map.pcd", "map.metricmap", "map.planes"})
+  {
+    const auto result = replay(
+        {"--input-rawlog", rawlog, "--output-dir", file("again"), "--export", "trajectory,ply",
+         "--map-in", file(std::string("out/") + map), "--initial-pose", "0.2,-0.1,-0.1,3,0,0",
+         "--no-map-update"});
+    expectEnd(result, 0, "exit status 0");
+    EXPECT_EQ(result.output.find("first scan"), std::string::npos) << result.output;
+    const auto seen = firstPosition(contentOf(file("again/trajectory.tum")));
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(seen.at(i), expected.at(i), 0.05) << map;
+  }
+}
+
+TEST_F(SavedMaps, AMapThatGrowsIsSavedAsAWhole)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  ASSERT_EQ(replayFile(rawlog, {"--export", "text"}).exit_status, 0);
+  ASSERT_EQ(replayFile(rawlog, {"--export", "ply"}).exit_status, 0);
+  const std::size_t points = linesOf(file("out/map.txt"));
+  const auto result = replay(
+      {"--input-rawlog", rawlog, "--output-dir", file("again"), "--export", "text", "--map-in",
+       file("out/map.ply")});
+  expectEnd(result, 0, "exit status 0");
+  EXPECT_GE(linesOf(file("again/map.txt")), points - 1);
+}
+
+TEST_F(SavedMaps, WhatIsWrongIsSaid)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  expectEnd(replayFile(rawlog, {"--map-in", file("none.ply")}), 2, "none.ply");
+  expectEnd(replayFile(rawlog, {"--map-in", write("x", "junk")}), 2, "neither PLY nor PCD");
+  expectEnd(replayFile(rawlog, {"--no-map-update"}), 1, "--map-in");
+  expectEnd(replayFile(rawlog, {"--initial-pose", "1,2,3,4,5,6"}), 1, "--map-in");
+}
+
+}  // namespace
+}  // namespace fastlio::testing

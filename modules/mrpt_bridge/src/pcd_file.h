@@ -1,0 +1,17 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file pcd_file.h Coordinates out of PCD files. */
+#pragma once
+
+#include <fastlio/map/surface_map.h>
+
+#include <string>
+
+namespace fastlio
+{
+/** The fields x, y, z of a PCD file (version 0.7, DATA ascii or binary, 4- or 8-byte floats).
+ * \exception std::runtime_error the file is damaged or of another form */
+[[nodiscard]] WorldPoints readPcd(const std::string& path);
+
+}  // namespace fastlio

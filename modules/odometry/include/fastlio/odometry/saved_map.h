@@ -1,0 +1,32 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file saved_map.h A map of an earlier run to start in. */
+#pragma once
+
+#include <fastlio/filter/pose.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/parallel/workers.h>
+
+#include <memory>
+
+namespace fastlio
+{
+/** A map and about where the platform is in it. Its z axis points up. */
+struct SavedMap
+{
+  WorldPoints points;  //!< on surfaces, about as dense as map.output_spacing [m]
+  /** Ready planes, used instead of the points when map.type is planes. */
+  std::shared_ptr<const VoxelPlaneMap> planes;
+  Pose T_map_imu;  //!< at the start, within initialization.pose_*_std; only the heading of its
+                   //!< attitude counts, the rest is measured with gravity
+
+  [[nodiscard]] bool empty() const { return !planes && points.size() == 0; }
+};
+
+/** Adds points of unknown viewpoints to a map: each is taken as seen along the normal of the
+ * surface that its neighbours make. Points without such a surface are left out. */
+void insertSavedPoints(const WorldPoints& points, SurfaceMap& map);
+
+}  // namespace fastlio

@@ -1,0 +1,158 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// A map of an earlier run used again.
+
+#include "odometry_runs.h"
+#include <fastlio/map/voxel_plane_map.h>
+
+#include <gtest/gtest.h>
+
+using namespace fastlio;
+using namespace fastlio::test;
+
+namespace
+{
+/** A first run in the room, and what it leaves behind. */
+struct EarlierRun
+{
+  RoomRecording recording;
+  WorldPoints points;
+  std::shared_ptr<const VoxelPlaneMap> planes;
+};
+
+void append(WorldPoints& all, const WorldPoints& points)
+{
+  all.x.insert(all.x.end(), points.x.begin(), points.x.end());
+  all.y.insert(all.y.end(), points.y.begin(), points.y.end());
+  all.z.insert(all.z.end(), points.z.begin(), points.z.end());
+}
+
+const EarlierRun& earlierRun()
+{
+  static const EarlierRun run = []
+  {
+    EarlierRun earlier;
+    earlier.recording = recordRoom();
+    Odometry odometry(roomParameters());
+    for (const ImuSample& sample : earlier.recording.imu)
+      odometry.addImu(sample);
+    for (const LidarScan& scan : earlier.recording.scans)
+    {
+      odometry.addScan(scan);
+      while (odometry.next())
+        append(earlier.points, odometry.registeredPoints());
+    }
+    earlier.planes =
+        std::make_shared<const VoxelPlaneMap>(dynamic_cast<const VoxelPlaneMap&>(odometry.map()));
+    return earlier;
+  }();
+  return run;
+}
+
+WorldPoints moved(const WorldPoints& points, const Pose& T)
+{
+  WorldPoints result = points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3 p = T * Vec3(
+                           static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+                           static_cast<double>(points.z[i]));
+    result.x[i] = static_cast<float>(p.x());
+    result.y[i] = static_cast<float>(p.y());
+    result.z[i] = static_cast<float>(p.z());
+  }
+  return result;
+}
+
+/** The map in a frame of its own, and a guess that is 0.5 m and 6 deg wrong. */
+const Pose kMapFrame{expSO3({0.0, 0.0, 0.9}), {12.0, -7.0, 1.5}};
+const Pose kWrongBy{expSO3({0.0, 0.0, 0.1}), {0.4, -0.3, 0.1}};
+
+void expectInMap(const Results& results, const Pose& T_map_room, double tolerance)
+{
+  ASSERT_FALSE(results.empty());
+  std::size_t poses = 0;
+  for (const ScanResult& r : results)
+  {
+    EXPECT_NE(r.status, ScanStatus::FirstScan);
+    if (r.status == ScanStatus::Initializing) continue;
+    ++poses;
+    const Pose expected = T_map_room * earlierRun().recording.truthAt(r.stamp_ns);
+    EXPECT_LT((r.filter.x.p - expected.p).norm(), tolerance) << r.stamp_ns;
+    EXPECT_LT(logSO3(expected.R.transpose() * r.filter.x.R).norm(), 0.02) << r.stamp_ns;
+  }
+  EXPECT_GT(poses, results.size() / 2);
+}
+}  // namespace
+
+TEST(SavedMap, PointsInAFrameOfTheirOwnAreFound)
+{
+  Parameters parameters = roomParameters();
+  parameters.map.update = false;
+  Odometry odometry(parameters);
+  SavedMap map;
+  map.points = moved(earlierRun().points, kMapFrame);
+  map.T_map_imu = kMapFrame * kWrongBy;
+  odometry.startIn(map);
+  const std::size_t before = odometry.map().pointCount();
+  EXPECT_GT(before, 100U);
+  expectInMap(runInOrder(odometry, earlierRun().recording), kMapFrame, 0.05);
+  EXPECT_EQ(odometry.map().pointCount(), before);
+}
+
+TEST(SavedMap, ReadyPlanesAreUsedAsTheyAre)
+{
+  Parameters parameters = roomParameters();
+  parameters.map.update = false;
+  Odometry odometry(parameters);
+  SavedMap map;
+  map.planes = earlierRun().planes;
+  map.T_map_imu = kWrongBy;
+  odometry.startIn(map);
+  expectInMap(runInOrder(odometry, earlierRun().recording), {}, 0.03);
+  EXPECT_EQ(odometry.map().pointCount(), earlierRun().planes->pointCount());
+}
+
+TEST(SavedMap, GrowsOnWhenItMay)
+{
+  for (const MapType type : {MapType::Planes, MapType::Knn})
+  {
+    Parameters parameters = roomParameters();
+    parameters.map.type = type;
+    Odometry odometry(parameters);
+    SavedMap map;
+    map.points = earlierRun().points;
+    for (std::size_t i = 0; i < map.points.size(); ++i)  // half of the room
+      if (map.points.y[i] > 1.0F) map.points.y[i] = std::numeric_limits<float>::quiet_NaN();
+    odometry.startIn(map);
+    const std::size_t before = odometry.map().pointCount();
+    const Results results = runInOrder(odometry, earlierRun().recording);
+    EXPECT_EQ(results.back().status, ScanStatus::Tracking);
+    EXPECT_GT(odometry.map().pointCount(), before + before / 10);
+  }
+}
+
+TEST(SavedMap, AWrongPlaceIsToldInsteadOfBelieved)
+{
+  Odometry odometry(roomParameters());
+  SavedMap map;
+  map.points = earlierRun().points;
+  map.T_map_imu = {expSO3({0.0, 0.0, 0.6}), {9.0, 8.0, 0.0}};
+  odometry.startIn(map);
+  const Results results = runInOrder(odometry, earlierRun().recording);
+  ASSERT_FALSE(results.empty());
+  EXPECT_EQ(countOf(results, ScanStatus::Initializing), results.size());
+  EXPECT_NE(results.back().message.find("initialization.map_share"), std::string::npos)
+      << results.back().message;
+}
+
+TEST(SavedMap, MisuseIsRefused)
+{
+  Odometry odometry(roomParameters());
+  EXPECT_THROW(odometry.startIn({}), std::invalid_argument);
+  runInOrder(odometry, earlierRun().recording);
+  SavedMap map;
+  map.points = earlierRun().points;
+  EXPECT_THROW(odometry.startIn(map), std::logic_error);
+}

@@ -1,0 +1,88 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "MolaLidarInertialOdometry.h"
+
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/output/mrpt_poses.h>
+
+#include <mrpt/core/initializer.h>
+
+IMPLEMENTS_MRPT_OBJECT(MolaLidarInertialOdometry, mola::FrontEndBase, fastlio)
+
+MRPT_INITIALIZER(registerFastlioMolaModule)
+{
+  fastlio::registerSlamClasses();
+  MOLA_REGISTER_MODULE(fastlio::MolaLidarInertialOdometry);
+}
+
+namespace fastlio
+{
+MolaLidarInertialOdometry::MolaLidarInertialOdometry()
+{
+  setLoggerName("fastlio::MolaLidarInertialOdometry");
+  odometry_.setCallback([this](const OdometryEstimate& estimate) { advertise(estimate); });
+}
+
+void MolaLidarInertialOdometry::initialize_frontend(const mola::Yaml& cfg)
+{
+  const mola::Yaml params =
+      cfg.has("params") ? mola::Yaml(cfg["params"]) : mola::Yaml(mola::Yaml::Map());
+  reference_frame_ = params.getOrDefault<std::string>("reference_frame", reference_frame_);
+  map_every_n_scans_ = params.getOrDefault<std::size_t>("map_every_n_scans", map_every_n_scans_);
+  odometry_.initialize(params.has("odometry") ? mola::Yaml(params["odometry"]) : mola::Yaml());
+}
+
+void MolaLidarInertialOdometry::onNewObservation(ObservationArgument observation)
+{
+  const std::lock_guard lock(queue_mutex_);
+  queue_.push_back(observation);
+}
+
+mrpt::obs::CObservation::ConstPtr MolaLidarInertialOdometry::takeOne()
+{
+  const std::lock_guard lock(queue_mutex_);
+  if (queue_.empty()) return nullptr;
+  auto observation = std::move(queue_.front());
+  queue_.pop_front();
+  return observation;
+}
+
+void MolaLidarInertialOdometry::spinOnce()
+{
+  const mola::ProfilerEntry timing(profiler_, "spinOnce");
+  while (const auto observation = takeOne())
+    odometry_.onNewObservation(observation);
+}
+
+void MolaLidarInertialOdometry::onQuit()
+{
+  spinOnce();
+  odometry_.finish();
+}
+
+void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
+{
+  if (!estimate.vehicle) return;
+  const TrackedPose& vehicle = *estimate.vehicle;
+  LocalizationUpdate update;
+  update.timestamp = toMrptTime(vehicle.stamp_ns);
+  update.reference_frame = reference_frame_;
+  update.method = "lidar_inertial_odometry";
+  update.pose = toMrptPose(vehicle.T_world_body).asTPose();
+  update.cov = mrptCovariance(vehicle.T_world_body, vehicle.covariance);
+  advertiseUpdatedLocalization(update);
+  if (map_every_n_scans_ > 0 && scans_++ % map_every_n_scans_ == 0) advertiseMap(vehicle.stamp_ns);
+}
+
+void MolaLidarInertialOdometry::advertiseMap(std::int64_t stamp_ns)
+{
+  MapUpdate update;
+  update.timestamp = toMrptTime(stamp_ns);
+  update.reference_frame = reference_frame_;
+  update.method = "lidar_inertial_odometry";
+  update.map = odometry_.map();
+  advertiseUpdatedMap(update);
+}
+
+}  // namespace fastlio
