@@ -35,6 +35,9 @@ using ParameterRows = std::vector<ParameterRow>;
 // Defined in parameter_rows_rest.cpp.
 [[nodiscard]] ParameterRows restRows();
 
+// Defined in parameter_rows_map_start.cpp.
+[[nodiscard]] ParameterRows mapStartRows();
+
 // Defined in parameter_rows_output.cpp.
 [[nodiscard]] ParameterRows outputRows();
 

@@ -14,9 +14,9 @@ ParameterRows allRows()
 {
   ParameterRows all;
   for (const auto& rows :
-       {inputRows(), initializationRows(), motionStartRows(), imuRows(), lidarRows(),
-        furtherLidarRows(), calibrationRows(), reductionRows(), featureRows(), measurementRows(),
-        mapRows(), updateRows(), restRows(), outputRows(), generalRows()})
+       {inputRows(), initializationRows(), motionStartRows(), mapStartRows(), imuRows(),
+        lidarRows(), furtherLidarRows(), calibrationRows(), reductionRows(), featureRows(),
+        measurementRows(), mapRows(), updateRows(), restRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }
