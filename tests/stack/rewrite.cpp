@@ -5,7 +5,7 @@
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -47,7 +47,11 @@ void keepFewScans(const std::string& from, const std::string& to, std::size_t pe
         {
           auto kept = mrpt::obs::CSensoryFrame::Create();
           const auto scan = frame->getObservationBySensorLabel(kPlanar);
-          if (scan && scans++ % period == 0) kept->insert(scan);
+          if (!scan) return object;
+          auto note = mrpt::obs::CObservationComment::Create();  // frames may not be empty
+          note->timestamp = scan->timestamp;
+          kept->insert(note);
+          if (scans++ % period == 0) kept->insert(scan);
           return kept;
         }
         const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
