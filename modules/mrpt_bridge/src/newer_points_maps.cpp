@@ -11,6 +11,9 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/version.h>
 
+#include <iostream>
+#include <memory>
+
 #if MRPT_VERSION < 0x20f03
 
 namespace fastlio
@@ -69,6 +72,23 @@ class IntensityPointsReader : public mrpt::maps::CPointsMapXYZI
   }
 };
 
+/** MRPT warns when a class gets another reader, which is done here on purpose. */
+class WithoutWarnings
+{
+ public:
+  WithoutWarnings() : errors_(std::cerr.rdbuf(nullptr)) {}
+  ~WithoutWarnings()
+  {
+    std::cerr.rdbuf(errors_);
+    std::cerr.clear();
+  }
+  WithoutWarnings(const WithoutWarnings&) = delete;
+  WithoutWarnings& operator=(const WithoutWarnings&) = delete;
+
+ private:
+  std::streambuf* errors_;
+};
+
 template <typename Reader>
 void readWith(const mrpt::rtti::TRuntimeClassId* native)
 {
@@ -80,6 +100,7 @@ void readWith(const mrpt::rtti::TRuntimeClassId* native)
 
 void registerNewerPointsMaps()
 {
+  const WithoutWarnings quiet;
   readWith<SimplePointsReader>(CLASS_ID(mrpt::maps::CSimplePointsMap));
   readWith<IntensityPointsReader>(CLASS_ID(mrpt::maps::CPointsMapXYZI));
 }
