@@ -28,7 +28,7 @@ void ScanPipeline::useSavedMap(const SavedMap& saved)
     insertSavedPoints(saved.points, *map_);
   // Its errors are those of the world itself.
   insertions_ = map_->insertionCount();
-  map_error_.recordInsertion(0, Matrix6::Zero(), Pose{});
+  map_error_.recordInsertion(0, FoundingError{}, Pose{});
   start_in_map_ = saved.T_map_imu;
   map_is_given_ = true;
 }
