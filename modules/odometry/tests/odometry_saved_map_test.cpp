@@ -133,12 +133,12 @@ TEST(SavedMap, GrowsOnWhenItMay)
   }
 }
 
-TEST(SavedMap, AWrongPlaceIsToldInsteadOfBelieved)
+TEST(SavedMap, APlaceOutsideOfTheMapIsToldInsteadOfBelieved)
 {
   Odometry odometry(roomParameters());
   SavedMap map;
   map.points = earlierRun().points;
-  map.T_map_imu = {expSO3({0.0, 0.0, 0.6}), {9.0, 8.0, 0.0}};
+  map.T_map_imu = {expSO3({0.0, 0.0, 0.6}), {40.0, 30.0, 0.0}};
   odometry.startIn(map);
   const Results results = runInOrder(odometry, earlierRun().recording);
   ASSERT_FALSE(results.empty());
