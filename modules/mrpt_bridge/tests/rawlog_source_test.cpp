@@ -128,6 +128,42 @@ TEST_F(RawlogSourceTest, external_clouds_are_loaded_from_beside_the_file)
   EXPECT_NE(source.problems()[0].message.find("gone.bin"), std::string::npos);
 }
 
+TEST_F(RawlogSourceTest, external_clouds_of_every_format_are_loaded)
+{
+  using Format = mrpt::obs::CObservationPointCloud::ExternalStorageFormat;
+  std::filesystem::create_directory(folder_.path() / "log_Images");
+  const auto file = [&](const char* name)
+  { return (folder_.path() / "log_Images" / name).string(); };
+  const std::vector<float> kitti{1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
+  write(
+      file("scan.bin"),
+      {reinterpret_cast<const char*>(kitti.data()), kitti.size() * sizeof(float)});
+  write(file("scan.txt"), "1 2 3\n4 5 6\n");
+  std::vector<Object> objects;
+  for (const auto& [name, format] :
+       {std::pair{"scan.bin", Format::KittiBinFile}, {"scan.txt", Format::PlainTextFile}})
+  {
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->timestamp = fastlio::toMrptTime(kStart);
+    cloud->setAsExternalStorage(name, format);
+    objects.push_back(cloud);
+  }
+  RawlogSource source({fileOf(serialize(objects))});
+  for (const bool bright : {true, false})
+  {
+    const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
+    ASSERT_TRUE(read && read->pointcloud) << source.problems().front().message;
+    const fastlio::CloudColumns columns = fastlio::readColumns(*read->pointcloud);
+    EXPECT_EQ(columns.x, (std::vector<float>{1, 4}));
+    EXPECT_EQ(columns.z, (std::vector<float>{3, 6}));
+    if (bright)
+    {
+      EXPECT_EQ(columns.intensity, (std::vector<float>{0.5F, 0.25F}));
+    }
+    EXPECT_TRUE(columns.time.empty());
+  }
+}
+
 TEST_F(RawlogSourceTest, progress_reaches_the_size_of_the_files)
 {
   const std::string content = gzip(serialize(samples(1000)));
