@@ -1,0 +1,59 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <mrpt/system/os.h>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kDescription =
+    "Looks at a recording without running the odometry on it: sensors, rates, gaps, what the times "
+    "of "
+    "points mean, units and noise of the IMU at rest, time offset and mounting of the LiDAR by the "
+    "motion that both see, and what fastlio-replay would do.";
+constexpr const char* kFooter = R"(Exit status:
+  0  fastlio-replay can run on the recording
+  1  wrong usage or configuration
+  2  it cannot: the last line says why)";
+}  // namespace
+
+std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* argv)
+{
+  CLI::App app(kDescription, "fastlio-info");
+  app.footer(kFooter);
+  InfoArguments arguments;
+  app.add_option(
+         "input,--input-rawlog", arguments.input_files,
+         "Rawlog file; several are parts of one recording, in this order")
+      ->type_name("FILE")
+      ->required();
+  app.add_option(
+         "-c,--config", arguments.config_file,
+         "YAML parameters that fastlio-replay would get (labels, times of points, mounting)")
+      ->type_name("FILE");
+  app.add_option(
+         "--json", arguments.json_path,
+         "Write everything as JSON to FILE, or with '-' instead of the table")
+      ->type_name("FILE");
+  app.add_flag(
+      "!--no-motion", arguments.check_motion,
+      "Do not compare the motions that LiDAR and IMU see (the part that takes longest)");
+  app.set_version_flag(
+      "--version", std::string("fastlio-info ") + FASTLIO_VERSION + " (" +
+                       mrpt::system::MRPT_getVersion() + ")");
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& e)
+  {
+    return app.exit(e) == 0 ? 0 : static_cast<int>(InfoStatus::Usage);
+  }
+  return arguments;
+}
+
+}  // namespace fastlio

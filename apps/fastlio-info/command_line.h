@@ -1,0 +1,31 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file command_line.h Options of fastlio-info. */
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fastlio
+{
+enum class InfoStatus
+{
+  Ok = 0,
+  Usage = 1,
+  Unusable = 2  //!< fastlio-replay could not run on this
+};
+
+struct InfoArguments
+{
+  std::vector<std::string> input_files;
+  std::string config_file;  //!< empty: defaults
+  std::string json_path;    //!< empty: none; "-": instead of the table
+  bool check_motion = true;
+};
+
+/** The arguments, or the exit status to end with. */
+[[nodiscard]] std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* argv);
+
+}  // namespace fastlio

@@ -1,0 +1,180 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "info_report.h"
+#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/output/number_text.h>
+
+#include <mrpt/core/format.h>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::format;
+
+constexpr double kDegreesPerRadian = 57.29577951308232;
+
+std::string line(const char* label, const std::string& text)
+{
+  return format("  %-12s", label) + text + "\n";
+}
+
+std::string kindText(SensorKind kind)
+{
+  switch (kind)
+  {
+    case SensorKind::Lidar:
+      return "LiDAR";
+    case SensorKind::Imu:
+      return "IMU";
+    case SensorKind::Other:
+      break;
+  }
+  return "not used";
+}
+
+std::string rhythmText(const StampReport& stamps)
+{
+  std::string text = format(
+      "%zu observations in %.2f s, %.2f Hz, jitter %.2f ms, longest interval %.3f s", stamps.count,
+      static_cast<double>(stamps.last_ns - stamps.first_ns) * 1e-9, stamps.rate(),
+      1e3 * stamps.jitter, stamps.longest_gap);
+  if (stamps.gaps > 0) text += format(", %zu gaps", stamps.gaps);
+  if (stamps.backwards > 0) text += format(", %zu stamps out of order", stamps.backwards);
+  if (stamps.duplicates > 0) text += format(", %zu stamps twice", stamps.duplicates);
+  return text;
+}
+
+std::string poseText(const Pose& T)
+{
+  const auto pose = toMrptPose(T);
+  return format(
+      "x %.3f y %.3f z %.3f m, yaw %.2f pitch %.2f roll %.2f deg", pose.x(), pose.y(), pose.z(),
+      pose.yaw() * kDegreesPerRadian, pose.pitch() * kDegreesPerRadian,
+      pose.roll() * kDegreesPerRadian);
+}
+
+std::string sensorText(const SurveyedSensor& sensor)
+{
+  const SensorSummary& s = sensor.summary;
+  std::string text = "'" + s.label + "'  " + kindText(s.kind) +
+                     (s.kind != SensorKind::Other && !s.usable ? ", not usable" : "") + "\n";
+  text += line("class", s.class_name);
+  if (!s.detail.empty()) text += line("content", s.detail);
+  text += line(
+      "stamps", secondsText(sensor.stamps.first_ns) + " to " + secondsText(sensor.stamps.last_ns));
+  text += line("rhythm", rhythmText(sensor.stamps));
+  return text + line("pose", poseText(s.T_vehicle_sensor));
+}
+
+std::string presetText(const PresetMatch& match)
+{
+  if (match.preset == nullptr) return "none: " + match.reason;
+  return "params/" + std::string(match.preset->name) + ".yaml (" +
+         std::string(match.preset->title) + "): " + match.reason;
+}
+
+std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
+{
+  const LidarLook& look = lidar.look;
+  std::string text = "LiDAR '" + survey.sensors[lidar.index].summary.label + "'\n";
+  text += line("times", lidar.plan.text);
+  text += line(
+      "points", format("%.0f per scan", look.pointsPerScan()) +
+                    (look.lines() > 0 ? format(" in %i lines", look.lines()) : std::string()));
+  text += line(
+      "view", format(
+                  "elevations %.1f to %.1f deg, %.0f %% of the azimuths", look.lowest(),
+                  look.highest(), 100.0 * look.coverage()));
+  text += line(
+      "ranges", format(
+                    "%.2f m (1 %%), %.2f m (median), %.2f m (99 %%)", look.rangeQuantile(0.01),
+                    look.rangeQuantile(0.5), look.rangeQuantile(0.99)));
+  return text + line("preset", presetText(lidar.preset));
+}
+
+std::string imuText(const RecordingSurvey& survey)
+{
+  const ImuSurvey& imu = survey.imu;
+  std::string text = "IMU '" + survey.sensors[*survey.imu_index].summary.label + "'\n";
+  text += line("largest", format("rate %.3g, acceleration %.4g", imu.gyro_max, imu.accel_max));
+  if (!imu.rests) return text + line("rest", "never for a second");
+  const auto& stamps = survey.sensors[*survey.imu_index].stamps;
+  text += line(
+      "rest", format(
+                  "%.2f s, beginning %.2f s after the start", imu.rest_seconds,
+                  static_cast<double>(imu.rest_begin_ns - stamps.first_ns) * 1e-9));
+  text += line(
+      "gravity", format("%.4f there: ", imu.accel_norm) +
+                     (imu.accel_unit.empty() ? "unit unclear" : imu.accel_unit) +
+                     format(", up is [%.3f %.3f %.3f]", imu.up.x(), imu.up.y(), imu.up.z()));
+  text += line(
+      "gyro bias",
+      format("[%.5f %.5f %.5f] there", imu.gyro_mean.x(), imu.gyro_mean.y(), imu.gyro_mean.z()));
+  return text + line(
+                    "noise", format(
+                                 "gyro %.2g, acceleration %.2g per sqrt(Hz) there",
+                                 imu.gyro_noise_density, imu.accel_noise_density));
+}
+
+std::string motionText(const RecordingSurvey& survey)
+{
+  std::string text = "LiDAR and IMU\n";
+  text += line(
+      "clocks",
+      format(
+          "%.2f s in common (%.0f %% of the LiDAR's); in the file a scan's stamp is %.3f s "
+          "after the newest IMU stamp",
+          survey.overlap.seconds, 100.0 * survey.overlap.share, survey.overlap.lead));
+  if (!survey.motion) return text;
+  const MotionCheck& motion = *survey.motion;
+  if (!motion.conclusive)
+    return text + line(
+                      "motion", format(
+                                    "not conclusive: %zu pairs of scans, correlation %.2f",
+                                    motion.turns, motion.correlation));
+  text += line(
+      "offset", format(
+                    "lidar.time_offset of about %.3f s (%zu pairs of scans, correlation %.2f)",
+                    motion.time_offset, motion.turns, motion.correlation));
+  text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
+  return text + line(
+                    "mounting",
+                    motion.rotation_known
+                        ? format(
+                              "the given rotation is within %.1f deg of the one that both motions "
+                              "show",
+                              kDegreesPerRadian * survey.rotation_error)
+                        : std::string("the motion turns about one axis only: not to be told"));
+}
+
+std::string listText(const char* title, const std::vector<std::string>& sentences)
+{
+  std::string text;
+  for (const std::string& sentence : sentences)
+    text += std::string(title) + sentence + "\n";
+  return text;
+}
+}  // namespace
+
+std::string toTable(const RecordingSurvey& survey)
+{
+  std::string text;
+  for (const std::string& file : survey.files)
+    text += file + "\n";
+  for (const ReadProblem& problem : survey.problems)
+    text += "trouble: " + problem.message +
+            (problem.occurrences > 1 ? format(" (%zu times)", problem.occurrences) : "") + "\n";
+  for (const SurveyedSensor& sensor : survey.sensors)
+    text += "\n" + sensorText(sensor);
+  for (const SurveyedLidar& lidar : survey.lidars)
+    text += "\n" + lidarText(survey, lidar);
+  if (survey.imu_index) text += "\n" + imuText(survey) + "\n" + motionText(survey);
+  text += "\n" + listText("note: ", survey.notes) + listText("WARNING: ", survey.warnings);
+  return text + "fastlio-replay " +
+         (survey.unusable.empty() ? "can run on this." : "CANNOT run on this: " + survey.unusable) +
+         "\n";
+}
+
+}  // namespace fastlio

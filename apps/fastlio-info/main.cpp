@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file main.cpp fastlio-info: what is in a recording, and what would fastlio-replay do with it?
+ */
+
+#include "command_line.h"
+#include "info_report.h"
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/odometry/parameter_yaml.h>
+
+#include <iostream>
+#include <unistd.h>
+
+namespace
+{
+using namespace fastlio;
+
+/** On a terminal only: the table may be redirected, the progress goes to standard error. */
+SurveyOptions optionsOf(const InfoArguments& arguments)
+{
+  SurveyOptions options;
+  options.check_motion = arguments.check_motion;
+  if (isatty(STDERR_FILENO) == 0) return options;
+  options.progress = [last = -1](double share) mutable
+  {
+    const int percent = static_cast<int>(100.0 * share);
+    if (percent == last) return;
+    last = percent;
+    std::cerr << "\rreading " << percent << " %  " << (share >= 1.0 ? "\r             \r" : "")
+              << std::flush;
+  };
+  return options;
+}
+
+void write(const InfoArguments& arguments, const RecordingSurvey& survey)
+{
+  const bool json_to_stdout = arguments.json_path == "-";
+  std::cout << (json_to_stdout ? toJson(survey) : toTable(survey)) << std::flush;
+  if (!std::cout) throw std::runtime_error("standard output cannot be written");
+  if (!arguments.json_path.empty() && !json_to_stdout)
+    writeFileAtomically(arguments.json_path, toJson(survey));
+}
+
+int run(const InfoArguments& arguments)
+{
+  Parameters parameters;
+  if (!arguments.config_file.empty()) parameters = loadParametersFromFile(arguments.config_file);
+  const RecordingSurvey survey =
+      surveyRecording(arguments.input_files, parameters, optionsOf(arguments));
+  write(arguments, survey);
+  return static_cast<int>(survey.unusable.empty() ? InfoStatus::Ok : InfoStatus::Unusable);
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const auto parsed = parseCommandLine(argc, argv);
+  if (const auto* status = std::get_if<int>(&parsed)) return *status;
+  try
+  {
+    return run(std::get<InfoArguments>(parsed));
+  }
+  catch (const std::exception& e)
+  {
+    std::cerr << "fastlio-info: " << e.what() << '\n';
+    return static_cast<int>(InfoStatus::Usage);
+  }
+}
