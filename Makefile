@@ -14,7 +14,7 @@ BUILD_DIR := build/$(PRESET)
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test instructions benchmark demo scenarios \
-  experiments docs format lint clean
+  experiments docs format lint packages test-packages test-trixie clean
 
 help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
@@ -28,6 +28,9 @@ help:
 	@echo "make lint    check format, structure and clang-tidy"
 	@echo "make format  format the sources"
 	@echo "make docs    regenerate docs/parameters.md and params/*.yaml from the tables"
+	@echo "make packages    Debian packages (runtime, dev, plugin) in build/packages"
+	@echo "make test-packages  installs them in a clean Debian 12 root and runs them there (needs root)"
+	@echo "make test-trixie builds and tests in a Debian 13 root, with MRPT 2.14 (needs root)"
 	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/ and $(EXPERIMENTS_DIR)/"
 
 dependencies:
@@ -81,6 +84,18 @@ lint: lint-dependencies build
 	cmake/list_sources.sh | xargs clang-format --dry-run --Werror
 	tests/structure/check_structure.sh
 	cmake/run_clang_tidy.sh $(BUILD_DIR) $(JOBS)
+
+packages:
+	@cmake/install_dependencies.sh build packages
+	cmake --preset baseline -DBUILD_TESTING=OFF -B build/packages
+	cmake --build build/packages --parallel $(JOBS)
+	cd build/packages && cpack
+
+test-packages: packages
+	cmake/test_packages.sh build/packages build/bookworm
+
+test-trixie:
+	cmake/test_in_trixie.sh build/trixie
 
 clean:
 	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR)

@@ -18,6 +18,7 @@ function(fastlio_add_module NAME)
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     EXPORT_NAME ${NAME})
+  fastlio_install_module(${target})
   if(BUILD_TESTING AND ARG_TESTS)
     fastlio_add_test(test_${NAME} SOURCES ${ARG_TESTS} LINK mrpt_fastlio::${NAME})
   endif()

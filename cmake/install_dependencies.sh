@@ -2,7 +2,7 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions]      (default: build)
+# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions] [packages]      (default: build)
 set -eu
 
 build_packages="g++ cmake ninja-build
@@ -13,6 +13,7 @@ test_packages="mrpt-apps"
 lint_packages="clang-format clang-tidy"
 benchmark_packages="libbenchmark-dev"
 instructions_packages="valgrind"
+packages_packages="help2man dpkg-dev file"
 
 is_installed() {
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
@@ -44,8 +45,9 @@ for set in "${@:-build}"; do
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
+    packages) wanted="$wanted $packages_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions, packages" >&2
       exit 2
       ;;
   esac

@@ -1,0 +1,30 @@
+#!/bin/sh
+# mrpt_fastlio: builds and tests the committed state in a Debian 13 root (MRPT 2.14), as `make test` there.
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Usage: cmake/test_in_trixie.sh ROOT_DIR      needs root; ROOT_DIR is made by debootstrap when absent
+set -eu
+
+if [ $# -ne 1 ]; then
+  sed -n '5s/^# //p' "$0" >&2
+  exit 2
+fi
+if [ "$(id -u)" -ne 0 ]; then
+  echo "$0: needs root, for debootstrap and chroot" >&2
+  exit 1
+fi
+mkdir -p "$1"
+root=$(cd "$1" && pwd)
+source=$(cd "$(dirname "$0")/.." && pwd)
+
+command -v debootstrap >/dev/null || apt-get install --yes --quiet debootstrap
+[ -e "$root/etc/debian_version" ] || debootstrap --variant=minbase trixie "$root"
+
+mounted() { mountpoint --quiet "$1"; }
+mounted "$root/proc" || mount -t proc proc "$root/proc"
+trap 'umount "$root/proc"' EXIT
+cp /etc/resolv.conf "$root/etc/resolv.conf"
+
+mkdir -p "$root/mrpt_fastlio"
+git -C "$source" archive HEAD | tar -x -C "$root/mrpt_fastlio"
+chroot "$root" sh -c 'apt-get install --yes --quiet make git && cd /mrpt_fastlio && make test'
