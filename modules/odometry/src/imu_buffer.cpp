@@ -106,9 +106,21 @@ void ImuBuffer::forgetSamplesBefore(std::int64_t stamp_ns)
   if (!empty()) moveHead(std::min(firstAfter(stamp_ns - 1), samples_.size() - 1));
 }
 
+void ImuBuffer::scaleGyro(double factor)
+{
+  for (ImuSample& sample : samples_)
+    sample.gyro *= factor;
+}
+
 void ImuBuffer::moveHead(std::size_t head)
 {
   head_ = head;
+  if (!doubts_.empty() && !empty())
+    doubts_.erase(
+        std::remove_if(
+            doubts_.begin(), doubts_.end(),
+            [oldest_ns = oldestStamp()](const InertialDoubt& d) { return d.end_ns < oldest_ns; }),
+        doubts_.end());
   if (head_ < kCompactAfter) return;
   samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(head_));
   head_ = 0;

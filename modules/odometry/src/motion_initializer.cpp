@@ -207,6 +207,7 @@ MotionStart startInMotion(
   const Window window(scans, count, imu, parameters);
   Parameters pass_parameters = parameters;
   pass_parameters.output.imu_rate = false;
+  pass_parameters.health.freeze_map = false;  // a pass may begin far off
 
   NavState x0 = window.guess();
   MotionStart result;

@@ -23,6 +23,11 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows lidarRows();
 [[nodiscard]] ParameterRows calibrationRows();
 
+// Defined in parameter_rows_faults.cpp.
+[[nodiscard]] ParameterRows imuFaultRows();
+[[nodiscard]] ParameterRows healthRows();
+[[nodiscard]] ParameterRows recoveryRows();
+
 // Defined in parameter_rows_features.cpp.
 [[nodiscard]] ParameterRows featureRows();
 

@@ -106,7 +106,8 @@ ParameterRows imuRows()
        "input between two samples: midpoint is their interpolation in the middle of the period; "
        "left is the sample at its start, as in the paper"},
       {"imu.max_gap", "s", RealValue{[](auto& p) { return &p.imu.max_gap; }, 0.001, 60.0},
-       "a longer gap between inertial samples is reported as a fault"},
+       "a longer gap between inertial samples splits the run: start anew, with the pose carried "
+       "over; shorter ones are bridged with more noise"},
   };
 }
 

@@ -15,8 +15,9 @@ ParameterRows allRows()
   ParameterRows all;
   for (const auto& rows :
        {inputRows(), initializationRows(), motionStartRows(), mapStartRows(), imuRows(),
-        lidarRows(), furtherLidarRows(), calibrationRows(), reductionRows(), featureRows(),
-        measurementRows(), mapRows(), updateRows(), restRows(), outputRows(), generalRows()})
+        imuFaultRows(), lidarRows(), furtherLidarRows(), calibrationRows(), reductionRows(),
+        featureRows(), measurementRows(), mapRows(), updateRows(), restRows(), healthRows(),
+        recoveryRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

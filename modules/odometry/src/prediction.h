@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/propagation.h>
+#include <fastlio/odometry/inertial_doubt.h>
 
 #include <cstdint>
 #include <vector>
@@ -19,11 +20,11 @@ struct Prediction
 };
 
 /** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
- */
+ * \param doubts spans of time in which the inputs are worse than \a noise says */
 template <typename Visit>
 Prediction propagateThrough(
     const FilterState& from, const std::vector<ImuSample>& inputs, std::int64_t end_ns,
-    const ImuNoise& noise, const Visit& visit)
+    const ImuNoise& noise, const std::vector<InertialDoubt>& doubts, const Visit& visit)
 {
   Prediction p;
   p.state = from;
@@ -33,7 +34,8 @@ Prediction propagateThrough(
     const double dt = 1e-9 * static_cast<double>(stop_ns - inputs[i].stamp_ns);
     const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
     p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
-    p.state = propagate(p.state, gyro, accel, dt, noise);
+    p.state = propagate(
+        p.state, gyro, accel, dt, noiseBetween(noise, doubts, inputs[i].stamp_ns, stop_ns));
     visit(stop_ns, p);
   }
   return p;

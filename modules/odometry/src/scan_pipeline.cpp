@@ -4,6 +4,7 @@
 #include "scan_pipeline.h"
 
 #include "calibration_prior.h"
+#include "health_monitor.h"
 #include "map_factory.h"
 #include "prediction.h"
 #include "start_in_map.h"
@@ -20,6 +21,8 @@ namespace fastlio
 namespace
 {
 constexpr double kNsToS = 1e-9;
+// So many scans of a map do not match much yet.
+constexpr std::uint32_t kYoungMapInsertions = 20;
 
 Vector6 eigenvalues(const Matrix6& m)
 {
@@ -95,8 +98,11 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
   reduce(scan, span.end_ns);
   compensate(scan, span, predicted);  // eq. 9-10
-  const UpdateResult update =
-      start_in_map_ ? findInMap(predicted) : updateWithScan(predicted);  // eq. 12-20
+  if (recovering_ && span.end_ns > recovery_end_ns_) beginNewMap();
+  const UpdateResult update = start_in_map_ ? findInMap(predicted)
+                              : recovering_ ? findMap(predicted)
+                                            : updateWithScan(predicted);  // eq. 12-20
+  describeUpdate(update, result.statistics);
   filter_ = update.posterior;
   filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3)
   constrainGravity();
@@ -104,7 +110,10 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.filter = considerMapError(update.gain);
   result.map_share = (result.filter.P - filter_.P).topLeftCorner<6, 6>();
   judge(update, result);
-  if (start_in_map_) tellNotFound(result);
+  if (start_in_map_)
+    tellNotFound(result);
+  else if (recovering_)
+    judgeRecovery(result);
   if (parameters_.rest.enabled) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
@@ -112,7 +121,6 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   else
     forgetPoints();
   if (result.status == ScanStatus::FirstScan) filter_.P += young_map_.open_after_first_scan;
-  describeUpdate(update, result.statistics);
   describeScan(scan, result.statistics);
   timings_.total = total.milliseconds();
   result.milliseconds = timings_;
@@ -152,7 +160,8 @@ std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& i
   if (!pose_trusted_ || stamp_ns <= state_ns_) return std::nullopt;
   imu.inputsBetween(state_ns_, stamp_ns, parameters_.imu.hold, inputs_);
   const auto [s, transition] = propagateThrough(
-      filter_, inputs_, stamp_ns, parameters_.imu.noise, [](std::int64_t, const Prediction&) {});
+      filter_, inputs_, stamp_ns, parameters_.imu.noise, imu.doubts(),
+      [](std::int64_t, const Prediction&) {});
   if (!isFinite(s.x) || !s.P.allFinite()) return std::nullopt;
   return imuRateState(stamp_ns, s, map_error_.additionAfter(transition), imu);
 }
@@ -164,7 +173,7 @@ FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
   imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
   imu_rate_.clear();
   auto [s, transition] = propagateThrough(
-      filter_, inputs_, end_ns, parameters_.imu.noise,
+      filter_, inputs_, end_ns, parameters_.imu.noise, imu.doubts(),
       [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!parameters_.output.imu_rate || !pose_trusted_) return;
@@ -222,7 +231,12 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
     result.status = ScanStatus::FirstScan;
   else if (!update.updated)
     result.status = ScanStatus::PredictionOnly;
-  if (result.status != ScanStatus::PredictionOnly) last_update_ns_ = state_ns_;
+  const ScanStatistics& s = result.statistics;
+  // Without matches there is no evidence: what the scans before have shown goes on.
+  if (result.status != ScanStatus::PredictionOnly)
+    evidence_good_ = !parameters_.health.freeze_map || insertions_ < kYoungMapInsertions ||
+                     evidenceIsGood(s, compensated_.points.size(), parameters_.health);
+  if (result.status != ScanStatus::PredictionOnly && evidence_good_) last_update_ns_ = state_ns_;
 
   const double unaided_s = static_cast<double>(state_ns_ - last_update_ns_) * kNsToS;
   const double position_std =
@@ -234,7 +248,12 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
         "%.2f s without inertial samples (imu.max_gap is %.2f s): bridged with the last rate and "
         "acceleration",
         imu_gap_s_, parameters_.imu.max_gap);
-  if (result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged)
+  if (result.status == ScanStatus::Diverged && update.updated)
+    result.message = mrpt::format(
+        "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match "
+        "(health.min_share, health.max_innovation); the last one was %.2f s ago",
+        update.last.count, compensated_.points.size(), s.normalized_innovation, unaided_s);
+  else if (result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged)
     result.message = mrpt::format(
         "%zu of %zu points match the map, at least %i are needed "
         "(measurement.min_effective_points); "

@@ -4,6 +4,7 @@
 /** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
 #pragma once
 
+#include "carried_pose.h"
 #include "edge_stage.h"
 #include "point_selector.h"
 #include "rest_detector.h"
@@ -23,6 +24,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fastlio
@@ -36,7 +38,19 @@ class ScanPipeline
   void start(const FilterState& state, std::int64_t stamp_ns, const YoungMap& young_map = {});
   /** Matches with a map that is there already, from the first scan on; before start(). */
   void useSavedMap(const SavedMap& saved);
+  /** The pose was carried over and the map has not been found since. */
+  [[nodiscard]] bool recovering() const { return recovering_; }
   [[nodiscard]] bool started() const { return state_ns_ != 0; }
+  /** The latest state, also of a pipeline that was suspended. */
+  [[nodiscard]] const FilterState& state() const { return filter_; }
+
+  /** No scans until the next start. */
+  void suspend();
+  /** Goes on from a start of its own, with the pose carried over: looks for the old map, and begins
+   * a new one when it is not found. */
+  void restart(
+      const FilterState& start, std::int64_t stamp_ns, const YoungMap& young_map,
+      const CarriedPose& carried);
   /** Instant of the state [ns]. */
   [[nodiscard]] std::int64_t stamp() const { return state_ns_; }
   [[nodiscard]] const SurfaceMap& map() const { return *map_; }
@@ -77,6 +91,10 @@ class ScanPipeline
   void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
   void considerRest(ScanResult& result);
+  [[nodiscard]] UpdateResult findMap(const FilterState& predicted);
+  void judgeRecovery(ScanResult& result);
+  void beginNewMap();
+  void lookForMap(bool looking);
   [[nodiscard]] bool mayGrowMap(const ScanResult& result) const;
   void describeScan(const LidarScan& scan, ScanStatistics& statistics) const;
   void growMap(const LidarScan& scan, const FilterState& total);
@@ -100,6 +118,10 @@ class ScanPipeline
   std::optional<Pose> start_in_map_;  //!< about where; nothing once the map has been found
   double share_in_map_ = 0.0;         //!< of the points, when it was looked for last
   bool map_is_given_ = false;
+  bool evidence_good_ = true;  // the last scan matched as a map matches that is the right one
+  bool recovering_ = false;    // looking for the old map
+  std::pair<int, int> ordinary_iterations_{0, 0};  // of matching and update, when it is not
+  std::int64_t recovery_end_ns_ = 0;
   PlaneGrouping planes_;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;

@@ -12,6 +12,7 @@ bool ScanPipeline::mayGrowMap(const ScanResult& result) const
 {
   if (start_in_map_ || (map_is_given_ && !parameters_.map.update)) return false;
   if (rest_.restingTime() > parameters_.rest.map_time) return false;
+  if (!evidence_good_) return false;  // what is lost must not spoil the map
   if (result.status == ScanStatus::Tracking || result.status == ScanStatus::FirstScan) return true;
   if (result.status == ScanStatus::Diverged) return false;
   // A young map has few planes: it must grow as long as the prediction knows where the scan is.

@@ -3,6 +3,8 @@
 
 #include <fastlio/odometry/scan_result.h>
 
+#include <array>
+
 namespace fastlio
 {
 const char* toString(ScanStatus status)
@@ -21,6 +23,14 @@ const char* toString(ScanStatus status)
       return "diverged";
   }
   return "unknown";
+}
+
+const char* toString(HealthCause cause)
+{
+  constexpr std::array<const char*, 10> kNames{
+      "none",           "starting",       "lost",          "no_match", "few_matches",
+      "large_residual", "open_direction", "inertial_data", "bias",     "scan_timing"};
+  return kNames.at(static_cast<std::size_t>(cause));
 }
 
 }  // namespace fastlio

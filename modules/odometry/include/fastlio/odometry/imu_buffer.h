@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
+#include <fastlio/odometry/inertial_doubt.h>
 
 #include <cstddef>
 #include <vector>
@@ -51,6 +52,13 @@ class ImuBuffer
   [[nodiscard]] std::vector<ImuSample> samplesBetween(
       std::int64_t begin_ns, std::int64_t end_ns) const;
 
+  /** Notes a span of time in which the samples are worse than their noise says. */
+  void addDoubt(const InertialDoubt& doubt) { doubts_.push_back(doubt); }
+  [[nodiscard]] const std::vector<InertialDoubt>& doubts() const { return doubts_; }
+
+  /** Multiplies the angular rates of all samples. */
+  void scaleGyro(double factor);
+
   /** The sample with this very stamp, or null; valid until the next change of the buffer. */
   [[nodiscard]] const ImuSample* sampleAt(std::int64_t stamp_ns) const;
 
@@ -68,6 +76,7 @@ class ImuBuffer
 
   std::vector<ImuSample> samples_;
   std::size_t head_ = 0;
+  std::vector<InertialDoubt> doubts_;
 };
 
 }  // namespace fastlio

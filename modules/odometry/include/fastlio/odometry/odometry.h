@@ -9,6 +9,7 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/odometry/imu_rate.h>
+#include <fastlio/odometry/imu_report.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
@@ -26,7 +27,10 @@ struct WorldPoints;
 struct InputStatistics
 {
   std::size_t imu_in = 0, imu_not_finite = 0, imu_out_of_order = 0, imu_duplicate = 0;
+  std::size_t imu_spikes = 0;      //!< lone absurd samples
+  std::size_t imu_bad_stamps = 0;  //!< stamps that no other sample confirms
   std::size_t scans_in = 0, scans_empty = 0, scans_out_of_order = 0, scans_without_imu = 0;
+  std::size_t scans_bad_stamp = 0;
 };
 
 /** FAST-LIO: feed samples and scans in any interleaving, then drain next().
@@ -49,7 +53,9 @@ class Odometry
    * the map is empty \exception std::logic_error scans were processed before */
   void startIn(const SavedMap& map);
 
-  /** Samples that are not finite, repeated or older than the newest one are counted and dropped. */
+  /** Samples that are not finite, repeated, late or absurd are counted and dropped. A sample that
+   * jumps (in value or time) waits for the next one, the first 0.2 s for the unit of the
+   * accelerometer (imu.accel_unit). */
   void addImu(const ImuSample& sample);
 
   /** A scan that inertial data do not reach within lidar.max_waiting is given up with a result that
@@ -84,6 +90,11 @@ class Odometry
 
   [[nodiscard]] const Parameters& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;
+  /** Units, rate and faults of the inertial sensor so far. */
+  [[nodiscard]] ImuReport imuReport() const;
+  /** What the user should know, in the order in which it was found out: units, mounting, splits of
+   * the run. */
+  [[nodiscard]] const std::vector<Remark>& remarks() const;
 
  private:
   class Impl;

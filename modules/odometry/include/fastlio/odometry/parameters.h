@@ -13,6 +13,7 @@
 #include <fastlio/lidar/point_time.h>
 #include <fastlio/lidar/sweep_time.h>
 #include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/odometry/imu_units.h>
 #include <fastlio/odometry/robust_kernel.h>
 
 #include <array>
@@ -62,7 +63,18 @@ struct ImuParameters
 {
   ImuNoise noise;
   ImuHold hold = ImuHold::Midpoint;  //!< how samples are held between their stamps
-  double max_gap = 0.5;              //!< longer gaps between samples are reported as a fault [s]
+  double max_gap = 0.5;              //!< longer gaps between samples split the run [s]
+  AccelUnit accel_unit = AccelUnit::Auto;
+  GyroUnit gyro_unit = GyroUnit::Auto;
+  bool invert_acceleration = false;          //!< the sensor gives gravity, not specific force
+  double gyro_range = 0.0;                   //!< full scale [rad/s]; 0: found
+  double accel_range = 0.0;                  //!< full scale [m/s^2]; 0: found
+  double saturation_std = 0.5;               //!< of a clipped axis, share of the full scale
+  double gap_periods = 4.0;                  //!< so many periods without a sample are a gap
+  double gap_gyro_std = 0.5235987755982988;  //!< of the rate in a gap of max_gap [rad/s]; 30 deg/s
+  double gap_accel_std = 2.0;                //!< of the force in a gap of max_gap [m/s^2]
+  double spike_gyro = 10.471975511965978;    //!< a lone sample off by more is gated [rad/s]
+  double spike_accel = 100.0;                //!< a lone sample off by more is gated [m/s^2]
 };
 
 /** Group `lidar`. */
@@ -197,6 +209,31 @@ struct RestParameters
   double map_time = 3.0;  //!< at rest for longer than this, scans do not join the map [s]
 };
 
+/** Group `health`: limits beyond which a scan is in trouble. */
+struct HealthParameters
+{
+  double min_share = 0.1;        //!< of the points that match the map
+  double max_innovation = 3.0;   //!< mean of z^2/r
+  double min_information = 100;  //!< smallest eigenvalue of H^T R^-1 H
+  double max_doubtful = 0.25;    //!< share of the time that the inertial data are in doubt
+  double max_gyro_bias = 0.17453292519943295;  //!< [rad/s]; 10 deg/s
+  double max_accel_bias = 2.0;                 //!< [m/s^2]
+  double max_scan_interval = 0.5;              //!< from scan to scan [s]
+  bool freeze_map = true;  //!< scans that match too badly do not join the map, nor count as updates
+};
+
+/** Group `recovery`: the pose is lost, or the inertial data were interrupted. */
+struct RecoveryParameters
+{
+  bool enabled = true;
+  double patience = 1.0;    //!< scans that match nothing for so long after max_unaided_time [s]
+  double match_time = 1.5;  //!< after a new start the old map is looked for so long [s]
+  double max_heading = 1.5707963267948966;  //!< headings are tried up to here [rad]; 90 deg
+  double min_share = 0.3;                //!< of the points match, when the old map is found again
+  double accel_std = 1.0;                //!< of the motion while nothing was measured [m/s^2]
+  double gyro_std = 0.3490658503988659;  //!< of the rotation meanwhile [rad/s]; 20 deg/s
+};
+
 /** How an odometry rawlog is built. */
 enum class RawlogForm
 {
@@ -236,6 +273,8 @@ struct Parameters
   MapParameters map;
   IterationLimits update;
   RestParameters rest;
+  HealthParameters health;
+  RecoveryParameters recovery;
   OutputParameters output;
   GainForm gain = GainForm::Information;
   int threads = 0;  //!< worker threads; 0 = all cores

@@ -28,6 +28,32 @@ enum class ScanStatus
 /** Printable name of a status ("tracking", ...). */
 [[nodiscard]] const char* toString(ScanStatus status);
 
+/** What is wrong with a scan. */
+enum class HealthCause
+{
+  None,
+  Starting,       //!< no pose yet
+  Lost,           //!< the pose is not trusted
+  NoMatch,        //!< the scan did not correct the prediction
+  FewMatches,     //!< a small share of its points match the map
+  LargeResidual,  //!< the matches do not agree with the map
+  OpenDirection,  //!< the matches leave a direction open
+  InertialData,   //!< gaps, clipping or spikes of the inertial sensor
+  Bias,           //!< a bias runs away
+  ScanTiming      //!< a long time since the scan before
+};
+
+/** Printable name of a cause ("few_matches", ...). */
+[[nodiscard]] const char* toString(HealthCause cause);
+
+/** How a scan fares against the limits of the group `health`. */
+struct ScanHealth
+{
+  double value = 1.0;                     //!< 1: nothing is wrong; 0.5: at a limit; 0: lost
+  HealthCause cause = HealthCause::None;  //!< what makes the value smallest
+  std::string reason;                     //!< in words, when the value is below one half
+};
+
 /** Wall-clock milliseconds per stage of one scan. */
 struct StageTimings
 {
@@ -73,6 +99,7 @@ struct ScanResult
    * scans that follow each other, so it tells little about the motion between them. */
   Matrix6 map_share = Matrix6::Zero();
   ScanStatistics statistics;
+  ScanHealth health;
   StageTimings milliseconds;
 };
 

@@ -1,0 +1,37 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file health_monitor.h Is a scan's pose to be believed, and if not, why? */
+#pragma once
+
+#include <fastlio/odometry/inertial_doubt.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** A scan matches as it does when the pose is right: health.min_share and max_innovation hold.
+ * \param points of the scan that could have matched */
+[[nodiscard]] bool evidenceIsGood(
+    const ScanStatistics& statistics, std::size_t points, const HealthParameters& limits);
+
+/** Gives every scan a health value: the smallest of the measures, each 1/2 at its limit. */
+class HealthMonitor
+{
+ public:
+  explicit HealthMonitor(const HealthParameters& limits) : limits_(limits) {}
+
+  /** Sets result.health. \param doubts about the inertial data since the scan before, at least */
+  void judge(const std::vector<InertialDoubt>& doubts, ScanResult& result);
+
+ private:
+  HealthParameters limits_;
+  std::int64_t last_ns_ = 0;
+  int young_scans_ = 0;  // of a map that does not match much yet
+};
+
+}  // namespace fastlio

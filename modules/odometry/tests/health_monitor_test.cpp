@@ -1,0 +1,163 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "health_monitor.h"
+
+#include "odometry_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace fastlio;
+using namespace fastlio::test;
+
+namespace
+{
+constexpr std::int64_t kStamp = 1'700'000'000'000'000'000;
+constexpr std::int64_t kScan = 100'000'000;
+
+/** A scan as it should be. */
+ScanResult goodScan(std::int64_t index = 1)
+{
+  ScanResult r;
+  r.begin_ns = kStamp + (index - 1) * kScan;
+  r.stamp_ns = kStamp + index * kScan;
+  r.status = ScanStatus::Tracking;
+  r.statistics.points_reduced = 1000;
+  r.statistics.points_effective = 600;
+  r.statistics.normalized_innovation = 0.9;
+  r.statistics.information_eigenvalues.setConstant(1e5);
+  return r;
+}
+
+template <typename Change>
+ScanHealth healthAfter(Change change, const std::vector<InertialDoubt>& doubts = {})
+{
+  HealthMonitor monitor{HealthParameters{}};
+  ScanResult r = goodScan();
+  change(r);
+  monitor.judge(doubts, r);
+  return r.health;
+}
+}  // namespace
+
+TEST(HealthMonitor, AGoodScanIsHealthy)
+{
+  const ScanHealth health = healthAfter([](ScanResult&) {});
+  EXPECT_GT(health.value, 0.8);
+  EXPECT_EQ(health.reason, "");
+}
+
+TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
+{
+  const HealthParameters limits;
+  struct Case
+  {
+    HealthCause cause;
+    std::string parameter;
+    std::function<void(ScanResult&, double)> set;  // to a multiple of the limit, > 1 is worse
+  };
+  const std::vector<Case> cases{
+      {HealthCause::FewMatches, "health.min_share",
+       [&](ScanResult& r, double k)
+       {
+         r.statistics.points_reduced = 100000;
+         r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 100000 / k);
+       }},
+      {HealthCause::LargeResidual, "health.max_innovation",
+       [&](ScanResult& r, double k)
+       { r.statistics.normalized_innovation = k * limits.max_innovation; }},
+      {HealthCause::OpenDirection, "health.min_information",
+       [&](ScanResult& r, double k)
+       { r.statistics.information_eigenvalues[0] = limits.min_information / k; }},
+      {HealthCause::Bias, "health.max_gyro_bias",
+       [&](ScanResult& r, double k)
+       { r.filter.x.gyro_bias = Vec3(0, k * limits.max_gyro_bias, 0); }},
+      {HealthCause::Bias, "health.max_accel_bias",
+       [&](ScanResult& r, double k)
+       { r.filter.x.accel_bias = Vec3(k * limits.max_accel_bias, 0, 0); }},
+      {HealthCause::ScanTiming, "health.max_scan_interval",
+       [&](ScanResult& r, double k) {
+         r.begin_ns = r.stamp_ns - static_cast<std::int64_t>(1e9 * k * limits.max_scan_interval);
+       }},
+  };
+  for (const Case& c : cases)
+  {
+    const auto at = [&](double k) { return healthAfter([&](ScanResult& r) { c.set(r, k); }); };
+    EXPECT_NEAR(at(1.0).value, 0.5, 1e-4) << c.parameter;
+    const ScanHealth worse = at(1.2), better = at(0.9);
+    EXPECT_LT(worse.value, 0.5) << c.parameter;
+    EXPECT_GT(better.value, 0.5) << c.parameter;
+    EXPECT_EQ(worse.cause, c.cause) << c.parameter;
+    EXPECT_NE(worse.reason.find(c.parameter), std::string::npos) << worse.reason;
+    EXPECT_EQ(better.reason, "");
+  }
+}
+
+TEST(HealthMonitor, DoubtfulInertialDataAreTheirShareOfTheScan)
+{
+  const std::vector<InertialDoubt> doubts{{kStamp, kStamp + kScan / 2, 1.0, 1.0}};
+  const ScanHealth health = healthAfter([](ScanResult&) {}, doubts);
+  EXPECT_EQ(health.cause, HealthCause::InertialData);
+  EXPECT_NE(health.reason.find("50 %"), std::string::npos) << health.reason;
+}
+
+TEST(HealthMonitor, ADirectionThatIsKnownToBeOpenIsNoTrouble)
+{
+  const ScanHealth health = healthAfter(
+      [](ScanResult& r)
+      {
+        r.statistics.information_eigenvalues[0] = 0.0;
+        r.statistics.constraints.unconstrained = 1;
+      });
+  EXPECT_EQ(health.cause, HealthCause::OpenDirection);
+  EXPECT_GT(health.value, 0.5);
+}
+
+TEST(HealthMonitor, ScansWithoutUpdateAreInTrouble)
+{
+  const ScanHealth predicted =
+      healthAfter([](ScanResult& r) { r.status = ScanStatus::PredictionOnly; });
+  const ScanHealth lost = healthAfter([](ScanResult& r) { r.status = ScanStatus::Diverged; });
+  EXPECT_EQ(predicted.cause, HealthCause::NoMatch);
+  EXPECT_LT(predicted.value, 0.5);
+  EXPECT_EQ(lost.cause, HealthCause::Lost);
+  EXPECT_EQ(lost.value, 0.0);
+}
+
+TEST(HealthMonitor, AGoodRunIsHealthyAllAlong)
+{
+  const RoomRecording recording = recordRoom();
+  const Results results = runInOrder(roomParameters(), recording);
+  for (const ScanResult& r : results)
+    EXPECT_GE(r.health.value, 0.5) << r.stamp_ns << " " << r.health.reason;
+}
+
+TEST(HealthMonitor, TheMapDoesNotGrowWhileThePoseIsLost)
+{
+  RoomSettings settings;
+  settings.duration = 7.0;
+  RoomRecording recording = recordRoom(settings);
+  for (std::size_t i = 700; i < recording.imu.size(); ++i)
+    recording.imu[i].gyro = Vec3(3.0, -4.0, 2.0);  // nonsense from 3.5 s on
+  Parameters p = roomParameters();
+  p.recovery.enabled = false;
+  p.imu.gyro_unit = GyroUnit::Radians;
+  const Results results = runInOrder(p, recording);
+  const auto bad = std::find_if(
+      results.begin(), results.end(),
+      [](const ScanResult& r)
+      { return r.stamp_ns > kRecordingStart + 3'500'000'000 && r.health.value < 0.5; });
+  ASSERT_NE(bad, results.end());
+  EXPECT_LT(bad->stamp_ns, kRecordingStart + 5'000'000'000);
+  EXPECT_EQ(results.back().status, ScanStatus::Diverged) << results.back().health.reason;
+  const auto settled = std::find_if(
+      bad, results.end(),
+      [&](const ScanResult& r) { return r.stamp_ns > bad->stamp_ns + 700'000'000; });
+  ASSERT_LT(settled, results.end());
+  EXPECT_EQ(settled->statistics.map_points, results.back().statistics.map_points);
+}

@@ -1,0 +1,226 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Sensors that fail for a while, and sensors that speak another language.
+
+#include "odometry_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+using namespace fastlio;
+using namespace fastlio::test;
+
+namespace
+{
+const RoomRecording& room()
+{
+  static const RoomRecording recording = []
+  {
+    RoomSettings settings;
+    settings.duration = 9.0;
+    return recordRoom(settings);
+  }();
+  return recording;
+}
+
+std::string textOf(const std::vector<Remark>& remarks)
+{
+  std::string text;
+  for (const Remark& remark : remarks)
+    text += remark.text + "\n";
+  return text;
+}
+
+/** The worst errors from a time on, in the world that the first pose has fixed. */
+WorstPoseErrors worstFrom(const Results& results, const RoomRecording& recording, double t)
+{
+  WorstPoseErrors worst;
+  Pose T_world_truth;
+  bool first = true;
+  for (const ScanResult& r : results)
+  {
+    if (r.status == ScanStatus::Initializing || r.status == ScanStatus::Diverged) continue;
+    const Pose truth = recording.truthAt(r.stamp_ns);
+    if (first) T_world_truth = r.filter.x.pose() * truth.inverse();
+    first = false;
+    if (static_cast<double>(r.stamp_ns - kRecordingStart) < t * 1e9) continue;
+    const Pose expected = T_world_truth * truth;
+    worst.position = std::max(worst.position, (r.filter.x.p - expected.p).norm());
+    worst.attitude = std::max(worst.attitude, logSO3(expected.R.transpose() * r.filter.x.R).norm());
+  }
+  return worst;
+}
+}  // namespace
+
+TEST(OdometryRecovery, AShortGapInMotionIsBridged)
+{
+  RoomRecording recording = room();
+  recording.imu.erase(recording.imu.begin() + 1000, recording.imu.begin() + 1060);  // 0.3 s
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(results.size(), recording.scans.size());
+  EXPECT_EQ(odometry.imuReport().gaps, 1U);
+  EXPECT_EQ(countOf(results, ScanStatus::Diverged), 0U);
+  EXPECT_LT(worstFrom(results, recording, 6.0).position, 0.02);
+}
+
+TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
+{
+  RoomRecording recording = room();
+  recording.imu.erase(recording.imu.begin() + 900, recording.imu.begin() + 1140);  // 1.2 s
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
+  const std::string remarks = textOf(odometry.remarks());
+  EXPECT_NE(remarks.find("the run is split"), std::string::npos) << remarks;
+  EXPECT_NE(remarks.find("started anew"), std::string::npos) << remarks;
+  EXPECT_EQ(results.back().status, ScanStatus::Tracking);
+  EXPECT_EQ(countOf(results, ScanStatus::FirstScan), 1U) << "the old map is found again";
+  const WorstPoseErrors worst = worstFrom(results, recording, 7.5);
+  EXPECT_LT(worst.position, 0.03);
+  EXPECT_LT(worst.attitude, 0.01);
+}
+
+TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
+{
+  RoomRecording recording = room();
+  // 1.5 s of consistent nonsense at once: the gyro's axes are exchanged.
+  for (std::size_t i = 700; i < 1000; ++i)
+    recording.imu[i].gyro = Vec3(3.0 + recording.imu[i].gyro.z(), -4.0, 2.0);
+  Parameters p = roomParameters();
+  p.measurement.max_unaided_time = 0.5;
+  p.recovery.patience = 0.3;
+  Odometry odometry(p);
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
+  EXPECT_GT(countOf(results, ScanStatus::Diverged), 0U);
+  EXPECT_EQ(results.back().status, ScanStatus::Tracking);
+  EXPECT_NE(textOf(odometry.remarks()).find("no scan has matched"), std::string::npos)
+      << textOf(odometry.remarks());
+  for (const ScanResult& r : results)
+    ASSERT_TRUE(isFinite(r.filter.x) && r.filter.P.allFinite());
+}
+
+TEST(OdometryRecovery, UnitsOfGAndDegreesAreFound)
+{
+  RoomRecording recording = room();
+  for (ImuSample& s : recording.imu)
+  {
+    s.accel /= 9.80665;
+    s.gyro *= 180.0 / M_PI;
+  }
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(odometry.imuReport().accel_unit, AccelUnit::G);
+  EXPECT_EQ(odometry.imuReport().gyro_unit, GyroUnit::Degrees);
+  EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
+  EXPECT_EQ(results.back().status, ScanStatus::Tracking) << results.back().message;
+}
+
+TEST(OdometryRecovery, UnitsThatAreGivenCostNothing)
+{
+  RoomRecording recording = room();
+  for (ImuSample& s : recording.imu)
+  {
+    s.accel /= 9.80665;
+    s.gyro *= 180.0 / M_PI;
+  }
+  Parameters p = roomParameters();
+  p.imu.accel_unit = AccelUnit::G;
+  p.imu.gyro_unit = GyroUnit::Degrees;
+  const Results results = runInOrder(p, recording);
+  EXPECT_EQ(countOf(results, ScanStatus::Tracking), recording.scans.size() - 1);
+  EXPECT_LT(worstPoseErrors(results, recording).position, 0.01);
+}
+
+TEST(OdometryRecovery, AnImuUpsideDownIsFineAndToldSo)
+{
+  const Mat3 flip = expSO3({M_PI, 0.0, 0.0});
+  RoomRecording recording = room();
+  for (ImuSample& s : recording.imu)
+    s = {s.stamp_ns, flip * s.gyro, flip * s.accel};
+  for (LidarScan& scan : recording.scans)
+    scan.T_imu_lidar = Pose{flip, Vec3::Zero()} * scan.T_imu_lidar;
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_NE(textOf(odometry.remarks()).find("upside down"), std::string::npos);
+  EXPECT_EQ(countOf(results, ScanStatus::Tracking), recording.scans.size() - 1);
+  const double travelled = (results.back().filter.x.p - results.front().filter.x.p).norm();
+  const double truth =
+      (recording.truthAt(results.back().stamp_ns).p - recording.truthAt(results.front().stamp_ns).p)
+          .norm();
+  EXPECT_NEAR(travelled, truth, 0.01);
+}
+
+TEST(OdometryRecovery, AClockThatIsSetBackLosesNothing)
+{
+  RoomRecording recording = room();
+  constexpr std::int64_t kHourNs = 3'600'000'000'000;
+  for (std::size_t i = 900; i < recording.imu.size(); ++i)
+    recording.imu[i].stamp_ns -= kHourNs;
+  for (std::size_t i = 45; i < recording.scans.size(); ++i)
+    recording.scans[i].stamp_ns -= kHourNs;
+  Odometry odometry(roomParameters());
+  Results results;
+  // In the order of the recorder.
+  std::size_t sample = 0;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i)
+  {
+    for (; sample < recording.imu.size() && sample <= 20 * (i + 1); ++sample)
+      odometry.addImu(recording.imu[sample]);
+    odometry.addScan(recording.scans[i]);
+    drain(odometry, results);
+  }
+  finish(odometry, results);
+  EXPECT_EQ(odometry.imuReport().clock_steps, 1U);
+  EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
+  EXPECT_GE(countOf(results, ScanStatus::Tracking), recording.scans.size() - 2);
+  EXPECT_LT(worstPoseErrors(results, room()).position, 0.02);
+}
+
+TEST(OdometryRecovery, WrongStampsOfScansDoNotStopTheOthers)
+{
+  RoomRecording recording = room();
+  recording.scans[0].stamp_ns += 86'400'000'000'000;
+  recording.scans[40].stamp_ns += 3'600'000'000'000;
+  recording.scans[50].stamp_ns -= 3'600'000'000'000;
+  recording.scans[55].stamp_ns = std::numeric_limits<std::int64_t>::max();
+  recording.scans[56].stamp_ns = std::numeric_limits<std::int64_t>::min();
+  Odometry odometry(roomParameters());
+  Results results;
+  std::size_t sample = 0, processed_in_time = 0;
+  for (std::size_t i = 0; i < recording.scans.size(); ++i)
+  {
+    for (; sample < recording.imu.size() && sample <= 20 * (i + 1); ++sample)
+      odometry.addImu(recording.imu[sample]);
+    odometry.addScan(recording.scans[i]);
+    drain(odometry, results);
+    processed_in_time = results.size();
+  }
+  EXPECT_GE(processed_in_time, recording.scans.size() - 7);
+  finish(odometry, results);
+  const InputStatistics& counts = odometry.inputStatistics();
+  EXPECT_EQ(counts.scans_bad_stamp, 2U);
+  EXPECT_EQ(accountedScans(odometry, results) + counts.scans_bad_stamp, recording.scans.size());
+  EXPECT_EQ(countOf(results, ScanStatus::Diverged), 0U);
+  EXPECT_LT(worstPoseErrors(results, recording).position, 0.01);
+}
+
+TEST(OdometryRecovery, ScansInTheWrongOrderAreSorted)
+{
+  RoomRecording recording = room();
+  for (std::size_t i = 10; i + 1 < recording.scans.size(); i += 4)
+    std::swap(recording.scans[i], recording.scans[i + 1]);
+  Odometry odometry(roomParameters());
+  Results results;
+  for (const LidarScan& scan : recording.scans)
+    odometry.addScan(scan);
+  for (const ImuSample& s : recording.imu)
+    odometry.addImu(s);
+  finish(odometry, results);
+  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), room())));
+}
