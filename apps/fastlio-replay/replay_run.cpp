@@ -176,6 +176,7 @@ void ReplayRun::take(const ScanResult& result)
   statistics_.add(result);
   extendOutputMap();
   exporters_.onScan(result, odometry_.imuRateStates());
+  reportRemarks();
   reportChange(result);
   reportExporters();
 }
@@ -203,6 +204,17 @@ void ReplayRun::reportChange(const ScanResult& result)
   logger_.logStr(level, text);
 }
 
+void ReplayRun::reportRemarks()
+{
+  const std::vector<Remark>& remarks = odometry_.remarks();
+  for (; remarks_told_ < remarks.size(); ++remarks_told_)
+  {
+    progress_.clear();
+    const Remark& remark = remarks[remarks_told_];
+    logger_.logStr(LVL_WARN, "at " + secondsText(remark.stamp_ns) + ": " + remark.text);
+  }
+}
+
 void ReplayRun::reportExporters()
 {
   for (; exporter_problems_told_ < exporters_.problems().size(); ++exporter_problems_told_)
@@ -226,6 +238,8 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.input_counts.push_back(
       {"scans_skipped", std::min(scans_seen_, setup_.arguments.skip_first_n)});
   summary.statistics = statistics_;
+  summary.imu = odometry_.imuReport();
+  summary.remarks = odometry_.remarks();
   summary.interrupted = interrupted();
   summary.input_problems = sentences(source.problems());
   summary.failure = failure_;

@@ -38,6 +38,7 @@ class ReplayRun
   void take(const ScanResult& result);
   void extendOutputMap();
   void reportChange(const ScanResult& result);
+  void reportRemarks();
   void reportExporters();
   [[nodiscard]] RunSummary summarize(const DecodeAheadSource& source) const;
 
@@ -52,6 +53,7 @@ class ReplayRun
   std::size_t scans_seen_ = 0;
   std::optional<ScanStatus> last_status_;
   std::size_t exporter_problems_told_ = 0;
+  std::size_t remarks_told_ = 0;
   std::string failure_;  //!< an exception that ended the loop
 };
 

@@ -88,6 +88,31 @@ std::string openText(const OpenDirections& open)
          "]: there the pose is inertial only, and its covariance grows";
 }
 
+std::string imuText(const ImuReport& imu)
+{
+  std::string text = fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
+                     toString(imu.gyro_unit) + ", jitter " + fixedText(100.0 * imu.jitter, 1) +
+                     " %";
+  if (imu.gaps > 0)
+    text +=
+        ", " + std::to_string(imu.gaps) + " gaps (longest " + fixedText(imu.longest_gap, 3) + " s)";
+  if (imu.saturated > 0) text += ", " + std::to_string(imu.saturated) + " clipped samples";
+  if (imu.spikes > 0) text += ", " + std::to_string(imu.spikes) + " spikes";
+  if (imu.clock_steps > 0) text += ", clock set back " + std::to_string(imu.clock_steps) + " times";
+  return text;
+}
+
+std::string healthText(const RunHealth& health)
+{
+  if (health.scans() == 0) return "no pose";
+  const auto& first = health.firstTrouble();
+  if (!first) return "no scan in trouble (worst " + fixedText(health.worst(), 2) + " of 1)";
+  return std::to_string(health.troubled()) + " of " + std::to_string(health.scans()) +
+         " scans in trouble; first bad second " + fixedText(first->second, 1) + " (" +
+         secondsText(first->stamp_ns) + "): " + toString(first->health.cause) + ": " +
+         first->health.reason;
+}
+
 std::string filesText(const std::vector<OutputFile>& files)
 {
   std::size_t width = 0;
@@ -139,6 +164,10 @@ std::string reportText(const RunSummary& summary)
   if (!lost.empty()) text += line("Dropped", countsText(lost));
   if (statistics.openDirections().scans > 0)
     text += line("Open", openText(statistics.openDirections()));
+  text += line("IMU", imuText(summary.imu));
+  text += line("Health", healthText(statistics.health()));
+  for (const Remark& remark : summary.remarks)
+    text += line("Remark", secondsText(remark.stamp_ns) + ": " + remark.text);
   text += filesText(summary.outputs);
   return text + line(
                     "Status", std::string(toString(status)) + " (exit status " +

@@ -3,138 +3,24 @@
 
 #include "size_check.h"
 
+#include "object_layouts.h"
 #include "rotating_scan_stream.h"
 
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationVelodyneScan.h>
+#include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 
 namespace
 {
+using namespace fastlio::object_layouts;
 using fastlio::ObjectStream;
 using fastlio::SizeVerdict;
 
 constexpr unsigned char kEndFlag = 0x88;
 constexpr std::size_t kCountBytes = 4;
 constexpr int kDeepest = 8;  // frames hold observations hold clouds hold parameters
-
-// One piece of an object's layout.
-struct Field
-{
-  enum Kind
-  {
-    Fixed,           // size bytes
-    Counted,         // 32-bit count, count * size bytes
-    CountedLists,    // 32-bit count, so many of Counted
-    NamedLists,      // 32-bit count, so many of a string and Counted
-    Object,          // another object
-    CountedObjects,  // 32-bit count, so many objects
-    ImageSize,       // 16-bit rows and columns, which the images behind refer to
-    RotatingImages,  // images of that size, in one of two layouts
-    StoredCloud,     // 0 and an object, or another byte and the name of a file
-    Unknown          // what follows depends on the version of MRPT
-  };
-  Kind kind;
-  std::size_t size = 0;
-};
-
-struct Layout
-{
-  unsigned char version;
-  std::vector<Field> fields;
-};
-
-constexpr std::size_t kStamp = 8, kDouble = 8, kPoint = 12;
-
-Field fixed(std::size_t size)
-{
-  return {Field::Fixed, size};
-}
-Field counted(std::size_t size)
-{
-  return {Field::Counted, size};
-}
-Field named(std::size_t size)
-{
-  return {Field::NamedLists, size};
-}
-const Field kString = counted(1);
-const Field kPose{Field::Object};
-const Field kRest{Field::Unknown};
-
-std::vector<Field> imuFields()
-{
-  constexpr std::size_t kChannels = mrpt::obs::COUNT_IMU_DATA_FIELDS;
-  return {kPose, fixed(kChannels), fixed(kStamp), fixed(kChannels * kDouble), kString};
-}
-
-std::vector<Field> velodyneFields()
-{
-  using mrpt::obs::CObservationVelodyneScan;
-  constexpr std::size_t kPacket = sizeof(CObservationVelodyneScan::TVelodyneRawPacket);
-  constexpr std::size_t kLaser = sizeof(mrpt::obs::VelodyneCalibration::PerLaserCalib);
-  std::vector<Field> fields{fixed(kStamp), kString,          fixed(2 * kDouble),
-                            kPose,         counted(kPacket), counted(kLaser)};
-  // Cached points: x, y, z, intensity; whether the stamp is a satellite's.
-  fields.insert(fields.end(), {counted(4), counted(4), counted(4), counted(1), fixed(1)});
-  // Their stamps (MRPT writes the names of these types before them), azimuths, lasers and indices.
-  fields.insert(fields.end(), {kString, kString, counted(kStamp), counted(4), counted(2)});
-  fields.insert(fields.end(), {kString, kString, {Field::CountedLists, 8}});
-  return fields;
-}
-
-// A list of fields for each type of number, of which later versions have more.
-Layout genericCloud(unsigned char version)
-{
-  std::vector<Field> fields{counted(kPoint), named(4)};
-  if (version >= 1) fields.push_back(named(8));
-  fields.push_back(named(2));
-  if (version >= 2) fields.push_back(named(1));
-  if (version >= 4) fields.push_back(named(4));
-  fields.push_back(kRest);
-  return {version, fields};
-}
-
-std::vector<Field> rotatingScanFields()
-{
-  return {fixed(kStamp),      kString, {Field::ImageSize}, fixed(4 * kDouble),     kString,
-          fixed(2 * kDouble), kPose,   fixed(kStamp + 1),  {Field::RotatingImages}};
-}
-
-std::multimap<std::string, Layout> makeLayouts()
-{
-  const std::vector<Field> points_and_more{counted(kPoint), kRest};
-  std::multimap<std::string, Layout> layouts{
-      {"mrpt::poses::CPose3D", {3, {fixed(12 * kDouble)}}},
-      {"mrpt::obs::CSensoryFrame", {2, {{Field::CountedObjects}}}},
-      {"mrpt::obs::CObservationIMU", {4, imuFields()}},
-      {"mrpt::obs::CObservationVelodyneScan", {2, velodyneFields()}},
-      {fastlio::kRotatingScanClass, {0, rotatingScanFields()}},
-      {"mrpt::obs::CObservationPointCloud",
-       {0, {kString, fixed(kStamp), kPose, {Field::StoredCloud}}}},
-      {"mrpt::maps::CPointsMapXYZIRT",
-       {0, {counted(kPoint), counted(4), counted(2), counted(4), kRest}}},
-      {"mrpt::maps::CPointsMapXYZI", {0, {counted(kPoint + 4), kRest}}},
-      {"mrpt::maps::CSimplePointsMap", {10, points_and_more}},
-      {"mrpt::maps::CColouredPointsMap", {9, points_and_more}},
-      {"mrpt::maps::CWeightedPointsMap", {2, points_and_more}}};
-  for (unsigned char version = 0; version <= 4; ++version)
-    layouts.emplace("mrpt::maps::CGenericPointsMap", genericCloud(version));
-  return layouts;
-}
-
-const Layout* layoutOf(const std::string& class_name, unsigned char version)
-{
-  static const std::multimap<std::string, Layout> layouts = makeLayouts();
-  const auto [begin, end] = layouts.equal_range(class_name);
-  const auto found = std::find_if(
-      begin, end, [version](const auto& entry) { return entry.second.version == version; });
-  return found == end ? nullptr : &found->second;
-}
 
 // Goes through an object field by field. Every step returns false when there is no going on, for
 // the reason in verdict().
@@ -152,8 +38,12 @@ class Walk
       return stop(stream_.endsInsideHeader(at_) ? SizeVerdict::RunsOut : SizeVerdict::Misaligned);
     if (!skip(header->length)) return false;
     if (header->class_name == "nullptr") return endFlag();
+    // MRPT finds a class also when its namespace is another one.
+    const auto* id = mrpt::rtti::findRegisteredClass(header->class_name);
+    if (id == nullptr) return stop(SizeVerdict::Misaligned);
     if (!skip(1)) return false;
-    const Layout* layout = layoutOf(header->class_name, stream_.byteAt(at_ - 1));
+    const Layout* layout = layoutOf(id->className, stream_.byteAt(at_ - 1));
+    if (layout == nullptr && hasOneVersion(id->className)) return stop(SizeVerdict::Misaligned);
     if (layout == nullptr || depth > kDeepest) return stop(SizeVerdict::Plausible);
     for (const Field& field : layout->fields)
       if (!walk(field, depth)) return false;

@@ -14,7 +14,8 @@
 namespace fastlio
 {
 /** Holds observations back until those that may still come cannot precede them. Equal stamps keep
- * their order. An observation with an absurd stamp does not hold up the others. */
+ * their order. An observation with an absurd stamp does not hold up the others; when time steps
+ * back, what is held from before goes first. */
 class TimeSorter
 {
  public:
@@ -33,6 +34,7 @@ class TimeSorter
  private:
   struct Held
   {
+    std::uint64_t epoch;
     std::int64_t stamp_ns;
     std::uint64_t sequence;
     mrpt::obs::CObservation::Ptr observation;
@@ -41,6 +43,7 @@ class TimeSorter
   {
     bool operator()(const Held& a, const Held& b) const
     {
+      if (a.epoch != b.epoch) return a.epoch > b.epoch;
       return a.stamp_ns != b.stamp_ns ? a.stamp_ns > b.stamp_ns : a.sequence > b.sequence;
     }
   };
@@ -48,6 +51,7 @@ class TimeSorter
   std::int64_t window_ns_;
   std::int64_t newest_ns_ = 0;  // of the observation pushed last
   std::uint64_t sequence_ = 0;
+  std::uint64_t epoch_ = 0;  // times that time stepped back
   std::priority_queue<Held, std::vector<Held>, Later> held_;
 };
 

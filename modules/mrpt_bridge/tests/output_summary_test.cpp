@@ -174,6 +174,36 @@ TEST(SummaryJson, HoldsEveryParameterWithItsType)
   EXPECT_EQ(parameters["input"]["lidar_sensor_label"], "[1]");
 }
 
+TEST(SummaryJson, TellsTheFirstBadSecondAndWhy)
+{
+  RunSummary run;
+  ScanResult starting = resultAt(0, ScanStatus::Initializing, 0, 1);
+  starting.health = {0.0, HealthCause::Starting, "collecting"};
+  run.statistics.add(starting);
+  run.statistics.add(resultAt(1, ScanStatus::Tracking, 0, 1));
+  EXPECT_TRUE(writtenSummary(run)["health"]["first_trouble"].is_null());
+  for (const double value : {0.4, 0.1})
+  {
+    ScanResult bad = resultAt(2, ScanStatus::Tracking, 0, 1);
+    bad.health = {value, HealthCause::FewMatches, "few of them"};
+    run.statistics.add(bad);
+  }
+  run.imu.spikes = 7;
+  run.remarks = {{1'000'000'000, "the run is split"}};
+  const Json json = writtenSummary(run);
+  EXPECT_EQ(json["health"]["scans"], 3);
+  EXPECT_EQ(json["health"]["troubled"], 2);
+  EXPECT_DOUBLE_EQ(json["health"]["worst"], 0.1);
+  EXPECT_EQ(json["health"]["causes"]["few_matches"], 2);
+  const Json& first = json["health"]["first_trouble"];
+  EXPECT_EQ(first["scan"], 2);
+  EXPECT_DOUBLE_EQ(first["value"], 0.4);
+  EXPECT_EQ(first["cause"], "few_matches");
+  EXPECT_EQ(first["reason"], "few of them");
+  EXPECT_EQ(json["imu"]["spikes"], 7);
+  EXPECT_EQ(json["remarks"][0]["text"], "the run is split");
+}
+
 TEST(SummaryJson, SurvivesTextThatIsNotUtf8)
 {
   RunSummary run = goodRun();

@@ -48,6 +48,7 @@ void RunStatistics::add(const ScanResult& result)
   ++scans_;
   ++counts_.at(static_cast<std::size_t>(result.status));
   points_ = plus(points_, result.statistics);
+  health_.add(result);
   compute_ms_ += result.milliseconds.total;
   if (hasPose(result.status)) addPose(result);
   if (result.statistics.constraints.unconstrained > 0) addOpenDirections(result);

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "health_json.h"
 #include <fastlio/mrpt_bridge/output/number_text.h>
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>
 #include <fastlio/odometry/parameter_table.h>
@@ -176,6 +177,9 @@ Json summaryJson(const RunSummary& run)
       {"time", timeJson(run)},
       {"open_directions", openDirectionsJson(run.statistics.openDirections())},
       {"calibration", calibrationJson(run)},
+      {"health", healthJson(run.statistics.health())},
+      {"imu", imuJson(run.imu)},
+      {"remarks", remarksJson(run.remarks)},
       {"first_trouble", trouble ? troubleJson(*trouble) : Json(nullptr)},
       {"troubles", troublesJson(run.statistics)},
       {"outputs", filesJson(run.outputs)},

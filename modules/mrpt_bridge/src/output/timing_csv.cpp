@@ -13,11 +13,12 @@ constexpr const char* kHeader =
     "m;\n"
     "# normalized_innovation: mean z^2/r, about 1 when the noise model is true;\n"
     "# information_min: smallest eigenvalue of H^T R^-1 H (weakest direction of the pose).\n"
+    "# health: 1 is well, below 0.5 beyond a limit of the group health, 0 lost.\n"
     "stamp_ns,status,points_in,dropped_invalid,dropped_near,dropped_far,"
     "points_reduced,points_effective,imu_samples,map_points,iterations,converged,at_rest,residual_"
     "rms,"
     "normalized_innovation,information_min,propagate_ms,deskew_ms,reduce_ms,associate_ms,update_ms,"
-    "insert_ms,total_ms\n";
+    "insert_ms,total_ms,health,health_cause\n";
 
 std::string counts(const ScanStatistics& s)
 {
@@ -55,7 +56,8 @@ class TimingExporter : public Exporter
     file_.write(
         std::to_string(result.stamp_ns) + "," + machineName(result.status) +
         counts(result.statistics) + measures(result.statistics) +
-        milliseconds(result.milliseconds) + "\n");
+        milliseconds(result.milliseconds) + "," + fixedText(result.health.value, 3) + "," +
+        toString(result.health.cause) + "\n");
   }
 
   std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {file_.commit()}; }

@@ -4,6 +4,7 @@
 /** \file run_statistics.h What a run was like, accumulated scan by scan. */
 #pragma once
 
+#include <fastlio/mrpt_bridge/output/run_health.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <array>
@@ -75,6 +76,7 @@ class RunStatistics
   /** The first kMaxTroubles scans that were predicted only or diverged. */
   [[nodiscard]] const std::vector<Trouble>& troubles() const { return troubles_; }
 
+  [[nodiscard]] const RunHealth& health() const { return health_; }
   /** Where scans left directions of motion open. */
   [[nodiscard]] const OpenDirections& openDirections() const { return open_; }
   /** The last pose's state and covariance: what has become of the calibration. */
@@ -92,6 +94,7 @@ class RunStatistics
   std::optional<Vec3> last_position_;
   std::optional<FilterState> last_state_;
   OpenDirections open_;
+  RunHealth health_;
   double path_length_ = 0;
   double compute_ms_ = 0;
   std::vector<float> scan_ms_;  //!< one per pose: 35 MB for a day and a night at 100 Hz

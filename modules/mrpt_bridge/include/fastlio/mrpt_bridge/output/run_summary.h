@@ -6,6 +6,7 @@
 
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/mrpt_bridge/output/run_statistics.h>
+#include <fastlio/odometry/imu_report.h>
 #include <fastlio/odometry/parameters.h>
 
 #include <string>
@@ -38,6 +39,8 @@ struct RunSummary
   Parameters parameters;                 //!< as used
   std::vector<NamedCount> input_counts;  //!< observations read and dropped, by reason
   RunStatistics statistics;
+  ImuReport imu;                            //!< units, rate and faults of the inertial sensor
+  std::vector<Remark> remarks;              //!< what the user should know, in order
   double wall_seconds = 0;                  //!< of the whole run, reading included
   bool interrupted = false;                 //!< stopped by SIGINT or SIGTERM
   std::vector<std::string> input_problems;  //!< truncated or corrupt input, in sentences
