@@ -9,17 +9,22 @@ RECORDINGS ?=
 DEMO_DIR ?= demo-output
 SCENARIOS_DIR ?= scenarios-output
 EXPERIMENTS_DIR ?= experiments-output
+FUZZ_SECONDS ?= 600
 
 BUILD_DIR := build/$(PRESET)
 
 .DEFAULT_GOAL := help
-.PHONY: help dependencies test-dependencies lint-dependencies configure build test instructions benchmark demo scenarios \
+.PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
+  benchmark demo scenarios \
   experiments docs format lint packages test-packages test-trixie clean
 
 help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
+	@echo "make faults  faults put into recordings; prints the table of docs/robustness.md"
+	@echo "make fuzz    libFuzzer on everything that reads files   FUZZ_SECONDS=$(FUZZ_SECONDS) for each"
+	@echo "make sanitize  every test with address and undefined-behaviour sanitizers, then with that of threads"
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
@@ -51,6 +56,20 @@ build: configure
 test: test-dependencies build
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
 	ctest --preset $(PRESET) --parallel $(JOBS)
+
+faults: build
+	$(BUILD_DIR)/tests/faults/test_faults
+
+fuzz:
+	@cmake/install_dependencies.sh build fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz --parallel $(JOBS) --target fastlio-fuzz-rawlog fastlio-fuzz-packets \
+	  fastlio-fuzz-cloud fastlio-fuzz-yaml
+	tests/fuzz/run.sh build/fuzz $(FUZZ_SECONDS)
+
+sanitize:
+	$(MAKE) test PRESET=asan
+	$(MAKE) test PRESET=tsan
 
 instructions:
 	@cmake/install_dependencies.sh build instructions

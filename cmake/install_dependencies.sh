@@ -2,7 +2,8 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions] [packages]      (default: build)
+# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions] [packages] [fuzz]
+# (default: build)
 set -eu
 
 build_packages="g++ cmake ninja-build
@@ -14,6 +15,7 @@ lint_packages="clang-format clang-tidy"
 benchmark_packages="libbenchmark-dev"
 instructions_packages="valgrind"
 packages_packages="help2man dpkg-dev file"
+fuzz_packages="clang libclang-rt-dev"
 
 is_installed() {
   [ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
@@ -46,8 +48,9 @@ for set in "${@:-build}"; do
     benchmark) wanted="$wanted $benchmark_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     packages) wanted="$wanted $packages_packages" ;;
+    fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions, packages" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions, packages, fuzz" >&2
       exit 2
       ;;
   esac

@@ -1,0 +1,34 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file fault_run.h fastlio-replay on a damaged recording, and what has become of it. */
+#pragma once
+
+#include "fault_recording.h"
+
+#include <cstddef>
+#include <string>
+
+namespace fastlio::testing
+{
+/** What a replay gave. */
+struct FaultOutcome
+{
+  bool ended = false;  //!< by itself, with one of the documented exit statuses
+  int exit_status = -1;
+  bool outputs_complete = false;  //!< summary, trajectory and the other files are there
+  bool finite = false;            //!< every number of trajectory and states is finite
+  std::size_t poses = 0;
+  double worst_position = 0.0;  //!< largest position error after alignment [m]
+  bool told = false;            //!< a report of trouble, drops, remarks or an exit status
+  std::string log;
+};
+
+/** Writes the bytes as a rawlog, replays it with the recording's parameters and judges the outputs.
+ * \param folder for the files
+ * \param judge_position worst_position is wanted; needs poses in motion */
+[[nodiscard]] FaultOutcome replayBytes(
+    const std::string& bytes, const FaultRecording& recording, const std::string& folder,
+    bool judge_position);
+
+}  // namespace fastlio::testing

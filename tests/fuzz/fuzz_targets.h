@@ -1,0 +1,40 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file fuzz_targets.h What is fed with arbitrary bytes: everything that reads what others wrote.
+ * A target must come back, without an exception, whatever the bytes are. */
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fastlio::testing
+{
+/** A function that takes bytes, and how its seeds are called. */
+struct FuzzTarget
+{
+  const char* name;  //!< of the folder in tests/fuzz/corpus
+  void (*run)(const std::uint8_t* data, std::size_t size);
+};
+
+/** The bytes are a rawlog: read, converted, and given to the odometry. */
+void fuzzRawlog(const std::uint8_t* data, std::size_t size);
+/** A model number and the packets of a Velodyne. */
+void fuzzPackets(const std::uint8_t* data, std::size_t size);
+/** Columns of a point cloud: numbers of every kind. */
+void fuzzCloud(const std::uint8_t* data, std::size_t size);
+/** Text of a parameter file. */
+void fuzzYaml(const std::uint8_t* data, std::size_t size);
+
+[[nodiscard]] const std::vector<FuzzTarget>& fuzzTargets();
+
+/** Small valid inputs of a target, by file name: where mutations start. */
+struct Seed
+{
+  std::string name, bytes;
+};
+[[nodiscard]] std::vector<Seed> seedsOf(const std::string& target);
+
+}  // namespace fastlio::testing
