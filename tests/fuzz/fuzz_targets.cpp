@@ -139,11 +139,11 @@ void fuzzCloud(const std::uint8_t* data, std::size_t size)
     columns.z.push_back(take<float>(data, size));
     if ((fields & 1U) != 0) columns.intensity.push_back(take<float>(data, size));
     if ((fields & 2U) != 0) columns.ring.push_back(take<std::uint16_t>(data, size));
-    if ((fields & 4U) != 0) columns.time_s.push_back(take<float>(data, size));
+    if ((fields & 4U) != 0) columns.time.push_back(take<float>(data, size));
   }
   LidarScan scan;
-  scan.points = toTimedPoints(columns).points;
   scan.stamp_ns = 1'700'000'000'000'000'000;
+  scan.points = toTimedPoints(columns, scan.stamp_ns, {}).points;
   Odometry odometry(smallParameters());
   for (int i = 0; i <= 100; ++i)
     odometry.addImu({scan.stamp_ns + i * 5'000'000, Vec3::Zero(), Vec3(0, 0, 9.81)});

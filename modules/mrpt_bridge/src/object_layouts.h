@@ -134,7 +134,8 @@ inline const Layout* layoutOf(const std::string& class_name, unsigned char versi
 // Classes of which every MRPT writes the same version: another one is damage.
 inline bool hasOneVersion(const std::string& class_name)
 {
-  return class_name == "mrpt::obs::CObservationVelodyneScan" ||
+  return class_name == "mrpt::obs::CSensoryFrame" ||
+         class_name == "mrpt::obs::CObservationVelodyneScan" ||
          class_name == "mrpt::obs::CObservationPointCloud" ||
          class_name == "mrpt::maps::CPointsMapXYZIRT" || class_name == "mrpt::maps::CPointsMapXYZI";
 }

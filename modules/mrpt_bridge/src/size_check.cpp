@@ -20,7 +20,8 @@ using fastlio::SizeVerdict;
 
 constexpr unsigned char kEndFlag = 0x88;
 constexpr std::size_t kCountBytes = 4;
-constexpr int kDeepest = 8;  // frames hold observations hold clouds hold parameters
+constexpr std::size_t kMostParts = 100'000;  // observations of a frame, lists of a scan
+constexpr int kDeepest = 8;                  // frames hold observations hold clouds hold parameters
 
 // Goes through an object field by field. Every step returns false when there is no going on, for
 // the reason in verdict().
@@ -81,6 +82,7 @@ class Walk
   {
     if (!skip(kCountBytes)) return false;
     const std::size_t count = stream_.wordAt(at_ - kCountBytes);
+    if (count > kMostParts) return stop(SizeVerdict::Misaligned);
     for (std::size_t i = 0; i < count; ++i)
       if (!step()) return false;
     return true;
