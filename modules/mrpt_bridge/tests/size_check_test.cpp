@@ -65,26 +65,6 @@ std::string withHostileLength(std::string bytes, std::size_t at)
   std::memcpy(bytes.data() + at, &hostile, sizeof hostile);
   return bytes;
 }
-TEST_F(SizeCheckTest, ClassesAreKnownByTheirNameWithoutTheNamespace)
-{
-  // MRPT reads such objects, so that their lengths have to be checked.
-  std::string bytes = serialize({imuAt(0.0)});
-  const std::size_t pose = bytes.find("mrpt::poses::CPose3D");
-  ASSERT_NE(pose, std::string::npos);
-  bytes[pose] = '7';
-  EXPECT_EQ(verdictOn(bytes), SizeVerdict::Plausible);
-  EXPECT_EQ(verdictOn(bytes.substr(0, bytes.size() - 20)), SizeVerdict::RunsOut);
-}
-
-TEST_F(SizeCheckTest, VersionsThatNoMrptWritesAreRefused)
-{
-  std::string bytes = serialize({scanWithCloud()});
-  const std::string name = "mrpt::obs::CObservationVelodyneScan";
-  const std::size_t version = bytes.find(name) + name.size();
-  ASSERT_EQ(bytes[version], 2);
-  bytes[version] = 1;
-  EXPECT_EQ(verdictOn(bytes), SizeVerdict::Misaligned);
-}
 }  // namespace
 
 TEST_F(SizeCheckTest, every_truncation_of_observations_is_seen)
