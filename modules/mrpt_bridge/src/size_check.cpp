@@ -41,7 +41,7 @@ class Walk
     if (header->class_name == "nullptr") return endFlag();
     // MRPT finds a class also when its namespace is another one.
     const auto* id = mrpt::rtti::findRegisteredClass(header->class_name);
-    if (id == nullptr) return stop(SizeVerdict::Misaligned);
+    if (id == nullptr) return stop(SizeVerdict::Plausible);  // MRPT goes no further either
     if (!skip(1)) return false;
     const Layout* layout = layoutOf(id->className, stream_.byteAt(at_ - 1));
     if (layout == nullptr && hasOneVersion(id->className)) return stop(SizeVerdict::Misaligned);

@@ -10,7 +10,7 @@ namespace
 // Bounds memory where stamps stand still: 0.2 s of a 1 kHz IMU and a LiDAR stay far below.
 constexpr std::size_t kMostHeld = 2000;
 // No observation is so late by being slow.
-constexpr std::int64_t kStepBackNs = 1'000'000'000;
+constexpr std::int64_t kStepBackNs = 5'000'000'000;
 }  // namespace
 
 namespace fastlio

@@ -99,8 +99,7 @@ void considerInertialData(
 bool evidenceIsGood(
     const ScanStatistics& statistics, std::size_t points, const HealthParameters& limits)
 {
-  return share(statistics, points) >= limits.min_share &&
-         statistics.normalized_innovation <= limits.max_innovation;
+  return share(statistics, points) >= limits.min_share;
 }
 
 void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& result)

@@ -14,8 +14,9 @@
 
 namespace fastlio
 {
-/** A scan matches as it does when the pose is right: health.min_share and max_innovation hold.
- * \param points of the scan that could have matched */
+/** A scan matches as it does when the pose is right: health.min_share holds. (Residuals alone do
+ * not tell: along a tunnel they grow although the pose is right but for one direction.) \param
+ * points of the scan that could have matched */
 [[nodiscard]] bool evidenceIsGood(
     const ScanStatistics& statistics, std::size_t points, const HealthParameters& limits);
 

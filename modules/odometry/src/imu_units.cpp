@@ -30,7 +30,7 @@ constexpr double kClearRatio = 3.0;                       // of the errors
 constexpr double kLargestMeanError = 0.35;                // of the better reading [rad]
 constexpr double kLeastSlope = 0.4, kLargestSlope = 1.6;  // of measured over predicted turns
 constexpr double kLeastCorrelation = 0.6;
-constexpr double kImpossibleSpin = 12.0;     // without centrifugal force [rad/s]
+constexpr double kImpossibleSpin = 36.0;     // beyond the range of gyros [rad/s]
 constexpr double kCentrifugal = 3.0;         // [m/s^2]
 constexpr double kImpossibleSpinTime = 0.5;  // [s]
 

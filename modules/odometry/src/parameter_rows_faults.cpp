@@ -80,7 +80,7 @@ ParameterRows healthRows()
        RealValue{[](auto& p) { return &p.health.max_scan_interval; }, 0.001, 1e6},
        "a longer time between two scans is trouble"},
       {"health.freeze_map", "", BooleanValue{[](auto& p) { return &p.health.freeze_map; }},
-       "true: scans beyond min_share or max_innovation neither join the map nor count as updates, "
+       "true: scans beyond min_share neither join the map nor count as updates, "
        "so that the pose is found to be lost after measurement.max_unaided_time"},
   };
 }

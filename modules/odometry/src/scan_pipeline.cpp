@@ -251,7 +251,7 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
   if (result.status == ScanStatus::Diverged && update.updated)
     result.message = mrpt::format(
         "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match "
-        "(health.min_share, health.max_innovation); the last one was %.2f s ago",
+        "(health.min_share); the last one was %.2f s ago",
         update.last.count, compensated_.points.size(), s.normalized_innovation, unaided_s);
   else if (result.status == ScanStatus::PredictionOnly || result.status == ScanStatus::Diverged)
     result.message = mrpt::format(

@@ -151,7 +151,7 @@ TEST(ImuConditioner, DegreesPerSecondAreFoundOfAPlatformThatOnlyYaws)
 {
   std::vector<ImuSample> raw;
   for (int i = 0; i < 1000; ++i)
-    raw.push_back({kStart + i * kPeriod, Vec3(0, 0, i < 400 ? 0.1 : 25.0), Vec3(0, 0, kDown)});
+    raw.push_back({kStart + i * kPeriod, Vec3(0, 0, i < 400 ? 0.1 : 40.0), Vec3(0, 0, kDown)});
   EXPECT_EQ(conditioned(raw).report.gyro_unit, GyroUnit::Degrees);
 }
 
