@@ -4,6 +4,8 @@
 add_library(fastlio_compiler_options INTERFACE)
 target_compile_features(fastlio_compiler_options INTERFACE cxx_std_17)
 target_compile_options(fastlio_compiler_options INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+# MRPT's macros put __FILE__ into the binaries; what is installed must not depend on where it was built.
+target_compile_options(fastlio_compiler_options INTERFACE -ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 if(MRPT_FASTLIO_WERROR)
   target_compile_options(fastlio_compiler_options INTERFACE -Werror)
 endif()
