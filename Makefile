@@ -12,6 +12,9 @@ EXPERIMENTS_DIR ?= experiments-output
 FUZZ_SECONDS ?= 600
 
 BUILD_DIR := build/$(PRESET)
+# Tests are of the build that packages are made of, which is the same on every machine, unless a preset is given.
+TEST_PRESET := $(if $(filter file,$(origin PRESET)),baseline,$(PRESET))
+PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
@@ -22,6 +25,7 @@ help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
 	@echo "make test    install what is missing, build, run every test"
 	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
+	@echo "               PRESET=release|debug|asan|tsan tests another build than that for any machine"
 	@echo "make faults  faults put into recordings; prints the table of docs/robustness.md"
 	@echo "make fuzz    libFuzzer on everything that reads files   FUZZ_SECONDS=$(FUZZ_SECONDS) for each"
 	@echo "make sanitize  every test with address and undefined-behaviour sanitizers, then with that of threads"
@@ -29,7 +33,7 @@ help:
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
 	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
-	@echo "make build   install what is missing, build            PRESET=release|debug|asan|tsan"
+	@echo "make build   install what is missing, build            PRESET=release|baseline|debug|asan|tsan"
 	@echo "make lint    check format, structure and clang-tidy"
 	@echo "make format  format the sources"
 	@echo "make docs    regenerate docs/parameters.md and params/*.yaml from the tables"
@@ -53,9 +57,11 @@ configure: dependencies
 build: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS)
 
-test: test-dependencies build
+test: test-dependencies
+	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS)
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
-	ctest --preset $(PRESET) --parallel $(JOBS)
+	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
 faults: build
 	$(BUILD_DIR)/tests/faults/test_faults
@@ -83,7 +89,8 @@ benchmark:
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-benchmark fastlio-microbenchmark
 	benchmarks/run.sh $(BUILD_DIR) $(RECORDINGS)
 
-demo: build
+demo: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
 	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)
 
 scenarios: build

@@ -1,6 +1,31 @@
 # mrpt_fastlio: functions that add modules and tests.
 # SPDX-License-Identifier: BSD-3-Clause
 
+# What is tested is optimised as ever; the tests themselves had better be built soon.
+set(FASTLIO_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
+# The headers that most units read, precompiled once for libraries and once for tests, whose flags differ.
+if(MRPT_FASTLIO_PRECOMPILE)
+  find_package(Eigen3 REQUIRED NO_MODULE)
+  file(WRITE ${PROJECT_BINARY_DIR}/precompiled.cpp "int main() { return 0; }\n")
+  add_library(fastlio_precompiled_library SHARED ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  add_executable(fastlio_precompiled_test ${PROJECT_BINARY_DIR}/precompiled.cpp)
+  target_compile_options(fastlio_precompiled_test PRIVATE ${FASTLIO_TEST_OPTIONS})
+  foreach(target fastlio_precompiled_library fastlio_precompiled_test)
+    target_link_libraries(${target} PRIVATE fastlio_compiler_options Eigen3::Eigen)
+    target_precompile_headers(${target} PRIVATE <Eigen/Cholesky> <Eigen/Core> <Eigen/Eigenvalues>
+      <Eigen/Geometry> <Eigen/LU> <algorithm> <array> <cmath> <filesystem> <fstream> <functional>
+      <map> <memory> <optional> <sstream> <string> <vector>)
+  endforeach()
+endif()
+
+# fastlio_precompile(TARGET KIND): TARGET reads the headers of KIND (library, test) precompiled.
+function(fastlio_precompile TARGET KIND)
+  if(MRPT_FASTLIO_PRECOMPILE)
+    target_precompile_headers(${TARGET} REUSE_FROM fastlio_precompiled_${KIND})
+  endif()
+endfunction()
+
 # fastlio_add_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
 # A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) and, when tests are built, one
 # GoogleTest program test_NAME made of the TESTS files.
@@ -15,6 +40,7 @@ function(fastlio_add_module NAME)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
     $<BUILD_INTERFACE:fastlio_compiler_options>)
   target_compile_features(${target} PUBLIC cxx_std_17)
+  fastlio_precompile(${target} library)
   set_target_properties(${target} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     EXPORT_NAME ${NAME})
@@ -31,5 +57,7 @@ function(fastlio_add_test NAME)
   add_executable(${NAME} ${ARG_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${ARG_LINK} fastlio_compiler_options GTest::gtest
     GTest::gtest_main)
+  target_compile_options(${NAME} PRIVATE ${FASTLIO_TEST_OPTIONS})
+  fastlio_precompile(${NAME} test)
   gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -62,12 +62,16 @@ RestSearch searchRest(
   for (std::int64_t begin_ns = latest_ns; begin_ns >= imu.oldestStamp(); begin_ns -= step_ns)
   {
     const std::int64_t end_ns = begin_ns + duration_ns;
-    const RestStatistics rest = restStatistics(imu.samplesBetween(begin_ns, end_ns));
-    const auto reason = whyNotAtRest(rest, parameters);
+    std::vector<ImuSample> samples = imu.samplesBetween(begin_ns, end_ns);
+    const auto reason = whyNotAtRest(restStatistics(samples), parameters);
     if (!reason)
     {
-      search.decision.state = initialState(rest, parameters);
-      search.decision.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, end_ns);
+      const std::size_t resting = restingSamples(samples);
+      const std::int64_t rest_end_ns =
+          resting < samples.size() ? samples[resting - 1].stamp_ns : end_ns;
+      samples.resize(resting);
+      search.decision.state = initialState(restStatistics(samples), parameters);
+      search.decision.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, rest_end_ns);
       return search;
     }
     if (begin_ns == latest_ns) search.decision.message = *reason;

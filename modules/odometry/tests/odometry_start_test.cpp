@@ -159,3 +159,14 @@ TEST(OdometryStart, StartsAtTheFirstRestAfterMotion)
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
   EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
 }
+
+TEST(OdometryStart, APlatformThatMovesOffBeforeTheFirstScanHasItsVelocity)
+{
+  // At rest until 2.1 s; the first scan comes when it moves already.
+  RoomRecording recording = recordRoom();
+  recording.scans.erase(recording.scans.begin(), recording.scans.begin() + 24);
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, recording);
+  EXPECT_EQ(countOf(results, ScanStatus::Initializing), 0U);
+  EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
+}

@@ -114,6 +114,42 @@ TEST(RestStatistics, OfOneSampleOrNoneSayThatThereAreTooFew)
   EXPECT_NE(reason->find("1 IMU sample"), std::string::npos) << *reason;
 }
 
+TEST(RestingSamples, AreAllOfThemWhereThePlatformRests)
+{
+  Random random(7);
+  constexpr int kDraws = 1000;
+  int shortened = 0;
+  for (int k = 0; k < kDraws; ++k)
+  {
+    std::vector<ImuSample> samples = samplesAtRest(drawTruth({}, random), random);
+    for (std::size_t i = 0; i < samples.size(); ++i)  // an engine
+      samples[i].accel.z() += 2.0 * std::sin(0.9 * static_cast<double>(i));
+    shortened += restingSamples(samples) < samples.size() ? 1 : 0;
+  }
+  EXPECT_LT(shortened, kDraws / 50);
+}
+
+TEST(RestingSamples, EndWhereThePlatformMovesOff)
+{
+  Random random(8);
+  std::vector<ImuSample> samples = samplesAtRest(drawTruth({}, random), random);
+  for (std::size_t i = 340; i < samples.size(); ++i)
+    samples[i].accel.x() += 0.1;
+  EXPECT_EQ(restingSamples(samples), 340U);
+  for (std::size_t i = 261; i < samples.size(); ++i)
+    samples[i].gyro.z() += 0.1;
+  EXPECT_EQ(restingSamples(samples), 260U);
+}
+
+TEST(RestingSamples, OfSignalsWithoutNoiseAreAll)
+{
+  EXPECT_EQ(restingSamples({}), 0U);
+  EXPECT_EQ(restingSamples(std::vector<ImuSample>(7)), 7U);
+  EXPECT_EQ(
+      restingSamples(std::vector<ImuSample>(100, {0, Vec3::Constant(0.1), {0.0, 0.0, 9.81}})),
+      100U);
+}
+
 TEST(InitialState, IsConsistentWithItsCovariance)
 {
   InitializationParameters p;
