@@ -70,8 +70,9 @@ void addNoise(StateMatrix& P, const ProcessBlocks& F, const ImuNoise& noise, dou
 {
   const auto square = [](double s) { return s * s; };
   const Mat3& B = F.attitude_gyro_bias;
-  P.block<3, 3>(kAttitude, kAttitude) +=
-      square(noise.gyro_noise_density) / dt * B.lazyProduct(B.transpose());
+  const Mat3 spread = square(noise.gyro_noise_density) / dt * B.lazyProduct(B.transpose());
+  // In which order a compiler multiplies is its own affair; P stays symmetric to the bit.
+  P.block<3, 3>(kAttitude, kAttitude) += 0.5 * (spread + spread.transpose());
   // (R dt) (R dt)^T / dt = I dt
   P.diagonal().segment<3>(kVelocity).array() += square(noise.accel_noise_density) * dt;
   P.diagonal().segment<3>(kGyroBias).array() += square(noise.gyro_bias_walk) * dt;

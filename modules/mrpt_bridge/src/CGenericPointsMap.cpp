@@ -3,7 +3,7 @@
 
 #include <fastlio/mrpt_bridge/CGenericPointsMap.h>
 
-#if MRPT_VERSION < 0x20f00
+#if !FASTLIO_MRPT_HAS_GENERIC_MAP
 
 #include "point_map_stream.h"
 

@@ -3,7 +3,7 @@
 
 #include <fastlio/mrpt_bridge/CPointsMapXYZIRT.h>
 
-#if MRPT_VERSION < 0x20b04
+#if !FASTLIO_MRPT_HAS_XYZIRT
 
 #include "point_map_stream.h"
 

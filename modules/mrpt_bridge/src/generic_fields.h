@@ -18,7 +18,7 @@ namespace fastlio
 template <typename T>
 const auto* storedField(const mrpt::maps::CGenericPointsMap& map, const std::string& name)
 {
-#if MRPT_VERSION >= 0x20f00
+#if FASTLIO_MRPT_HAS_GENERIC_MAP
   if constexpr (std::is_same_v<T, float>) return map.getPointsBufferRef_float_field(name);
   if constexpr (std::is_same_v<T, double>) return map.getPointsBufferRef_double_field(name);
   if constexpr (std::is_same_v<T, std::uint16_t>) return map.getPointsBufferRef_uint16_field(name);
@@ -65,7 +65,7 @@ std::vector<Wanted> genericField(
     takeField<double>(map, name, values);
     takeField<std::uint16_t>(map, name, values);
     takeField<std::uint8_t>(map, name, values);
-#if MRPT_VERSION < 0x20f00
+#if !FASTLIO_MRPT_HAS_GENERIC_MAP
     takeField<std::uint32_t>(map, name, values);
 #endif
     if (!values.empty()) break;

@@ -9,12 +9,12 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/version.h>
+#include <fastlio/map/mrpt_compat.h>
 
 #include <iostream>
 #include <memory>
 
-#if MRPT_VERSION < 0x20f03
+#if !FASTLIO_MRPT_READS_NEWER_POINTS
 
 namespace fastlio
 {

@@ -16,7 +16,7 @@ using Scan = mrpt::obs::CObservationRotatingScan;
 /** The points that a scan holds, row by row; empty: none. */
 std::vector<mrpt::math::TPoint3Df> ownPoints(const Scan& scan)
 {
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   return {scan.organizedPoints.begin(), scan.organizedPoints.end()};
 #else
   const auto* with_points = dynamic_cast<const RotatingScan*>(&scan);

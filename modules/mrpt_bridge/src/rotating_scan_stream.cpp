@@ -61,7 +61,7 @@ void readImages(CArchive& in, const Size& size, RotatingScan& scan)
 void readPoints(CArchive& in, RotatingScan& scan)
 {
   const Size size = readSize(in);
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   scan.organizedPoints.resize(size.rows, size.columns);
   for (auto& point : scan.organizedPoints)
     in >> point.x >> point.y >> point.z;
@@ -78,7 +78,7 @@ void setExternal(RotatingScan& scan, std::uint8_t format, const std::string& fil
     throw std::runtime_error(
         "CObservationRotatingScan: images are kept in format " + std::to_string(format) +
         ", which is not known.");
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   scan.setAsExternalStorage(
       file, static_cast<mrpt::obs::CObservationRotatingScan::ExternalStorageFormat>(format));
 #else
@@ -104,7 +104,7 @@ void readWithPrefix(CArchive& in, const std::array<std::uint8_t, 4>& bytes, Rota
   readPoints(in, scan);
 }
 
-#if MRPT_VERSION < 0x20b04
+#if !FASTLIO_MRPT_HAS_ROTATING_POINTS
 /** Lines of `x y z range intensity row column`. */
 void loadText(RotatingScan& scan, const std::string& path)
 {
@@ -166,7 +166,7 @@ std::shared_ptr<RotatingScan> readRotatingScan(CArchive& in)
 
 std::string externalFileOf(const RotatingScan& scan)
 {
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   return scan.isExternallyStored() ? scan.getExternalStorageFile() : std::string();
 #else
   return scan.external_file;
@@ -175,7 +175,7 @@ std::string externalFileOf(const RotatingScan& scan)
 
 void loadRotatingScan(RotatingScan& scan, const std::string& path)
 {
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   (void)path;  // MRPT looks for it in its base folder
   scan.load();
 #else

@@ -28,8 +28,9 @@ enum class RotatingScanLayout
     const std::array<std::uint8_t, 4>& bytes, std::uint16_t rows, std::uint16_t columns);
 
 /** The layout that the installed MRPT reads by itself. */
-constexpr RotatingScanLayout kNativeRotatingScan =
-    MRPT_VERSION >= 0x20b04 ? RotatingScanLayout::StoragePrefix : RotatingScanLayout::Images;
+constexpr RotatingScanLayout kNativeRotatingScan = FASTLIO_MRPT_HAS_ROTATING_POINTS
+                                                       ? RotatingScanLayout::StoragePrefix
+                                                       : RotatingScanLayout::Images;
 
 /** Reads the content of an object, from behind its version byte up to its end flag.
  * \exception std::runtime_error the content is neither */

@@ -9,7 +9,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/serialization/CArchive.h>
-#include <mrpt/version.h>
+#include <fastlio/map/mrpt_compat.h>
 
 namespace fastlio
 {
@@ -56,7 +56,7 @@ void expectBothFormsAreRead(const Map& map)
   registerBridgeClasses();
   const std::string old_form = bytesOf(map);
   std::vector<std::string> forms = {old_form};
-  if (MRPT_VERSION < 0x20f03) forms.push_back(inNewerForm(old_form));
+  if (!FASTLIO_MRPT_READS_NEWER_POINTS) forms.push_back(inNewerForm(old_form));
   for (const std::string& form : forms)
   {
     const auto read = readBack<Map>(form);

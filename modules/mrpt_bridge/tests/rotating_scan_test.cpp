@@ -172,7 +172,7 @@ TEST_F(RotatingScanTest, TheForeignLayoutIsSavedFromFrames)
   const std::string native = serialize({rangeScan()});
   const auto at = bytes.find(native);
   ASSERT_NE(at, std::string::npos);
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_ROTATING_POINTS
   bytes.replace(at, native.size(), before2_11_4(*rangeScan()));
 #else
   bytes.replace(at, native.size(), since2_11_4(*rangeScan()));
@@ -195,7 +195,7 @@ TEST_F(RotatingScanTest, ServesAsALidar)
   EXPECT_EQ(bridge.statistics().points_no_return, 16U);
 }
 
-#if MRPT_VERSION < 0x20b04
+#if !FASTLIO_MRPT_HAS_ROTATING_POINTS
 TEST_F(RotatingScanTest, ImagesInFilesOfTheirOwnAreLoaded)
 {
   const auto original = rangeScan();

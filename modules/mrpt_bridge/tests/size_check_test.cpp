@@ -28,6 +28,8 @@ using namespace fastlio_test;
 class SizeCheckTest : public testing::Test
 {
  protected:
+  SizeCheckTest() { registerBridgeClasses(); }
+
   SizeVerdict verdictOn(const std::string& bytes)
   {
     write(folder_.file("object"), bytes);

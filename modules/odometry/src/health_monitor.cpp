@@ -37,41 +37,51 @@ double share(const ScanStatistics& s, std::size_t points)
   return points > 0 ? static_cast<double>(s.points_effective) / static_cast<double>(points) : 0.0;
 }
 
-/** Keeps the worst. */
-void consider(ScanHealth& health, double value, HealthCause cause, const std::string& reason)
+/** Keeps the worst. \param reason makes the text, which is needed in trouble only */
+template <typename Reason>
+void consider(ScanHealth& health, double value, HealthCause cause, const Reason& reason)
 {
   if (value >= health.value) return;
   health.value = value;
   health.cause = cause;
-  health.reason = value < kTrouble ? reason : std::string();
+  health.reason = value < kTrouble ? reason() : std::string();
 }
 
 void considerShare(const ScanStatistics& s, const HealthParameters& limits, ScanHealth& health)
 {
   consider(
       health, above(share(s, s.points_reduced), limits.min_share), HealthCause::FewMatches,
-      mrpt::format(
-          "%zu of %zu points match the map, less than a share of %g (health.min_share)",
-          s.points_effective, s.points_reduced, limits.min_share));
+      [&]
+      {
+        return mrpt::format(
+            "%zu of %zu points match the map, less than a share of %g (health.min_share)",
+            s.points_effective, s.points_reduced, limits.min_share);
+      });
 }
 
 void considerMatches(const ScanStatistics& s, const HealthParameters& limits, ScanHealth& health)
 {
   consider(
       health, below(s.normalized_innovation, limits.max_innovation), HealthCause::LargeResidual,
-      mrpt::format(
-          "the residuals are %.1f times what their noise explains, more than %g "
-          "(health.max_innovation): wrong pose, extrinsic, time offset or point times?",
-          s.normalized_innovation, limits.max_innovation));
+      [&]
+      {
+        return mrpt::format(
+            "the residuals are %.1f times what their noise explains, more than %g "
+            "(health.max_innovation): wrong pose, extrinsic, time offset or point times?",
+            s.normalized_innovation, limits.max_innovation);
+      });
   const double information = above(s.information_eigenvalues[0], limits.min_information);
   const bool known = s.constraints.unconstrained > 0;
   consider(
       health, known ? std::max(information, kOpenButKnown) : information,
       HealthCause::OpenDirection,
-      mrpt::format(
-          "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
-          "less than %g (health.min_information)",
-          s.information_eigenvalues[0], limits.min_information));
+      [&]
+      {
+        return mrpt::format(
+            "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
+            "less than %g (health.min_information)",
+            s.information_eigenvalues[0], limits.min_information);
+      });
 }
 
 void considerInertialData(
@@ -79,20 +89,31 @@ void considerInertialData(
 {
   consider(
       health, below(doubtful, limits.max_doubtful), HealthCause::InertialData,
-      mrpt::format(
-          "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, more "
-          "than %.0f %% (health.max_doubtful)",
-          100.0 * doubtful, 100.0 * limits.max_doubtful));
+      [&]
+      {
+        return mrpt::format(
+            "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
+            "more "
+            "than %.0f %% (health.max_doubtful)",
+            100.0 * doubtful, 100.0 * limits.max_doubtful);
+      });
   consider(
       health, below(x.gyro_bias.norm(), limits.max_gyro_bias), HealthCause::Bias,
-      mrpt::format(
-          "the gyro's bias has run to %.2f deg/s, more than %.2f (health.max_gyro_bias)",
-          kDegPerRad * x.gyro_bias.norm(), kDegPerRad * limits.max_gyro_bias));
+      [&]
+      {
+        return mrpt::format(
+            "the gyro's bias has run to %.2f deg/s, more than %.2f (health.max_gyro_bias)",
+            kDegPerRad * x.gyro_bias.norm(), kDegPerRad * limits.max_gyro_bias);
+      });
   consider(
       health, below(x.accel_bias.norm(), limits.max_accel_bias), HealthCause::Bias,
-      mrpt::format(
-          "the accelerometer's bias has run to %.2f m/s^2, more than %.2f (health.max_accel_bias)",
-          x.accel_bias.norm(), limits.max_accel_bias));
+      [&]
+      {
+        return mrpt::format(
+            "the accelerometer's bias has run to %.2f m/s^2, more than %.2f "
+            "(health.max_accel_bias)",
+            x.accel_bias.norm(), limits.max_accel_bias);
+      });
 }
 }  // namespace
 
@@ -108,12 +129,13 @@ void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& 
   const std::int64_t since_ns = last_ns_ == 0 ? result.begin_ns : last_ns_;
   const double interval_s = kNsToS * static_cast<double>(result.stamp_ns - since_ns);
   last_ns_ = result.stamp_ns;
+  const auto message = [&] { return result.message; };
   if (result.status == ScanStatus::Initializing)
-    consider(health, 0.0, HealthCause::Starting, result.message);
+    consider(health, 0.0, HealthCause::Starting, message);
   else if (result.status == ScanStatus::Diverged)
-    consider(health, 0.0, HealthCause::Lost, result.message);
+    consider(health, 0.0, HealthCause::Lost, message);
   else if (result.status == ScanStatus::PredictionOnly)
-    consider(health, kPredicted, HealthCause::NoMatch, result.message);
+    consider(health, kPredicted, HealthCause::NoMatch, message);
   else if (result.status == ScanStatus::Tracking)
   {
     if (young_scans_ == 0) considerShare(result.statistics, limits_, health);
@@ -126,10 +148,13 @@ void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& 
       doubtfulShare(doubts, since_ns, result.stamp_ns), result.filter.x, limits_, health);
   consider(
       health, below(interval_s, limits_.max_scan_interval), HealthCause::ScanTiming,
-      mrpt::format(
-          "%.2f s since the scan before, more than %g (health.max_scan_interval): scans are "
-          "missing, or the LiDAR's stamps jump",
-          interval_s, limits_.max_scan_interval));
+      [&]
+      {
+        return mrpt::format(
+            "%.2f s since the scan before, more than %g (health.max_scan_interval): scans are "
+            "missing, or the LiDAR's stamps jump",
+            interval_s, limits_.max_scan_interval);
+      });
   result.health = std::move(health);
 }
 

@@ -17,6 +17,8 @@ namespace
 constexpr std::size_t kColumns = 100;
 constexpr double kFullCircle = 0.9;          // share of the azimuths
 constexpr double kElevationTolerance = 4.0;  // [deg]
+// The sky returns nothing: what is missing at the upper edge counts less, which allows ten degrees.
+constexpr double kMissingSky = 0.4;
 
 /** Comment lines of at most kColumns characters. */
 std::string comment(const std::string& text)
@@ -59,7 +61,9 @@ double difference(const Preset& preset, const LidarAppearance& lidar)
   constexpr double kNever = 1e9;
   if (preset.full_circle != (lidar.coverage >= kFullCircle)) return kNever;
   if (preset.lines > 0 && lidar.lines > 0 && preset.lines != lidar.lines) return kNever;
-  return std::max(std::abs(preset.lowest - lidar.lowest), std::abs(preset.highest - lidar.highest));
+  const double missing = preset.highest - lidar.highest;
+  const double upper = missing > 0.0 ? kMissingSky * missing : -missing;
+  return std::max(std::abs(preset.lowest - lidar.lowest), upper);
 }
 
 std::string appearanceText(const LidarAppearance& lidar)

@@ -76,6 +76,7 @@ void ScanIntake::add(LidarScan scan, std::int64_t clock_offset_ns)
   else
   {
     newest_ns_ = std::max(*newest_ns_, end_ns);
+    ahead_ns_.reset();  // only the very next scan confirms one far ahead
     ++believed_;
   }
   sortIn(shifted(std::move(queued), offset_ns_));

@@ -91,6 +91,10 @@ TEST(Presets, EachIsFoundByItsLabelAndByItsLooks)
     EXPECT_FALSE(match.named);
   }
   EXPECT_EQ(fittingPreset({"lidar", 4, -2, 2, 0.3}).preset, nullptr);
+  // In a street the upper beams meet the sky; the lower ones always meet the ground.
+  ASSERT_NE(fittingPreset({"lidar", 64, -24.9, 8.0, 1.0}).preset, nullptr);
+  EXPECT_EQ(fittingPreset({"lidar", 64, -24.9, 8.0, 1.0}).preset->name, "hesai_pandar64");
+  EXPECT_EQ(fittingPreset({"lidar", 64, -17.5, 15.0, 1.0}).preset, nullptr);
 }
 
 }  // namespace fastlio

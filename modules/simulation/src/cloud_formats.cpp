@@ -30,7 +30,7 @@ mrpt::maps::CPointsMap::Ptr makeXyzi(const PointColumns& points)
 
 mrpt::maps::CPointsMap::Ptr makeGeneric(const PointColumns& points, std::vector<double> times)
 {
-#if MRPT_VERSION >= 0x20f00
+#if FASTLIO_MRPT_HAS_GENERIC_MAP
   (void)times;
   throw std::runtime_error(
       "lidar.cloud: generic is written with MRPT older than 2.15 only; " +

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/mrpt_compat.h>
+#include <fastlio/map/mrpt_compat.h>
 #include <fastlio/mrpt_bridge/output/levelled_scan.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
 #include <fastlio/mrpt_bridge/output/scan_in_world.h>
@@ -214,7 +214,7 @@ unsigned int CMetricMapBuilderLIO::getCurrentlyBuiltMapSize()
 
 BuiltMap CMetricMapBuilderLIO::getCurrentlyBuiltMetricMap() const
 {
-  return asBuiltMap(metric_map_);
+  return asBuiltMap<BuiltMap>(metric_map_);
 }
 
 void CMetricMapBuilderLIO::saveCurrentEstimationToImage(

@@ -3,7 +3,7 @@
 
 #include "gzip_file.h"
 #include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/mrpt_compat.h>
+#include <fastlio/map/mrpt_compat.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
 #include <fastlio/mrpt_bridge/output/number_text.h>
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>

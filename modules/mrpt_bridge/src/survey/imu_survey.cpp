@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/mrpt_bridge/survey/imu_survey.h>
+#include <fastlio/odometry/imu_units.h>
 
 #include <algorithm>
 #include <array>
@@ -104,9 +105,9 @@ Stretch longestRest(const std::vector<Moments>& windows)
 
 std::string unitOf(double magnitude)
 {
-  for (const auto& [si, name] :
-       {std::pair{1.0, "m/s^2"}, {kStandardGravity, "g"}, {1e-3 * kStandardGravity, "mg"}})
-    if (std::abs(magnitude * si / kStandardGravity - 1.0) < kNearGravity) return name;
+  for (const AccelUnit unit : {AccelUnit::Si, AccelUnit::G, AccelUnit::MilliG})
+    if (std::abs(magnitude * siPerUnit(unit) / kStandardGravity - 1.0) < kNearGravity)
+      return toString(unit);
   return {};
 }
 }  // namespace

@@ -7,10 +7,9 @@
  * that reads every version of its stream format and writes what newer versions read. */
 #pragma once
 
-#include <mrpt/version.h>
+#include <fastlio/map/mrpt_compat.h>
 
-// MRPT_VERSION has two hexadecimal digits per part since 2.10.2 (0x20a02); 2.5.8 is 0x258.
-#if MRPT_VERSION >= 0x20f00
+#if FASTLIO_MRPT_HAS_GENERIC_MAP
 #include <mrpt/maps/CGenericPointsMap.h>
 #else
 

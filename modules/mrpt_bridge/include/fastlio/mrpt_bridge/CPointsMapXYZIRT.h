@@ -9,10 +9,9 @@
  * read, and written so that newer versions read them. */
 #pragma once
 
-#include <mrpt/version.h>
+#include <fastlio/map/mrpt_compat.h>
 
-// MRPT_VERSION has two hexadecimal digits per part since 2.10.2 (0x20a02); 2.5.8 is 0x258.
-#if MRPT_VERSION >= 0x20b04
+#if FASTLIO_MRPT_HAS_XYZIRT
 #include <mrpt/maps/CPointsMapXYZIRT.h>
 #else
 

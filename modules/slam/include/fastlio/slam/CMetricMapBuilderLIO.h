@@ -5,12 +5,13 @@
  * mrpt::slam::CMetricMapBuilder. */
 #pragma once
 
+#include <fastlio/map/mrpt_compat.h>
 #include <fastlio/mrpt_bridge/output/levelled_scan.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
-#include <fastlio/slam/mrpt_compat.h>
 
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/slam/CMetricMapBuilder.h>
 
 #include <deque>
 #include <mutex>
@@ -19,6 +20,9 @@
 
 namespace fastlio
 {
+/** How a builder hands over its metric map. */
+using BuiltMap = BuiltMapOf<mrpt::slam::CMetricMapBuilder>;
+
 /** CMetricMapBuilder over CLidarInertialOdometry: sensory frames with scans and inertial samples
  * in, poses and maps out. Actions are not used: the motion is measured.
  *
