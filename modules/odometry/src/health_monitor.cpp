@@ -50,12 +50,14 @@ void consider(ScanHealth& health, double value, HealthCause cause, const Reason&
 void considerShare(const ScanStatistics& s, const HealthParameters& limits, ScanHealth& health)
 {
   consider(
-      health, above(share(s, s.points_reduced), limits.min_share), HealthCause::FewMatches,
+      health, above(share(s, s.points_reduced), limits.min_share * s.usual_share),
+      HealthCause::FewMatches,
       [&]
       {
         return mrpt::format(
-            "%zu of %zu points match the map, less than a share of %g (health.min_share)",
-            s.points_effective, s.points_reduced, limits.min_share);
+            "%zu of %zu points match the map, less than %g of the share that matched before, %.3f "
+            "(health.min_share)",
+            s.points_effective, s.points_reduced, limits.min_share, s.usual_share);
       });
 }
 
@@ -120,7 +122,7 @@ void considerInertialData(
 bool evidenceIsGood(
     const ScanStatistics& statistics, std::size_t points, const HealthParameters& limits)
 {
-  return share(statistics, points) >= limits.min_share;
+  return share(statistics, points) >= limits.min_share * statistics.usual_share;
 }
 
 void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& result)

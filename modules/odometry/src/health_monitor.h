@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** A scan matches as it does when the pose is right: health.min_share holds. (Residuals alone do
+/** A scan matches as those before it did: health.min_share holds. (Residuals alone do
  * not tell: along a tunnel they grow although the pose is right but for one direction.) \param
  * points of the scan that could have matched */
 [[nodiscard]] bool evidenceIsGood(

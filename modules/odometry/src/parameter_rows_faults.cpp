@@ -56,7 +56,8 @@ ParameterRows healthRows()
 {
   return {
       {"health.min_share", "", RealValue{[](auto& p) { return &p.health.min_share; }, 0.0, 1.0},
-       "a scan is in trouble when a smaller share of its points match the map"},
+       "a scan is in trouble when the share of its points that match the map is smaller than this "
+       "part of the share that matched in the fifty scans before"},
       {"health.max_innovation", "",
        RealValue{[](auto& p) { return &p.health.max_innovation; }, 0.1, 1e6},
        "a scan is in trouble when the mean of the squared residuals over their variance is larger; "

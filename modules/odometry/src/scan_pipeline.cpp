@@ -23,6 +23,7 @@ namespace
 constexpr double kNsToS = 1e-9;
 // So many scans of a map do not match much yet.
 constexpr std::uint32_t kYoungMapInsertions = 20;
+constexpr int kSharesAveraged = 50;  // scans
 
 Vector6 eigenvalues(const Matrix6& m)
 {
@@ -231,12 +232,14 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
     result.status = ScanStatus::FirstScan;
   else if (!update.updated)
     result.status = ScanStatus::PredictionOnly;
-  const ScanStatistics& s = result.statistics;
+  ScanStatistics& s = result.statistics;
+  s.usual_share = usual_share_;
   // Without matches there is no evidence: what the scans before have shown goes on.
   if (result.status != ScanStatus::PredictionOnly)
     evidence_good_ = !parameters_.health.freeze_map || insertions_ < kYoungMapInsertions ||
                      evidenceIsGood(s, compensated_.points.size(), parameters_.health);
   if (result.status != ScanStatus::PredictionOnly && evidence_good_) last_update_ns_ = state_ns_;
+  if (result.status == ScanStatus::Tracking && evidence_good_) learnUsualShare(s);
 
   const double unaided_s = static_cast<double>(state_ns_ - last_update_ns_) * kNsToS;
   const double position_std =
@@ -261,6 +264,15 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
         update.last.count, compensated_.points.size(), parameters_.measurement.min_effective_points,
         unaided_s, position_std,
         prediction_finite_ ? "" : "; the inertial data overflowed the prediction");
+}
+
+/** What share of the points matches depends on the place: nearly all in a room, few on a meadow. */
+void ScanPipeline::learnUsualShare(const ScanStatistics& statistics)
+{
+  shares_ = std::min(shares_ + 1, kSharesAveraged);
+  const double share = static_cast<double>(statistics.points_effective) /
+                       static_cast<double>(std::max<std::size_t>(compensated_.points.size(), 1));
+  usual_share_ += (share - usual_share_) / shares_;
 }
 
 FilterState ScanPipeline::considerMapError(const ScanGain& gain)

@@ -90,6 +90,7 @@ class ScanPipeline
   void constrainGravity();
   void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
+  void learnUsualShare(const ScanStatistics& statistics);
   void considerRest(ScanResult& result);
   [[nodiscard]] UpdateResult findMap(const FilterState& predicted);
   void judgeRecovery(ScanResult& result);
@@ -125,6 +126,8 @@ class ScanPipeline
   PlaneGrouping planes_;
   MapErrorModel map_error_;
   std::uint32_t insertions_ = 0;
+  double usual_share_ = 0.0;  // of the points that match this map, of late
+  int shares_ = 0;            // that it is the mean of
 
   // Reused between scans.
   PointSelector selector_;

@@ -150,6 +150,8 @@ void ScanPipeline::beginNewMap()
   edges_ = EdgeStage(parameters_);
   map_error_ = {};
   insertions_ = 0;
+  usual_share_ = 0.0;
+  shares_ = 0;
 }
 
 }  // namespace fastlio

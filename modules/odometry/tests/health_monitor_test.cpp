@@ -29,6 +29,7 @@ ScanResult goodScan(std::int64_t index = 1)
   r.status = ScanStatus::Tracking;
   r.statistics.points_reduced = 1000;
   r.statistics.points_effective = 600;
+  r.statistics.usual_share = 0.5;
   r.statistics.normalized_innovation = 0.9;
   r.statistics.information_eigenvalues.setConstant(1e5);
   return r;
@@ -66,7 +67,7 @@ TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
        [&](ScanResult& r, double k)
        {
          r.statistics.points_reduced = 100000;
-         r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 100000 / k);
+         r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 50000 / k);
        }},
       {HealthCause::LargeResidual, "health.max_innovation",
        [&](ScanResult& r, double k)

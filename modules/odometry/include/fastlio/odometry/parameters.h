@@ -212,7 +212,7 @@ struct RestParameters
 /** Group `health`: limits beyond which a scan is in trouble. */
 struct HealthParameters
 {
-  double min_share = 0.1;        //!< of the points that match the map
+  double min_share = 0.2;        //!< of the share of the points that matched the map before
   double max_innovation = 3.0;   //!< mean of z^2/r
   double min_information = 100;  //!< smallest eigenvalue of H^T R^-1 H
   double max_doubtful = 0.25;    //!< share of the time that the inertial data are in doubt
