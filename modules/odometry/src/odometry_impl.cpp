@@ -94,7 +94,9 @@ void Odometry::Impl::addScan(LidarScan scan)
     return;
   }
   scan.stamp_ns += static_cast<std::int64_t>(parameters_.lidar.time_offset * kSToNs);
-  intake_.add(std::move(scan), conditioner_.clockOffset());
+  const auto inertial_ns =
+      imu_.empty() ? std::nullopt : std::optional<std::int64_t>(imu_.newestStamp());
+  intake_.add(std::move(scan), conditioner_.clockOffset(), inertial_ns);
 }
 
 void Odometry::Impl::finishInputs()

@@ -54,7 +54,8 @@ void ScanIntake::dropFuture()
   ++bad_stamps_;
 }
 
-void ScanIntake::add(LidarScan scan, std::int64_t clock_offset_ns)
+void ScanIntake::add(
+    LidarScan scan, std::int64_t clock_offset_ns, std::optional<std::int64_t> inertial_ns)
 {
   const ScanSpan span = spanOf(scan);
   QueuedScan queued = {std::move(scan), span};
@@ -70,7 +71,8 @@ void ScanIntake::add(LidarScan scan, std::int64_t clock_offset_ns)
     ++late_;
     return;
   }
-  const bool confirmed = ahead_ns_ && std::abs(end_ns - *ahead_ns_) <= max_ahead_ns_;
+  const bool confirmed = ahead_ns_ && std::abs(end_ns - *ahead_ns_) <= max_ahead_ns_ &&
+                         (!inertial_ns || end_ns - *inertial_ns <= max_ahead_ns_);
   if (end_ns - *newest_ns_ > max_ahead_ns_ && !confirmed)
     ahead_ns_ = end_ns;
   else

@@ -23,8 +23,11 @@ class ScanIntake
   ScanIntake(double max_step, double max_ahead);
 
   /** \param scan not empty, with stamps that are times
-   * \param clock_offset_ns what is added to the inertial stamps now */
-  void add(LidarScan scan, std::int64_t clock_offset_ns);
+   * \param clock_offset_ns what is added to the inertial stamps now
+   * \param inertial_ns newest inertial stamp, if there is one: scans far ahead of it are not
+   * believed
+   */
+  void add(LidarScan scan, std::int64_t clock_offset_ns, std::optional<std::int64_t> inertial_ns);
   /** Takes scans from the past for those of a clock that was set back, when it was. */
   void reconsider(std::int64_t clock_offset_ns);
   /** Scans from the past are lost. */
