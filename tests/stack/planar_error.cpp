@@ -3,8 +3,8 @@
 
 #include "planar_error.h"
 
-#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/map/mrpt_compat.h>
+#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

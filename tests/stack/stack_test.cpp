@@ -21,6 +21,7 @@ namespace fastlio::testing
 namespace
 {
 using RawlogEdit = StackTest;
+using IcpSlam = StackTest;
 using ObservationsToMap = StackTest;
 using GraphSlam = StackTest;
 
@@ -66,51 +67,29 @@ TEST_F(RawlogEdit, ListsTheOdometryOfEveryScan)
         << result.output;
 }
 
-/** 2D SLAM on the planar scans, with our odometry and without. Ten scans per second of a walk find
- * each other without any odometry; of one scan per second the odometry has to say where to
- * look. */
-class IcpSlam : public StackTest
+/** 2D SLAM on the planar scans, with our odometry and without: ten scans per second of a walk find
+ * each other without any odometry, so that the figures are alike. */
+TEST_F(IcpSlam, MapsOnThePlanarScans)
 {
- protected:
-  PlanarError mapError(const std::string& name)
+  REQUIRE_PROGRAM("icp-slam");
+  REQUIRE_PROGRAM("rawlog-edit");
+  keepFewScans(stack().output("observations", "odometry.rawlog"), file("with.rawlog"), 1);
+  const auto removed =
+      run("rawlog-edit", {"--remove-label", "odometry,odometry_2d", "-i", file("with.rawlog"), "-o",
+                          file("without.rawlog"), "--overwrite"});
+  ASSERT_EQ(removed.exit_status, 0) << removed.output;
+  std::map<std::string, PlanarError> errors;
+  for (const std::string name : {"with", "without"})
   {
     const auto config =
         write(name + ".ini", icpConfiguration(file(name + ".rawlog"), file("icp-" + name)));
     const auto result = run("icp-slam", {config});
-    EXPECT_EQ(result.exit_status, 0) << result.output;
-    const auto error = errorOf(file("icp-" + name + "/_finalmap_.simplemap"), stack().simulation());
-    tell("icp-slam " + name, error);
-    return error;
+    ASSERT_EQ(result.exit_status, 0) << result.output;
+    errors[name] = errorOf(file("icp-" + name + "/_finalmap_.simplemap"), stack().simulation());
+    tell("icp-slam " + name + " odometry", errors[name]);
   }
-
-  void withoutOdometry(const std::string& from, const std::string& to)
-  {
-    const auto removed =
-        run("rawlog-edit", {"--remove-label", "odometry,odometry_2d", "-i", file(from + ".rawlog"),
-                            "-o", file(to + ".rawlog"), "--overwrite"});
-    ASSERT_EQ(removed.exit_status, 0) << removed.output;
-  }
-};
-
-TEST_F(IcpSlam, MapsOnThePlanarScans)
-{
-  REQUIRE_PROGRAM("icp-slam");
-  keepFewScans(stack().output("observations", "odometry.rawlog"), file("every_scan.rawlog"), 1);
-  const PlanarError error = mapError("every_scan");
-  EXPECT_GT(error.key_frames, 10U);
-  EXPECT_LT(error.rms, 0.25);
-}
-
-TEST_F(IcpSlam, MapsFewScansWithOurOdometryOnly)
-{
-  REQUIRE_PROGRAM("icp-slam");
-  REQUIRE_PROGRAM("rawlog-edit");
-  keepFewScans(stack().output("observations", "odometry.rawlog"), file("with.rawlog"), 10);
-  withoutOdometry("with", "without");
-  const PlanarError with = mapError("with"), without = mapError("without");
-  EXPECT_GT(with.key_frames, 10U);
-  EXPECT_LT(with.rms, 0.25);
-  EXPECT_GT(without.rms, 4.0 * with.rms);
+  EXPECT_GT(errors["with"].key_frames, 10U);
+  EXPECT_LT(errors["with"].rms, 0.25);
 }
 
 TEST_F(ObservationsToMap, BuildsTheRoomsFromTheKeyFrames)
