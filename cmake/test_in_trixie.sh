@@ -25,6 +25,8 @@ mounted "$root/proc" || mount -t proc proc "$root/proc"
 trap 'umount "$root/proc"' EXIT
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 
+# Nothing of an earlier state stays but what was built.
 mkdir -p "$root/mrpt_fastlio"
+find "$root/mrpt_fastlio" -mindepth 1 -maxdepth 1 ! -name build -exec rm -r {} +
 git -C "$source" archive HEAD | tar -x -C "$root/mrpt_fastlio"
 chroot "$root" sh -c 'apt-get install --yes --quiet make git && cd /mrpt_fastlio && make test'
