@@ -68,7 +68,9 @@ namespace mrpt::maps
 {
 CGenericPointsMap& CGenericPointsMap::operator=(const CGenericPointsMap& other)
 {
-  if (this != &other) impl_copyFrom(other);
+  if (this == &other) return *this;
+  impl_copyFrom(other);
+  copyFields(other);
   return *this;
 }
 
@@ -111,9 +113,16 @@ void CGenericPointsMap::insertPointFast(float x, float y, float z)
   forEachField([&](auto& values) { values.push_back(0); });
 }
 
+#if !FASTLIO_MRPT_COPIES_POINTS_ITSELF
 void CGenericPointsMap::impl_copyFrom(const CPointsMap& other)
 {
   CPointsMap::base_copyFrom(other);
+  copyFields(other);
+}
+#endif
+
+void CGenericPointsMap::copyFields(const CPointsMap& other)
+{
   const auto* generic = dynamic_cast<const CGenericPointsMap*>(&other);
   const CGenericPointsMap none;
   const CGenericPointsMap& from = generic != nullptr ? *generic : none;

@@ -29,6 +29,8 @@
 #define FASTLIO_MRPT_HAS_ROTATING_POINTS (MRPT_VERSION >= 0x20b04)
 /** CSimpleMap consists of key frames that have a twist. */
 #define FASTLIO_MRPT_HAS_KEYFRAMES (MRPT_VERSION >= 0x20b05)
+/** CPointsMap::impl_copyFrom() is final and knows MRPT's own fields only. */
+#define FASTLIO_MRPT_COPIES_POINTS_ITSELF (MRPT_VERSION >= 0x20d02)
 /** mrpt::maps::CGenericPointsMap. */
 #define FASTLIO_MRPT_HAS_GENERIC_MAP (MRPT_VERSION >= 0x20f00)
 /** Reads CSimplePointsMap and CPointsMapXYZI as 2.15.3 writes them. */

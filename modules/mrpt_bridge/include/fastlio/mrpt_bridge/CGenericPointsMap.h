@@ -55,13 +55,16 @@ class CGenericPointsMap : public CSimplePointsMap
   /** @} */
 
  protected:
+#if !FASTLIO_MRPT_COPIES_POINTS_ITSELF
   void impl_copyFrom(const CPointsMap& other) override;
+#endif
   void addFrom_classSpecific(
       const CPointsMap& other, size_t previous_size, bool skip_points_at_zero) override;
   void internal_clear() override;
   void PLY_import_set_vertex_count(size_t count) override;
 
  private:
+  void copyFields(const CPointsMap& other);
   template <typename Change>
   void forEachField(Change change);
 };
