@@ -4,12 +4,12 @@
 #include "newer_points_maps.h"
 
 #include "point_map_stream.h"
+#include <fastlio/map/mrpt_compat.h>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
-#include <fastlio/map/mrpt_compat.h>
 
 #include <iostream>
 #include <memory>
@@ -93,7 +93,9 @@ template <typename Reader>
 void readWith(const mrpt::rtti::TRuntimeClassId* native)
 {
   static mrpt::rtti::TRuntimeClassId id = *native;
-  id.ptrCreateObject = [] { return std::make_shared<Reader>(); };
+  // A function in some versions of MRPT, a pointer to one in others.
+  id.ptrCreateObject = []() -> std::shared_ptr<mrpt::rtti::CObject>
+  { return std::make_shared<Reader>(); };
   mrpt::rtti::registerClassCustomName(native->className, &id);
 }
 }  // namespace
