@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -192,10 +193,10 @@ TEST(Xyzirt, unequal_columns_are_refused)
 {
   CloudColumns columns = threePoints();
   columns.ring.pop_back();
-  EXPECT_THROW(fastlio::makeXyzirt(columns), std::invalid_argument);
+  EXPECT_THROW((void)fastlio::makeXyzirt(columns), std::invalid_argument);
   columns = threePoints();
   columns.y.clear();
-  EXPECT_THROW(fastlio::makeXyzirt(columns), std::invalid_argument);
+  EXPECT_THROW((void)fastlio::makeXyzirt(columns), std::invalid_argument);
 }
 
 TEST(Xyzirt, copies_and_appends_keep_the_fields)
