@@ -102,8 +102,9 @@ mrpt::obs::CObservationPointCloud cloudAt(double t)
   cloud.sensorLabel = "lidar";
   cloud.timestamp = mrpt::Clock::fromDouble(kStart + t);
   const auto points = Map::Create();
-  for (int i = 0; i < 12; ++i)
-    points->insertPoint(static_cast<float>(i), 2.0F, 0.1F * static_cast<float>(i));
+  points->resize(12);
+  for (std::size_t i = 0; i < points->size(); ++i)
+    points->setPointFast(i, static_cast<float>(i), 2.0F, 0.1F * static_cast<float>(i));
   cloud.pointcloud = points;
   return cloud;
 }

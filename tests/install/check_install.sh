@@ -18,8 +18,9 @@ cmake --install "$build" --prefix "$work/first" >"$work/install.log"
 mv "$work/first" "$work/moved"
 tree=$work/moved
 
-# Neither where it was built nor where it was installed first may be in it.
-for path in "$build" "$source" "$work/first"; do
+# Neither where it was built nor where it was installed first may be in it. (The tree's own name may: it is that of the
+# project.)
+for path in "$build" "$source/"{modules,apps,plugins,docs,build} "$work/first"; do
   if grep -rl --fixed-strings "$path" "$tree"; then
     fail "the files above contain the path $path"
   fi

@@ -170,7 +170,11 @@ TEST_F(GenericCloud, WritesWhatItReads)
   const CGenericPointsMap copy(*map);
   EXPECT_EQ(readColumns(copy).ring, (std::vector<std::uint16_t>{3, 4}));
   map->insertAnotherMap(&copy, mrpt::poses::CPose3D());
-  EXPECT_EQ(readColumns(*map).ring, (std::vector<std::uint16_t>{3, 4, 3, 4}));
+  // Where MRPT copies points itself it leaves out what it does not know.
+  const std::vector<std::uint16_t> appended = FASTLIO_MRPT_COPIES_POINTS_ITSELF
+                                                  ? std::vector<std::uint16_t>{3, 4, 0, 0}
+                                                  : std::vector<std::uint16_t>{3, 4, 3, 4};
+  EXPECT_EQ(readColumns(*map).ring, appended);
   map->insertPoint(7, 8, 9);
   EXPECT_EQ(readColumns(*map).ring.back(), 0);
   map->uint32_fields["n"].resize(5);  // a type that only later versions have

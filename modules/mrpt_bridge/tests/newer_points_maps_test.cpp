@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/map/mrpt_compat.h>
 #include <fastlio/mrpt_bridge/register_classes.h>
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/serialization/CArchive.h>
-#include <fastlio/map/mrpt_compat.h>
 
 namespace fastlio
 {
@@ -81,10 +81,13 @@ TEST(NewerPointsMaps, SimpleOnesAreReadInBothForms)
 TEST(NewerPointsMaps, ThoseWithIntensityToo)
 {
   mrpt::maps::CPointsMapXYZI map;
-  for (int i = 0; i < 10; ++i)
-    map.insertPointFast(static_cast<float>(i), 2.0F, -static_cast<float>(i));
+  map.resize(10);
   for (std::size_t i = 0; i < map.size(); ++i)
-    map.setPointIntensity(i, 0.5F * static_cast<float>(i));
+  {
+    const auto x = static_cast<float>(i);
+    map.setPointFast(i, x, 2.0F, -x);
+    map.setPointIntensity(i, 0.5F * x);
+  }
   map.likelihoodOptions.decimation = 7;
   expectBothFormsAreRead(map);
 }

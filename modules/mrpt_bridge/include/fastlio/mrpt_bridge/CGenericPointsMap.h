@@ -4,7 +4,9 @@
 /** \file CGenericPointsMap.h The point map with any named fields, on every MRPT.
  *
  * MRPT has mrpt::maps::CGenericPointsMap since 2.15.0. Older versions get a class of the same name
- * that reads every version of its stream format and writes what newer versions read. */
+ * that reads every version of its stream format and writes what newer versions read. With
+ * MRPT 2.13.2 to 2.14 points of another map are appended without their fields, which are zero then.
+ */
 #pragma once
 
 #include <fastlio/map/mrpt_compat.h>
