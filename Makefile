@@ -113,7 +113,7 @@ lint: lint-dependencies build
 
 packages:
 	@cmake/install_dependencies.sh build packages
-	cmake --preset baseline -DBUILD_TESTING=OFF -B build/packages
+	cmake --preset baseline -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/usr -B build/packages
 	cmake --build build/packages --parallel $(JOBS)
 	cd build/packages && cpack
 
