@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/map/mrpt_compat.h>
+#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/output/levelled_scan.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
 #include <fastlio/mrpt_bridge/output/scan_in_world.h>

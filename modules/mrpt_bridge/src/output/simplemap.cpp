@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "gzip_file.h"
-#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/map/mrpt_compat.h>
+#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
 #include <fastlio/mrpt_bridge/output/number_text.h>
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>

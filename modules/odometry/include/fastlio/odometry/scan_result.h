@@ -69,9 +69,9 @@ struct ScanStatistics
   std::size_t dropped_far = 0;       //!< farther than lidar.max_range
   std::size_t points_reduced = 0;    //!< after the voxel grid
   std::size_t points_effective = 0;  //!< matched with a plane in the last iteration
-  double usual_share = 0.0;          //!< of the points that matched in the scans before; 0: none did
-  std::size_t imu_samples = 0;       //!< inertial samples of this scan's interval
-  std::size_t map_points = 0;        //!< points in the map after the scan
+  double usual_share = 0.0;     //!< of the points that matched in the scans before; 0: none did
+  std::size_t imu_samples = 0;  //!< inertial samples of this scan's interval
+  std::size_t map_points = 0;   //!< points in the map after the scan
   int iterations = 0;
   bool converged = false;
   bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
