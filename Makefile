@@ -63,8 +63,10 @@ test: test-dependencies
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
 	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
-faults: build
-	$(BUILD_DIR)/tests/faults/test_faults
+faults: test-dependencies
+	cmake --preset $(TEST_PRESET)
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults
+	build/$(TEST_PRESET)/tests/faults/test_faults
 
 fuzz:
 	@cmake/install_dependencies.sh build fuzz
