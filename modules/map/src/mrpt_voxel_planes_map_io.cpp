@@ -1,15 +1,13 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/io/CMemoryStream.h>
-#include <mrpt/io/zip.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <fstream>
 #include <ostream>
 #include <stdexcept>
 
@@ -61,21 +59,11 @@ void CVoxelPlanesMap::serializeFrom(CArchive& in, std::uint8_t version)
 
 void CVoxelPlanesMap::saveToFile(const std::string& path) const
 {
-  // Compressed in memory: MRPT's gzip file stream does not tell a full disk.
-  mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream) << *this;
-  const auto* first = static_cast<const std::uint8_t*>(stream.getRawBufferData());
-  const std::vector<std::uint8_t> plain(first, first + stream.getTotalBytesCount());
-  std::vector<std::uint8_t> gzipped;
-  if (!mrpt::io::zip::compress_gz_data_block(plain, gzipped))
-    throw std::runtime_error("the map could not be compressed; is there enough memory?");
-  std::ofstream file(path, std::ios::binary);
-  const auto* bytes = reinterpret_cast<const char*>(gzipped.data());
-  file.write(bytes, static_cast<std::streamsize>(gzipped.size()));
-  file.close();
-  if (!file)
-    throw std::runtime_error(
-        "map file '" + path + "' cannot be written; check the folder and the space on the disk");
+  // MRPT's gzip file stream does not tell a full disk, and its compression in memory goes through a
+  // temporary file whose name two programs may share.
+  GzipFile file(path);
+  mrpt::serialization::archiveFrom(file) << *this;
+  file.commit();
 }
 
 void CVoxelPlanesMap::loadFromFile(const std::string& path)

@@ -19,6 +19,7 @@
 #include <mrpt/system/filesystem.h>
 
 #include <cstring>
+#include <unistd.h>
 
 using namespace fastlio;
 using namespace fastlio::test;
@@ -81,7 +82,12 @@ void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& 
 class TemporaryFile
 {
  public:
-  TemporaryFile() : name_(mrpt::system::getTempFileName()) {}
+  TemporaryFile()
+      : name_(
+            ::testing::TempDir() + "fastlio_map_" + std::to_string(::getpid()) +
+            ::testing::UnitTest::GetInstance()->current_test_info()->name())
+  {
+  }
   ~TemporaryFile() { mrpt::system::deleteFile(name_); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

@@ -13,9 +13,11 @@
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 #include <unistd.h>
 
 using namespace fastlio;
@@ -183,6 +185,31 @@ TEST_F(VoxelPlanesMapFile, IsSavedAndLoaded)
   CVoxelPlanesMap loaded;
   loaded.loadFromFile(path_);
   expectSameMap(map, loaded);
+}
+
+// MRPT's compression in memory goes through a temporary file whose name others get, too.
+TEST_F(VoxelPlanesMapFile, SeveralAreSavedAtTheSameTime)
+{
+  registerMapClasses();
+  const CVoxelPlanesMap map = unusualMap();
+  const std::size_t points = map.points().size();
+  std::array<std::size_t, 4> loaded_points{};
+  std::array<std::thread, 4> savers;
+  for (std::size_t i = 0; i < savers.size(); ++i)
+    savers.at(i) = std::thread(
+        [&, i]
+        {
+          const std::string path = path_ + std::to_string(i);
+          CVoxelPlanesMap(map).saveToFile(path);
+          CVoxelPlanesMap loaded;
+          EXPECT_NO_THROW(loaded.loadFromFile(path));
+          loaded_points.at(i) = loaded.points().size();
+          std::filesystem::remove(path);
+        });
+  for (std::thread& saver : savers)
+    saver.join();
+  for (const std::size_t count : loaded_points)
+    EXPECT_EQ(count, points);
 }
 
 TEST_F(VoxelPlanesMapFile, RepresentationIsPointsAndArchive)

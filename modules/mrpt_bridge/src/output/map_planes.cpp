@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "gzip_file.h"
+#include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/mrpt_bridge/output/standard_exporters.h>
 

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "gzip_file.h"
+#include <fastlio/files/gzip_file.h>
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/output/levelled_scan.h>
 #include <fastlio/mrpt_bridge/output/mrpt_poses.h>
