@@ -12,9 +12,8 @@ namespace
 {
 constexpr const char* kDescription =
     "Looks at a recording without running the odometry on it: sensors, rates, gaps, what the times "
-    "of "
-    "points mean, units and noise of the IMU at rest, time offset and mounting of the LiDAR by the "
-    "motion that both see, and what fastlio-replay would do.";
+    "of points mean, units and noise of the IMU at rest, time offset and mounting of the LiDAR by "
+    "the motion that both see, and what fastlio-replay would do.";
 constexpr const char* kFooter = R"(Exit status:
   0  fastlio-replay can run on the recording
   1  wrong usage or configuration

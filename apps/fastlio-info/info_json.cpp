@@ -142,6 +142,7 @@ Json motionJson(const RecordingSurvey& survey)
       {"correlation", motion.correlation}};
   if (!motion.conclusive) return all;
   all["time_offset_s"] = motion.time_offset;
+  all["time_offset_std_s"] = motion.time_offset_std;
   all["imu_rate_over_lidar_rate"] = motion.scale;
   if (motion.rotation_known) all["mounting_error_deg"] = kDegreesPerRadian * survey.rotation_error;
   return all;

@@ -132,12 +132,14 @@ std::string motionText(const RecordingSurvey& survey)
   if (!motion.conclusive)
     return text + line(
                       "motion", format(
-                                    "not conclusive: %zu pairs of scans, correlation %.2f",
-                                    motion.turns, motion.correlation));
+                                    "not conclusive: %zu pairs of scans, correlation %.2f, "
+                                    "time offset known to %.3f s",
+                                    motion.turns, motion.correlation, motion.time_offset_std));
   text += line(
       "offset", format(
-                    "lidar.time_offset of about %.3f s (%zu pairs of scans, correlation %.2f)",
-                    motion.time_offset, motion.turns, motion.correlation));
+                    "lidar.time_offset of about %.3f s +- %.3f s (%zu pairs of scans, correlation "
+                    "%.2f)",
+                    motion.time_offset, motion.time_offset_std, motion.turns, motion.correlation));
   text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
   return text + line(
                     "mounting",

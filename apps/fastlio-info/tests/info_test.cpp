@@ -21,7 +21,7 @@ namespace
 using Json = nlohmann::json;
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-constexpr double kRough = 0.02;  // motion within a scan is not compensated [s]
+constexpr double kRough = 0.01;  // motion within a scan is taken as steady [s]
 
 class Info : public ::testing::Test
 {

@@ -8,13 +8,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fastlio
 {
 namespace
 {
 constexpr double kStep = 0.005;           // of the offsets that are tried [s]
-constexpr double kConclusive = 0.9;       // correlation
+constexpr double kConclusive = 0.95;      // correlation
+constexpr double kSharp = 0.01;           // standard deviation of the offset [s]
 constexpr double kLeastRate = 0.05;       // RMS of the LiDAR's rate: slower tells nothing [rad/s]
 constexpr double kLeastSecondAxis = 0.1;  // of the strongest axis' singular value
 constexpr std::size_t kFewestTurns = 10;
@@ -118,11 +120,29 @@ MotionCheck compare(const RatePairs& pairs)
   return check;
 }
 
-/** Where the parabola through three equidistant values has its top, in steps from the middle. */
-double topOf(double before, double middle, double after)
+/** A parabola through three equidistant values, kStep apart. */
+struct Parabola
 {
-  const double bend = before - 2.0 * middle + after;
-  return bend < 0 ? std::clamp(0.5 * (before - after) / bend, -1.0, 1.0) : 0.0;
+  double before, middle, after;
+
+  [[nodiscard]] double bend() const { return (before - 2.0 * middle + after) / (kStep * kStep); }
+
+  /** Where its top is, from the middle; nowhere else than between the values. */
+  [[nodiscard]] double top() const
+  {
+    if (!(bend() < 0)) return 0.0;
+    return std::clamp(0.5 * (before - after) / (kStep * bend()), -kStep, kStep);
+  }
+};
+
+/** Of the offset where the correlation of n pairs has its top: with unit variances, pairs that are
+ * dt off differ by -bend dt^2 more than their noise does, 1 - correlation^2. */
+double offsetDeviation(const MotionCheck& check, double bend)
+{
+  const double noise = 1.0 - check.correlation * check.correlation;
+  const double information = -bend * static_cast<double>(check.turns);
+  return information > 0 ? std::sqrt(std::max(noise, 0.0) / information)
+                         : std::numeric_limits<double>::infinity();
 }
 }  // namespace
 
@@ -140,12 +160,14 @@ MotionCheck checkMotion(
     const double correlation = correlationAt(step);
     if (correlation > best_correlation) best = step, best_correlation = correlation;
   }
-  const double offset =
-      kStep * (best + topOf(correlationAt(best - 1), best_correlation, correlationAt(best + 1)));
+  const Parabola parabola{correlationAt(best - 1), best_correlation, correlationAt(best + 1)};
+  const double offset = kStep * best + parabola.top();
   MotionCheck check = compare(pairsAt(turns, angle, offset));
   check.time_offset = offset;
+  check.time_offset_std = offsetDeviation(check, parabola.bend());
   // At the edge there is no maximum.
-  if (std::abs(best) == most) check.conclusive = check.rotation_known = false;
+  if (std::abs(best) == most || check.time_offset_std > kSharp)
+    check.conclusive = check.rotation_known = false;
   return check;
 }
 

@@ -80,32 +80,75 @@ class Gatherer
   std::optional<std::int64_t> newest_imu_ns_;
 };
 
+/** A scan whose points can be brought to its middle, as far as its motion is known. */
+struct TimedScan
+{
+  LidarScan scan;
+  std::int64_t middle_ns = 0;
+};
+
+TimedScan timed(const LidarScan& scan)
+{
+  const ScanSpan span = spanOf(scan);
+  return {scan, span.begin_ns + (span.end_ns - span.begin_ns) / 2};
+}
+
+/** The points as seen from the pose at the scan's middle, under a steady motion.
+ * \param motion per second, in the LiDAR's axes: rotation vector [rad/s], translation [m/s] */
+PointColumns seenFromMiddle(const TimedScan& timed_scan, const Vec3& rate, const Vec3& velocity)
+{
+  const LidarScan& scan = timed_scan.scan;
+  PointColumns points = scan.points;
+  if (!scan.has_point_times) return points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
+    const double dt = 1e-9 * static_cast<double>(stamp_ns - timed_scan.middle_ns);
+    const Vec3 p(points.x[i], points.y[i], points.z[i]);
+    const Vec3 q = expSO3(rate * dt) * p + velocity * dt;
+    points.x[i] = static_cast<float>(q.x());
+    points.y[i] = static_cast<float>(q.y());
+    points.z[i] = static_cast<float>(q.z());
+  }
+  return points;
+}
+
 /** Rotations between scans that follow each other. */
 class TurnFinder
 {
  public:
   void add(const LidarScan& scan)
   {
-    const ScanSpan span = spanOf(scan);
-    const std::int64_t middle_ns = span.begin_ns + (span.end_ns - span.begin_ns) / 2;
-    if (earlier_.size() > 0) match(scan.points, middle_ns);
-    earlier_ = scan.points;
-    earlier_ns_ = middle_ns;
+    TimedScan later = timed(scan);
+    if (earlier_.scan.points.size() > 0) match(later);
+    earlier_ = std::move(later);
   }
 
   std::vector<ScanTurn> take() { return std::move(turns_); }
 
  private:
-  void match(const PointColumns& points, std::int64_t middle_ns)
+  /** Twice: what the first pass finds is how the points of both scans moved. */
+  void match(const TimedScan& later)
   {
-    const auto motion = matchScans(earlier_, points, guess_);
+    const double seconds = 1e-9 * static_cast<double>(later.middle_ns - earlier_.middle_ns);
+    std::optional<Pose> motion = guess_;
+    for (int pass = 0; pass < 2 && motion && seconds > 0; ++pass)
+    {
+      const Vec3 rate = logSO3(motion->R) / seconds, velocity = motion->p / seconds;
+      motion = matchScans(
+          seenFromMiddle(earlier_, 0.5 * (rate + rate_), 0.5 * (velocity + velocity_)),
+          seenFromMiddle(later, rate, velocity), *motion);
+    }
     guess_ = motion.value_or(Pose{});
-    if (motion) turns_.push_back({earlier_ns_, middle_ns, logSO3(motion->R)});
+    if (!motion || !(seconds > 0)) return;
+    rate_ = logSO3(motion->R) / seconds;
+    velocity_ = motion->p / seconds;
+    turns_.push_back({earlier_.middle_ns, later.middle_ns, logSO3(motion->R)});
   }
 
-  PointColumns earlier_;
-  std::int64_t earlier_ns_ = 0;
-  Pose guess_;
+  TimedScan earlier_;
+  Pose guess_;                                          // motion of the pair before
+  Vec3 rate_ = Vec3::Zero(), velocity_ = Vec3::Zero();  // and what it is per second
   std::vector<ScanTurn> turns_;
 };
 }  // namespace
