@@ -113,8 +113,9 @@ class SpinningModel : public LidarModel
  private:
   [[nodiscard]] double elevation(int line) const
   {
-    if (settings_.lines == 1) return 0.0;
-    return settings_.vertical_fov * (static_cast<double>(line) / (settings_.lines - 1) - 0.5);
+    if (settings_.lines == 1) return settings_.elevation;
+    const double share = static_cast<double>(line) / (settings_.lines - 1);
+    return settings_.elevation + settings_.vertical_fov * (share - 0.5);
   }
 
   LidarSettings settings_;

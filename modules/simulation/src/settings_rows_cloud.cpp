@@ -32,8 +32,7 @@ std::vector<SettingRow> cloudRows()
       {"lidar.point_time_unit", "", unit, "unit of the times of points in clouds"},
       {"lidar.point_time_reference", "", reference,
        "zero of the times of points and stamp of the scan; absolute: times since 1970, the stamp "
-       "is "
-       "that of the first shot"}};
+       "is that of the first shot"}};
 }
 
 }  // namespace fastlio

@@ -62,33 +62,33 @@ struct Parser
   {
     const auto value = number<double>(text);
     if (!value || !(*value >= s.min && *value <= s.max)) return false;
-    s.member(settings) = *value * s.si_per_unit;
+    *s.member(settings) = *value * s.si_per_unit;
     return true;
   }
   bool operator()(const CountSetting& s) const
   {
     const auto value = number<int>(text);
     if (!value || *value < s.min || *value > s.max) return false;
-    s.member(settings) = *value;
+    *s.member(settings) = *value;
     return true;
   }
   bool operator()(const SeedSetting& s) const
   {
     const auto value = number<std::uint64_t>(text);
-    if (value) s.member(settings) = *value;
+    if (value) *s.member(settings) = *value;
     return value.has_value();
   }
   bool operator()(const EpochSetting& s) const
   {
     const auto value = number<std::int64_t>(text);
     if (!value || *value < 0 || *value > kLastEpoch) return false;
-    s.member(settings) = *value * kNsPerSecond;
+    *s.member(settings) = *value * kNsPerSecond;
     return true;
   }
   bool operator()(const SwitchSetting& s) const
   {
     if (text != "true" && text != "false") return false;
-    s.member(settings) = text == "true";
+    *s.member(settings) = text == "true";
     return true;
   }
   bool operator()(const KindSetting& s) const
@@ -96,7 +96,7 @@ struct Parser
     const auto& names = lidarKindNames();
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) return false;
-    s.member(settings) = static_cast<LidarKind>(found - names.begin());
+    *s.member(settings) = static_cast<LidarKind>(found - names.begin());
     return true;
   }
   bool operator()(const ChoiceSetting& s) const
@@ -109,13 +109,13 @@ struct Parser
   bool operator()(const VectorSetting& s) const
   {
     const auto v = numbers<3>(text);
-    if (v) s.member(settings) = Vec3((*v)[0], (*v)[1], (*v)[2]);
+    if (v) *s.member(settings) = Vec3((*v)[0], (*v)[1], (*v)[2]);
     return v.has_value();
   }
   bool operator()(const PoseSetting& s) const
   {
     const auto v = numbers<6>(text);
-    if (v) s.member(settings) = poseFromNumbers(*v);
+    if (v) *s.member(settings) = poseFromNumbers(*v);
     return v.has_value();
   }
 };
@@ -127,18 +127,18 @@ struct Formatter
 
   std::string operator()(const RealSetting& s)
   {
-    return formatted(s.member(settings) / s.si_per_unit);
+    return formatted(*s.member(settings) / s.si_per_unit);
   }
-  std::string operator()(const CountSetting& s) { return std::to_string(s.member(settings)); }
-  std::string operator()(const SeedSetting& s) { return std::to_string(s.member(settings)); }
+  std::string operator()(const CountSetting& s) { return std::to_string(*s.member(settings)); }
+  std::string operator()(const SeedSetting& s) { return std::to_string(*s.member(settings)); }
   std::string operator()(const EpochSetting& s)
   {
-    return std::to_string(s.member(settings) / kNsPerSecond);
+    return std::to_string(*s.member(settings) / kNsPerSecond);
   }
-  std::string operator()(const SwitchSetting& s) { return s.member(settings) ? "true" : "false"; }
+  std::string operator()(const SwitchSetting& s) { return *s.member(settings) ? "true" : "false"; }
   std::string operator()(const KindSetting& s)
   {
-    return std::string(lidarKindNames().at(static_cast<std::size_t>(s.member(settings))));
+    return std::string(lidarKindNames().at(static_cast<std::size_t>(*s.member(settings))));
   }
   std::string operator()(const ChoiceSetting& s)
   {
@@ -146,13 +146,13 @@ struct Formatter
   }
   std::string operator()(const VectorSetting& s)
   {
-    const Vec3& v = s.member(settings);
+    const Vec3& v = *s.member(settings);
     return formatted(v.x()) + "," + formatted(v.y()) + "," + formatted(v.z());
   }
   std::string operator()(const PoseSetting& s)
   {
     std::string text;
-    for (const double n : numbersFromPose(s.member(settings)))
+    for (const double n : numbersFromPose(*s.member(settings)))
       text += (text.empty() ? "" : ",") + formatted(std::round(n * 1e9) / 1e9);
     return text;
   }

@@ -94,6 +94,15 @@ TEST(Os64, CoversTheCircleAndItsFieldOfView)
   EXPECT_LT(quarter.direction.y(), -0.9);  // clockwise: to the right
 }
 
+TEST(Os64, LooksUpOrDownByItsElevation)
+{
+  LidarSettings settings = lidarOf(LidarKind::Os64, 10.0);
+  settings.elevation = -0.2;
+  const Sweep sweep = makeLidarModel(settings, 0)->sweep(0);
+  EXPECT_NEAR(std::asin(sweep.shots[0].direction.z()), -0.5925, 1e-12);
+  EXPECT_NEAR(std::asin(sweep.shots[63].direction.z()), 0.1925, 1e-12);
+}
+
 TEST(Livox, NeverShootsTheSamePatternTwice)
 {
   const auto model = makeLidarModel(lidarOf(LidarKind::Livox, 10.0), 0);

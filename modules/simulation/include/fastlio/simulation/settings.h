@@ -55,6 +55,7 @@ struct LidarSettings
   int lines = 64;               //!< os64: laser lines
   int columns = 1024;           //!< os64: columns per revolution
   double vertical_fov = 0.785;  //!< os64: angle between the outermost lines [rad]
+  double elevation = 0.0;       //!< os64: in the middle between the outermost lines [rad]
   double point_rate = 240e3;    //!< livox: shots per second [Hz]
   int stride = 1;               //!< only every so many-th column (firing) is fired
   double min_range = 1.0;       //!< nearer surfaces give no return [m]

@@ -17,7 +17,7 @@ namespace fastlio
 {
 /** Access to a member. */
 template <typename T>
-using SettingMember = T& (*)(SimulationSettings&);
+using SettingMember = T* (*)(SimulationSettings&);
 
 /** A finite number; member = si_per_unit * number in the text. */
 struct RealSetting

@@ -1,0 +1,127 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file preset_runs_test.cpp Every file in params/ on a simulated recording of the sensor that it
+ * is for: field of view, ranges, noise, place of the IMU and the format of its driver. */
+
+#include "process.h"
+#include "temporary_folder.h"
+#include <fastlio/evaluation/evaluate.h>
+#include <fastlio/evaluation/trajectory_io.h>
+#include <fastlio/odometry/presets.h>
+#include <fastlio/simulation/recording.h>
+#include <fastlio/simulation/scenario.h>
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+namespace fastlio
+{
+/** The name of a test in lists. */
+std::ostream& operator<<(std::ostream& out, const Preset& preset)
+{
+  return out << preset.name;
+}
+}  // namespace fastlio
+
+namespace fastlio::testing
+{
+namespace
+{
+constexpr double kRadPerDeg = M_PI / 180.0;
+constexpr int kLines = 32;  // of a sensor that exists with several numbers of them
+
+bool isOf(const Preset& preset, std::string_view maker)
+{
+  return preset.name.substr(0, maker.size()) == maker;
+}
+
+/** In which form the maker's driver writes scans. */
+void writeAsTheDriver(const Preset& preset, LidarSettings& lidar)
+{
+  if (preset.name == "velodyne_vlp16") return;  // raw packets
+  lidar.cloud = LidarCloud::Generic;
+  lidar.time_unit = CloudTimeUnit::Nanoseconds;
+  const bool absolute = isOf(preset, "hesai") || isOf(preset, "robosense");
+  if (absolute) lidar.time_unit = CloudTimeUnit::Seconds;
+  if (absolute) lidar.time_reference = CloudTimeReference::Absolute;
+}
+
+/** The Mid-360's pattern, which does not repeat, is stood in for by lines over its field of view.
+ */
+LidarSettings sensorOf(const Preset& preset)
+{
+  LidarSettings lidar;
+  lidar.kind = preset.name == "velodyne_vlp16" ? LidarKind::Vlp16
+               : preset.full_circle            ? LidarKind::Os64
+                                               : LidarKind::Livox;
+  lidar.lines = preset.lines > 0 ? preset.lines : kLines;
+  lidar.columns = 512;
+  lidar.vertical_fov = (preset.highest - preset.lowest) * kRadPerDeg;
+  lidar.elevation = 0.5 * (preset.highest + preset.lowest) * kRadPerDeg;
+  lidar.point_rate = 100e3;
+  lidar.min_range = preset.min_range;
+  lidar.max_range = preset.max_range;
+  lidar.range_noise = preset.range_noise;
+  if (preset.imu) lidar.T_imu_lidar.p = -*preset.imu;
+  writeAsTheDriver(preset, lidar);
+  return lidar;
+}
+
+SimulationSettings recordingOf(const Preset& preset)
+{
+  SimulationSettings settings = defaultSettings("campus");
+  settings.duration = 12.0;
+  settings.lidar = sensorOf(preset);
+  return settings;
+}
+
+std::vector<Preset> presets()
+{
+  return presetTable();
+}
+}  // namespace
+
+class PresetRuns : public ::testing::TestWithParam<Preset>
+{
+ protected:
+  ProcessResult run(std::vector<std::string> command)
+  {
+    return Process(command, folder_.file("log.txt")).wait();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(PresetRuns, KeepTheirSensorOnTrack)
+{
+  const RecordingFiles files =
+      writeRecording(Simulation(recordingOf(GetParam())), folder_.file("recording"));
+  const std::string tum = folder_.file("estimate.tum");
+  const std::string yaml =
+      std::string(FASTLIO_PARAMS_DIR "/") + std::string(GetParam().name) + ".yaml";
+  const ProcessResult replay = run(
+      {FASTLIO_REPLAY_PROGRAM, "-c", yaml, "--input-rawlog", files.rawlog, "--output-tum-path", tum,
+       "--frame", "imu"});
+  ASSERT_EQ(replay.exit_status, 0) << replay.output;
+  const double ape = evaluate(readTum(tum), readTum(files.ground_truth)).ape.translation.rmse;
+  EXPECT_LT(ape, 0.006) << replay.output;  // 0.001 to 0.0022 m were seen
+  std::cout << GetParam().name << ": APE " << ape << " m\n";
+}
+
+TEST_P(PresetRuns, AreNotWarnedAboutOnTheirSensor)
+{
+  const RecordingFiles files =
+      writeRecording(Simulation(recordingOf(GetParam())), folder_.file("recording"));
+  const ProcessResult info = run({FASTLIO_INFO_PROGRAM, files.rawlog, "--no-motion"});
+  EXPECT_EQ(info.exit_status, 0) << info.output;
+  EXPECT_EQ(info.output.find("WARNING"), std::string::npos) << info.output;
+  EXPECT_NE(info.output.find("fastlio-replay can run on this."), std::string::npos) << info.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Preset, PresetRuns, ::testing::ValuesIn(presets()),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
+
+}  // namespace fastlio::testing
