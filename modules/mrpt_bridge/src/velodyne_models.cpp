@@ -110,8 +110,7 @@ std::vector<LaserGeometry> defaultLasers(VelodyneModel model)
   }
   throw std::runtime_error(
       "HDL-64E: the observation holds no calibration of 64 lasers, and each sensor has its own. "
-      "Record "
-      "with the calibration file of the sensor.");
+      "Record with the calibration file of the sensor.");
 }
 
 // Calibration files give angles in degrees (XML) or radians (YAML); the sine next to the angle
