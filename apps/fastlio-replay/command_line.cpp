@@ -64,8 +64,7 @@ void addInputOptions(CLI::App& app, ReplayArguments& arguments)
   app.add_option(
          "--skip-first-n", arguments.skip_first_n,
          "Leave out everything before the LiDAR scan with this number (from 0); the platform must "
-         "rest "
-         "there")
+         "rest there")
       ->check(CLI::NonNegativeNumber.description(""))
       ->type_name("N");
   app.add_option(
@@ -107,8 +106,7 @@ void addMapOptions(CLI::App& app, ReplayArguments& arguments)
   app.add_option(
          "--initial-pose", arguments.initial_pose,
          "About where the body (--frame) is in that map: x,y,z,yaw,pitch,roll [m, deg]; default: "
-         "the "
-         "map's origin")
+         "the map's origin")
       ->delimiter(',')
       ->expected(6)
       ->needs(map)

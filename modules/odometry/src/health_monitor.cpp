@@ -95,8 +95,7 @@ void considerInertialData(
       {
         return mrpt::format(
             "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
-            "more "
-            "than %.0f %% (health.max_doubtful)",
+            "more than %.0f %% (health.max_doubtful)",
             100.0 * doubtful, 100.0 * limits.max_doubtful);
       });
   consider(

@@ -30,8 +30,7 @@ ParameterRows measurementRows()
            [](auto& p) { return &p.measurement.robust_kernel; },
            {"none", "huber", "cauchy", "geman_mcclure"}),
        "weight of large residuals within the gate: none weighs all alike, huber lets them pull "
-       "with "
-       "constant force, cauchy and geman_mcclure with less and less"},
+       "with constant force, cauchy and geman_mcclure with less and less"},
       {"measurement.robust_scale", "",
        RealValue{[](auto& p) { return &p.measurement.robust_scale; }, 0.1, 1000.0},
        "residual, in standard deviations, from which on the robust kernel acts"},
@@ -61,8 +60,7 @@ ParameterRows mapRows()
        "rebuilt for each scan, slow: the reference"},
       {"map.update", "", BooleanValue{[](auto& p) { return &p.map.update; }},
        "false: a map that the run is started in (--map-in) stays as it is; without such a map it "
-       "has "
-       "no effect"},
+       "has no effect"},
       {"map.output_spacing", "m",
        RealValue{[](auto& p) { return &p.map.output_spacing; }, 0.01, 100.0},
        "least distance between the points of the map that is saved; smaller: denser and larger "
@@ -72,8 +70,7 @@ ParameterRows mapRows()
       {"map.max_insertion_std", "m",
        RealValue{[](auto& p) { return &p.map.max_insertion_std; }, 0.0, 1e6},
        "a scan that does not match still joins the map while the predicted position is known "
-       "better "
-       "than this: lets a young map grow, keeps a lost one clean"},
+       "better than this: lets a young map grow, keeps a lost one clean"},
       {"map.min_spacing", "m", RealValue{[](auto& p) { return &p.map.min_spacing; }, 0.001, 10.0},
        "map types knn and kdtree: points nearer than this to one in the map are not added"},
       {"map.voxel_size", "m", RealValue{[](auto& p) { return &p.map.voxel_size; }, 0.01, 100.0},

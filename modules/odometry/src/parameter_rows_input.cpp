@@ -20,14 +20,12 @@ void addFurtherLidar(ParameterRows& rows, const FurtherKeys& keys)
   rows.push_back(
       {keys[0], "", RegexValue{[](auto& p) { return &p.further_lidars[kIndex].sensor_label; }},
        "regular expression that the whole sensor label of a further LiDAR matches, whose points "
-       "join "
-       "the scans of the first; empty: there is none"});
+       "join the scans of the first; empty: there is none"});
   rows.push_back(
       {keys[1], "m, deg",
        PoseValue{[](auto& p) { return &p.further_lidars[kIndex].T_vehicle_lidar; }},
        "pose of this LiDAR in the vehicle frame as [x, y, z, yaw, pitch, roll]; null: the sensor "
-       "pose "
-       "of the recording"});
+       "pose of the recording"});
   rows.push_back(
       {keys[2], "s",
        RealValue{[](auto& p) { return &p.further_lidars[kIndex].time_offset; }, -10.0, 10.0},
@@ -62,9 +60,9 @@ ParameterRows inputRows()
            [](auto& p) { return &p.input.point_time_reference; },
            {"auto", "stamp", "start", "middle", "end", "absolute"}),
        "what the time of each point refers to; stamp: time = stamp of the scan + t, of either "
-       "sign; "
-       "start, middle, end: the stamp is the time of the first point, midway, of the last point, "
-       "whatever t is there; absolute: t counts from 1970; auto: found from the data, and said"},
+       "sign; start, middle, end: the stamp is the time of the first point, midway, of the last "
+       "point, whatever t is there; absolute: t counts from 1970; auto: found from the data, and "
+       "said"},
       {"input.missing_point_times", "",
        enumeration(
            [](auto& p) { return &p.input.missing_point_times; },
@@ -72,9 +70,8 @@ ParameterRows inputRows()
        "point clouds without times; auto: from the azimuth where the order of the points shows a "
        "whole revolution, else none; none: no motion compensation (also right for clouds that are "
        "compensated already); clockwise, counterclockwise: from the azimuth of a LiDAR that turns "
-       "so "
-       "seen from above, beginning at input.sweep_start; point_time_reference then says what the "
-       "stamp is (auto: start)"},
+       "so seen from above, beginning at input.sweep_start; point_time_reference then says what "
+       "the stamp is (auto: start)"},
       {"input.sweep_start", "deg",
        RealValue{[](auto& p) { return &p.input.sweep_start; }, -180.0, 180.0, kRadPerDeg},
        "azimuth where a revolution begins, counter-clockwise from the x axis; used with "

@@ -16,8 +16,7 @@ ParameterRows mapStartRows()
       {"initialization.pose_position_std", "m",
        RealValue{[](auto& p) { return &p.initialization.pose_position_std; }, 0.0, 100.0},
        "a start in a given map (--map-in): uncertainty of the position that is given; the first "
-       "scan "
-       "is searched that far around it"},
+       "scan is searched that far around it"},
       {"initialization.pose_yaw_std", "deg",
        RealValue{[](auto& p) { return &p.initialization.pose_yaw_std; }, 0.0, 180.0, kRadPerDeg},
        "the same of the heading; searched to twice as much"},

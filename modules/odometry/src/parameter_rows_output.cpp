@@ -44,8 +44,7 @@ ParameterRows outputRows()
       {"output.exporters", "",
        TextValue{[](auto& p) { return &p.output.exporters; }, "names separated by commas"},
        "which files are written: names of docs/outputs.md, separated by commas; empty: the "
-       "standard "
-       "ones"},
+       "standard ones"},
       {"output.tile_size", "m", RealValue{[](auto& p) { return &p.output.tile_size; }, 1.0, 1e4},
        "the map that is saved is kept in pieces of this size"},
       {"output.map_memory", "million",

@@ -136,8 +136,7 @@ ParameterRows calibrationRows()
       {"calibration.estimate_extrinsic", "",
        BooleanValue{[](auto& p) { return &p.calibration.estimate_extrinsic; }},
        "true: the pose of the LiDAR in the IMU frame is part of the state; what the motion does "
-       "not "
-       "excite stays as given"},
+       "not excite stays as given"},
       {"calibration.extrinsic_rotation_std", "deg",
        RealValue{
            [](auto& p) { return &p.calibration.extrinsic_rotation_std; }, 0.0, 180.0, kRadPerDeg},

@@ -94,16 +94,13 @@ std::string headerOf(const Preset& preset)
   std::string text = comment(
       std::string(preset.title) +
       ". Every parameter with its effect, range, unit and default; keys that are left out keep "
-      "their "
-      "defaults.");
+      "their defaults.");
   text += comment("Figures: " + std::string(preset.source) + ".");
   if (preset.imu)
     text += comment(
         "For the built-in IMU: T_vehicle_imu is its place in the frame of the points, which is "
-        "taken "
-        "as that of the vehicle. With another IMU, or a recording with the poses of its sensors, "
-        "set "
-        "both T to null.");
+        "taken as that of the vehicle. With another IMU, or a recording with the poses of its "
+        "sensors, set both T to null.");
   if (!preset.remark.empty()) text += comment(std::string(preset.remark) + ".");
   return text;
 }

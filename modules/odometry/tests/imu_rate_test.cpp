@@ -17,12 +17,7 @@ namespace
 {
 const RoomRecording& room()
 {
-  static const RoomRecording recording = []
-  {
-    RoomSettings settings;
-    settings.duration = 5.0;
-    return recordRoom(settings);
-  }();
+  static const RoomRecording recording = recordRoom(5.0);
   return recording;
 }
 

@@ -23,12 +23,7 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 const RoomRecording& room()
 {
-  static const RoomRecording recording = []
-  {
-    RoomSettings settings;
-    settings.duration = 4.0;
-    return recordRoom(settings);
-  }();
+  static const RoomRecording recording = recordRoom(4.0);
   return recording;
 }
 

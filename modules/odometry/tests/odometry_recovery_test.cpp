@@ -18,12 +18,7 @@ namespace
 {
 const RoomRecording& room()
 {
-  static const RoomRecording recording = []
-  {
-    RoomSettings settings;
-    settings.duration = 9.0;
-    return recordRoom(settings);
-  }();
+  static const RoomRecording recording = recordRoom(9.0);
   return recording;
 }
 

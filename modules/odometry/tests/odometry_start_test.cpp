@@ -14,12 +14,7 @@ namespace
 {
 const RoomRecording& room()
 {
-  static const RoomRecording recording = []
-  {
-    RoomSettings settings;
-    settings.duration = 4.0;
-    return recordRoom(settings);
-  }();
+  static const RoomRecording recording = recordRoom(4.0);
   return recording;
 }
 

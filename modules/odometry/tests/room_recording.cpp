@@ -134,6 +134,13 @@ RoomRecording recordRoom(const RoomSettings& settings)
   return recording;
 }
 
+RoomRecording recordRoom(double duration)
+{
+  RoomSettings settings;
+  settings.duration = duration;
+  return recordRoom(settings);
+}
+
 Parameters roomParameters(const RoomSettings& settings)
 {
   Parameters p;

@@ -42,6 +42,9 @@ constexpr std::int64_t kRecordingStart = 1'700'000'000'000'000'000;
 
 [[nodiscard]] RoomRecording recordRoom(const RoomSettings& settings = {});
 
+/** The same room for so many seconds. */
+[[nodiscard]] RoomRecording recordRoom(double duration);
+
 /** Parameters with the recording's noise. */
 [[nodiscard]] Parameters roomParameters(const RoomSettings& settings = {});
 

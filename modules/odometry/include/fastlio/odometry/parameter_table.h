@@ -20,8 +20,7 @@
 
 namespace fastlio
 {
-/** Access to one member of Parameters, made from `[](auto& p) -> auto& { return p.group.name; }`.
- */
+/** Access to one member of Parameters, made from `[](auto& p) { return &p.group.name; }`. */
 template <typename T>
 class ParameterMember
 {
