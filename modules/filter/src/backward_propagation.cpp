@@ -35,10 +35,10 @@ std::size_t countBefore(const std::vector<ImuSample>& samples, std::int64_t end_
 
 /** One step of eq. 9 from the knot at the right to the stamp of the sample that holds before it.
  *
- * The forward step (eq. 4) takes acceleration and velocity at its left end, so going back the
- * attitude comes first, then the velocity, then the position, each with the left value just found:
- * the exact inverse of eq. 4. Eq. 9 as printed takes R_j and v_j at the right end; both agree to
- * first order in dt, the order of the scheme, but only this one meets the forward poses again. */
+ * The forward step (eq. 4) turns by half, accelerates there, and turns by the other half, so going
+ * back the attitude comes first, then the velocity, then the position with the mean of both
+ * velocities: the exact inverse of eq. 4. Eq. 9 as printed takes R_j and v_j at the right end; both
+ * agree to first order in dt, but only this one meets the forward poses again. */
 MotionKnot stepBack(
     const MotionKnot& right, const ImuSample& sample, const NavState& end_state, const Vec3& g_k)
 {
@@ -46,10 +46,11 @@ MotionKnot stepBack(
   MotionKnot left;
   left.stamp_ns = sample.stamp_ns;
   left.w = sample.gyro - end_state.gyro_bias;
+  const Mat3 R_middle = right.R * expSO3(-0.5 * dt * left.w);
   left.R.noalias() = right.R * expSO3(-dt * left.w);
-  left.a = left.R * (sample.accel - end_state.accel_bias) + g_k;
+  left.a = R_middle * (sample.accel - end_state.accel_bias) + g_k;
   left.v = right.v - dt * left.a;
-  left.p = right.p - dt * left.v;
+  left.p = right.p - dt * left.v - 0.5 * dt * dt * left.a;
   return left;
 }
 }  // namespace
@@ -86,7 +87,7 @@ Pose bodyPoseAt(const std::vector<MotionKnot>& knots, std::int64_t stamp_ns)
       [](std::int64_t stamp, const MotionKnot& knot) { return stamp < knot.stamp_ns; });
   const MotionKnot& left = right == knots.begin() ? knots.front() : *(right - 1);
   const double dt = secondsBetween(left.stamp_ns, stamp_ns);
-  return {left.R * expSO3(dt * left.w), left.p + dt * left.v};
+  return {left.R * expSO3(dt * left.w), left.p + dt * left.v + 0.5 * dt * dt * left.a};
 }
 
 }  // namespace fastlio

@@ -11,23 +11,29 @@ namespace fastlio
 namespace
 {
 /** The blocks of eq. 7 that are neither zero nor a multiple of the identity. Noise enters as the
- * biases do (n_w beside b_w, n_a beside b_a), so Fw has no blocks of its own. */
+ * biases do (n_w beside b_w, n_a beside b_a), so Fw has no blocks of its own; the position takes
+ * half of what the velocity takes, times dt. */
 struct ProcessBlocks
 {
   Mat3 attitude_attitude;    //!< Exp(-w dt)
   Mat3 attitude_gyro_bias;   //!< -A(w dt)^T dt
-  Mat3 velocity_attitude;    //!< -R [a]x dt
-  Mat3 velocity_accel_bias;  //!< -R dt
+  Mat3 velocity_attitude;    //!< -R [Exp(h) a]x dt, h = w dt / 2
+  Mat3 velocity_gyro_bias;   //!< R Exp(h) [a]x A(h)^T dt^2 / 2
+  Mat3 velocity_accel_bias;  //!< -R Exp(h) dt
 };
 
 ProcessBlocks processBlocks(const NavState& x, const Vec3& gyro, const Vec3& accel, double dt)
 {
-  const Vec3 angle = (gyro - x.gyro_bias) * dt;
+  const Vec3 angle = (gyro - x.gyro_bias) * dt, half = 0.5 * angle;
+  const Vec3 a = accel - x.accel_bias;
+  const Mat3 R_half = expSO3(half);
   ProcessBlocks b;
   b.attitude_attitude = expSO3(-angle);
   b.attitude_gyro_bias = -dt * leftJacobianSO3(angle).transpose();
-  b.velocity_accel_bias = -dt * x.R;
-  b.velocity_attitude.noalias() = b.velocity_accel_bias * skew(accel - x.accel_bias);
+  b.velocity_attitude.noalias() = -dt * x.R * skew(R_half * a);
+  b.velocity_accel_bias.noalias() = -dt * x.R * R_half;
+  const Mat3 turned = skew(a).lazyProduct(leftJacobianSO3(half).transpose());
+  b.velocity_gyro_bias = -0.5 * dt * b.velocity_accel_bias.lazyProduct(turned);
   return b;
 }
 
@@ -38,29 +44,36 @@ using MotionSquare = Eigen::Matrix<double, kMotionDim, kMotionDim>;
 /** The first nine rows of Fx P, for P a covariance or a product of such Fx. */
 MotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
 {
+  using Rows = Eigen::Matrix<double, 3, kStateDim>;
+  const Rows gained = dt * P.middleRows<3>(kGravity) +
+                      F.velocity_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
+                      F.velocity_gyro_bias.lazyProduct(P.middleRows<3>(kGyroBias)) +
+                      F.velocity_accel_bias.lazyProduct(P.middleRows<3>(kAccelBias));
   MotionRows m;
   m.middleRows<3>(kAttitude).noalias() =
       F.attitude_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
       F.attitude_gyro_bias.lazyProduct(P.middleRows<3>(kGyroBias));
-  m.middleRows<3>(kPosition) = P.middleRows<3>(kPosition) + dt * P.middleRows<3>(kVelocity);
-  m.middleRows<3>(kVelocity) = P.middleRows<3>(kVelocity) + dt * P.middleRows<3>(kGravity) +
-                               F.velocity_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
-                               F.velocity_accel_bias.lazyProduct(P.middleRows<3>(kAccelBias));
+  m.middleRows<3>(kPosition) =
+      P.middleRows<3>(kPosition) + dt * P.middleRows<3>(kVelocity) + (0.5 * dt) * gained;
+  m.middleRows<3>(kVelocity) = P.middleRows<3>(kVelocity) + gained;
   return m;
 }
 
 /** The first nine columns of (rows of Fx P) Fx^T. */
 MotionSquare rightMultiply(const MotionRows& m, const ProcessBlocks& F, double dt)
 {
+  using Columns = Eigen::Matrix<double, kMotionDim, 3>;
+  const Columns gained = dt * m.middleCols<3>(kGravity) +
+                         m.middleCols<3>(kAttitude).lazyProduct(F.velocity_attitude.transpose()) +
+                         m.middleCols<3>(kGyroBias).lazyProduct(F.velocity_gyro_bias.transpose()) +
+                         m.middleCols<3>(kAccelBias).lazyProduct(F.velocity_accel_bias.transpose());
   MotionSquare s;
   s.middleCols<3>(kAttitude).noalias() =
       m.middleCols<3>(kAttitude).lazyProduct(F.attitude_attitude.transpose()) +
       m.middleCols<3>(kGyroBias).lazyProduct(F.attitude_gyro_bias.transpose());
-  s.middleCols<3>(kPosition) = m.middleCols<3>(kPosition) + dt * m.middleCols<3>(kVelocity);
-  s.middleCols<3>(kVelocity) =
-      m.middleCols<3>(kVelocity) + dt * m.middleCols<3>(kGravity) +
-      m.middleCols<3>(kAttitude).lazyProduct(F.velocity_attitude.transpose()) +
-      m.middleCols<3>(kAccelBias).lazyProduct(F.velocity_accel_bias.transpose());
+  s.middleCols<3>(kPosition) =
+      m.middleCols<3>(kPosition) + dt * m.middleCols<3>(kVelocity) + (0.5 * dt) * gained;
+  s.middleCols<3>(kVelocity) = m.middleCols<3>(kVelocity) + gained;
   return s;
 }
 
@@ -69,12 +82,20 @@ MotionSquare rightMultiply(const MotionRows& m, const ProcessBlocks& F, double d
 void addNoise(StateMatrix& P, const ProcessBlocks& F, const ImuNoise& noise, double dt)
 {
   const auto square = [](double s) { return s * s; };
-  const Mat3& B = F.attitude_gyro_bias;
-  const Mat3 spread = square(noise.gyro_noise_density) / dt * B.lazyProduct(B.transpose());
+  Eigen::Matrix<double, kMotionDim, 3> by_gyro;
+  by_gyro.middleRows<3>(kAttitude) = F.attitude_gyro_bias;
+  by_gyro.middleRows<3>(kPosition) = (0.5 * dt) * F.velocity_gyro_bias;
+  by_gyro.middleRows<3>(kVelocity) = F.velocity_gyro_bias;
+  const MotionSquare spread =
+      square(noise.gyro_noise_density) / dt * by_gyro.lazyProduct(by_gyro.transpose());
   // In which order a compiler multiplies is its own affair; P stays symmetric to the bit.
-  P.block<3, 3>(kAttitude, kAttitude) += 0.5 * (spread + spread.transpose());
-  // (R dt) (R dt)^T / dt = I dt
-  P.diagonal().segment<3>(kVelocity).array() += square(noise.accel_noise_density) * dt;
+  P.topLeftCorner<kMotionDim, kMotionDim>() += 0.5 * (spread + spread.transpose());
+  // (R Exp(h) dt) (R Exp(h) dt)^T / dt = I dt
+  const double accel = square(noise.accel_noise_density) * dt;
+  P.diagonal().segment<3>(kVelocity).array() += accel;
+  P.diagonal().segment<3>(kPosition).array() += 0.25 * dt * dt * accel;
+  P.block<3, 3>(kPosition, kVelocity).diagonal().array() += 0.5 * dt * accel;
+  P.block<3, 3>(kVelocity, kPosition).diagonal().array() += 0.5 * dt * accel;
   P.diagonal().segment<3>(kGyroBias).array() += square(noise.gyro_bias_walk) * dt;
   P.diagonal().segment<3>(kAccelBias).array() += square(noise.accel_bias_walk) * dt;
 }
@@ -96,14 +117,18 @@ StateMatrix propagateCovariance(
 }
 }  // namespace
 
-// Eq. 2-3: x [+] dt f(x, u, w).
+// Eq. 2-3: x [+] dt f(x, u, w), of second order: with the attitude in the middle of the step, and
+// the position with the mean velocity.
 NavState propagateMean(
     const NavState& x, const Vec3& gyro, const Vec3& accel, double dt, const NoiseVector& w)
 {
+  const Vec3 rate = gyro - x.gyro_bias - w.segment<3>(0);
+  const Mat3 R_middle = x.R * expSO3(0.5 * dt * rate);
+  const Vec3 acceleration = R_middle * (accel - x.accel_bias - w.segment<3>(3)) + x.g;
   StateVector f = StateVector::Zero();
-  f.segment<3>(kAttitude) = gyro - x.gyro_bias - w.segment<3>(0);
-  f.segment<3>(kPosition) = x.v;
-  f.segment<3>(kVelocity) = x.R * (accel - x.accel_bias - w.segment<3>(3)) + x.g;
+  f.segment<3>(kAttitude) = rate;
+  f.segment<3>(kPosition) = x.v + 0.5 * dt * acceleration;
+  f.segment<3>(kVelocity) = acceleration;
   f.segment<3>(kGyroBias) = w.segment<3>(6);
   f.segment<3>(kAccelBias) = w.segment<3>(9);
   return boxplus(x, dt * f);
@@ -118,11 +143,17 @@ ProcessJacobians processJacobians(const NavState& x, const Vec3& gyro, const Vec
   j.Fx.block<3, 3>(kAttitude, kAttitude) = b.attitude_attitude;
   j.Fx.block<3, 3>(kAttitude, kGyroBias) = b.attitude_gyro_bias;
   j.Fx.block<3, 3>(kPosition, kVelocity) = I_dt;
-  j.Fx.block<3, 3>(kVelocity, kAttitude) = b.velocity_attitude;
-  j.Fx.block<3, 3>(kVelocity, kAccelBias) = b.velocity_accel_bias;
-  j.Fx.block<3, 3>(kVelocity, kGravity) = I_dt;
-  j.Fw.block<3, 3>(kAttitude, 0) = b.attitude_gyro_bias;
-  j.Fw.block<3, 3>(kVelocity, 3) = b.velocity_accel_bias;
+  const auto gains = [&j, dt](StateBlock of, const Mat3& block)
+  {
+    j.Fx.block<3, 3>(kVelocity, of) = block;
+    j.Fx.block<3, 3>(kPosition, of) = 0.5 * dt * block;
+  };
+  gains(kAttitude, b.velocity_attitude);
+  gains(kGyroBias, b.velocity_gyro_bias);
+  gains(kAccelBias, b.velocity_accel_bias);
+  gains(kGravity, I_dt);
+  j.Fw.topLeftCorner<kMotionDim, 3>() = j.Fx.block<kMotionDim, 3>(0, kGyroBias);
+  j.Fw.block<kMotionDim, 3>(0, 3) = j.Fx.block<kMotionDim, 3>(0, kAccelBias);
   j.Fw.block<3, 3>(kGyroBias, 6) = I_dt;
   j.Fw.block<3, 3>(kAccelBias, 9) = I_dt;
   return j;

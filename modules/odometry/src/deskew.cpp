@@ -27,8 +27,10 @@ MotionStep stepAt(
   step.middle_ns = middle_ns;
   step.M = (R * T_imu_lidar.R).cast<float>();
   step.N = (R_rate * T_imu_lidar.R).cast<float>();
-  step.b = (R * T_imu_lidar.p + knot.p + knot.v * dt).cast<float>();
-  step.c = (R_rate * T_imu_lidar.p + knot.v).cast<float>();
+  const Vec3 p = knot.p + dt * knot.v + 0.5 * dt * dt * knot.a;
+  const Vec3 v = knot.v + dt * knot.a;
+  step.b = (R * T_imu_lidar.p + p).cast<float>();
+  step.c = (R_rate * T_imu_lidar.p + v).cast<float>();
   return step;
 }
 

@@ -118,12 +118,13 @@ WorstErrors worstErrors(const LidarScan& scan, const std::vector<MotionKnot>& kn
 
 TEST(Deskew, FollowsFastRotation)
 {
+  // First order within a step: 0.1 mm at 10 m by the rotation, the same by the acceleration.
   const LidarScan scan = scanOver(0, std::int32_t(kLength), 5000);
   for (const double rate : {0.0, 0.1, 1.0, 5.0, 20.0})
     for (const std::int64_t period_ns : {1'250'000, 5'000'000, 10'000'000})
     {
       const WorstErrors worst = worstErrors(scan, motion(rate, period_ns));
-      EXPECT_LT(worst.position, 2e-4) << rate << " rad/s, period " << period_ns;
+      EXPECT_LT(worst.position, 4e-4) << rate << " rad/s, period " << period_ns;
       EXPECT_LT(worst.beam, 2e-5) << rate << " rad/s, period " << period_ns;
     }
 }
@@ -196,9 +197,10 @@ TEST(Deskew, TakesTheChosenPointsOnly)
 
 TEST(Deskew, MovesPointsOutsideOfTheKnotsWithTheNearestStep)
 {
-  // 3 ms before the first and after the last knot, at 2 rad/s: second order, 10 m * 0.01^2 / 2.
+  // 3 ms before the first and after the last knot, at 2 rad/s: second order, 10 m * 0.01^2 / 2, and
+  // as much again by the acceleration.
   const LidarScan scan = scanOver(-3'000'000, std::int32_t(kLength) + 3'000'000, 2000);
-  EXPECT_LT(worstErrors(scan, motion(2.0, 5'000'000)).position, 6e-4);
+  EXPECT_LT(worstErrors(scan, motion(2.0, 5'000'000)).position, 1e-3);
 }
 
 TEST(Deskew, PointsFarOutsideStayFinite)

@@ -104,8 +104,7 @@ TEST(VelodynePackets, MrptsDecoderFindsThePointsOfEachBlocksFirstFiring)
   EXPECT_GT(next, 10000U);
 }
 
-/** Microseconds since the hour. The packet's own function binds a reference to its packed member.
- */
+/** Microseconds since the hour; the packet's own function binds a reference to a packed member. */
 std::uint32_t timeOf(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPacket& packet)
 {
   constexpr std::size_t kOffset = 1200;

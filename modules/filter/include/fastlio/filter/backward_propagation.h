@@ -20,7 +20,8 @@ struct MotionKnot
   Vec3 p = Vec3::Zero();      //!< position of I_j in I_k [m]
   Vec3 v = Vec3::Zero();      //!< velocity at the knot, in I_k [m/s]
   Vec3 w = Vec3::Zero();      //!< bias-free rate held from this knot to the next [rad/s]
-  Vec3 a = Vec3::Zero();      //!< bias-free acceleration held likewise, gravity included, in I_k
+  Vec3 a = Vec3::Zero();      //!< bias-free acceleration held likewise, gravity included, in I_k;
+                              //!< with the attitude in the middle of that time
 };
 
 /** Eq. 9 from t_k backwards over the scan's inertial samples, as the exact inverse of the forward

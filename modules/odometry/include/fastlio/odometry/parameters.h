@@ -94,7 +94,7 @@ struct CalibrationParameters
   double extrinsic_rotation_std = 0.017453292519943295;  //!< of the given one [rad] (YAML: deg)
   double extrinsic_translation_std = 0.05;               //!< of the given one [m]
   bool estimate_time_offset = false;
-  double time_offset_std = 0.01;  //!< of the given lidar.time_offset [s]
+  double time_offset_std = 0.003;  //!< of the given lidar.time_offset [s]
 };
 
 /** Group `reduction`. */
