@@ -35,7 +35,7 @@ constexpr double kMeanNeesLower = 1.45, kMeanNeesUpper = 5.28;
 
 /** Of the components of biases and gravity; consistent: 0.997. The run to come is short and begins
  * at rest: what the rest tells of a bias is what a few seconds of noise make of it. */
-constexpr double kShareWithin3Sigma = 0.93;
+constexpr double kShareWithin3Sigma = 0.96;
 
 struct ConsistencyCase
 {

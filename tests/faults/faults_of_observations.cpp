@@ -214,7 +214,7 @@ std::vector<ObservationFault> observationFaults()
       {"scans dropped, 10 %", dropped(isLidar, 0.1), 1.5, 0.8},
       {"scans dropped, 50 %", dropped(isLidar, 0.5), 2.0, 0.35},
       {"inertial gap of 0.3 s in motion", gap(isImu, 5.0, 5.3), 3.0, 0.95},
-      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 150.0, 0.7},
+      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 250.0, 0.7},
       {"inertial gap of 1 s at rest", gap(isImu, 1.0, 2.0), 3.0, 0.5},
       {"no scans for 2 s in motion", gap(isLidar, 5.0, 7.0), 5.0, 0.6},
       {"no inertial samples at all", dropped(isImu, 1.0), 0.0, 0.0},
