@@ -169,6 +169,49 @@ TEST(StartAutomatically, AtRestIsTheRestingStart)
     EXPECT_EQ(rest.scans[i].result.filter.x.p, automatic.scans[i].result.filter.x.p);
 }
 
+// Within the second that starts it a velocity and an offset of the clocks look alike: the start is
+// found with the clocks as given, and the offset afterwards.
+struct ClockGate
+{
+  const char* scenario;
+  double offset;  // largest error of what is found [s]
+};
+
+std::ostream& operator<<(std::ostream& out, const ClockGate& gate)
+{
+  return out << gate.scenario;
+}
+
+class StartInMotionWithTheClocksApart : public ::testing::TestWithParam<ClockGate>
+{
+};
+
+TEST_P(StartInMotionWithTheClocksApart, IsNotRefused)
+{
+  constexpr double kOffset = 0.002;  // [s]
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    SimulationSettings settings = settingsOf(GetParam().scenario);
+    settings.seed = seed;
+    settings.lidar.time_offset = kOffset;
+    Parameters parameters = matchingParameters(settings);
+    parameters.threads = 1;
+    parameters.lidar.time_offset = 0.0;
+    parameters.initialization.mode = InitializationMode::Motion;
+    parameters.calibration.estimate_time_offset = true;
+    const SimulatedRun run = runOdometryFrom(kSwitchedOn, Simulation(settings), parameters);
+    EXPECT_LE(countOf(run, ScanStatus::Initializing), 10U);
+    const double found = run.scans.back().result.filter.x.time_offset;
+    EXPECT_NEAR(found, -kOffset, GetParam().offset) << "s";
+  }
+}
+
+// A steady rotation tells little about the offset.
+INSTANTIATE_TEST_SUITE_P(
+    Scenario, StartInMotionWithTheClocksApart,
+    ::testing::Values(ClockGate{"spin", 0.002}, ClockGate{"shake", 0.0003}));
+
 // Nothing tells the speed along a tunnel without features: no start is better than a wrong one.
 TEST(StartInMotionWhereTheScansAreBlind, IsRefusedWithTheDirection)
 {

@@ -208,6 +208,9 @@ MotionStart startInMotion(
   Parameters pass_parameters = parameters;
   pass_parameters.output.imu_rate = false;
   pass_parameters.health.freeze_map = false;  // a pass may begin far off
+  // A second of motion does not tell a velocity from an offset of the clocks.
+  pass_parameters.calibration.estimate_time_offset = false;
+  pass_parameters.calibration.estimate_extrinsic = false;
 
   NavState x0 = window.guess();
   MotionStart result;
