@@ -21,11 +21,14 @@ struct ProcessJacobians
   NoiseJacobian Fw;
 };
 
-/** x [+] dt f(x, u, w) of eq. 2-3, with the noise w for tests (zero in the filter, eq. 4). Of
- * second order in dt: the specific force is turned to the world with the attitude in the middle of
- * the step, and the position moves with the mean of the velocities at both ends. The scheme as
- * printed, of first order, lags by dt / 2. \param gyro w_m [rad/s] \param accel a_m [m/s^2] \param
- * dt [s] */
+/** x [+] dt f(x, u, w) of eq. 2-3, with the noise w for tests (zero in the filter, eq. 4).
+ *
+ * Of second order in dt: the specific force is turned to the world with the attitude in the middle
+ * of the step, and the position moves with the mean of the velocities at both ends. The scheme as
+ * printed, of first order, lags by dt / 2.
+ * \param gyro w_m [rad/s]
+ * \param accel a_m [m/s^2]
+ * \param dt [s] */
 [[nodiscard]] NavState propagateMean(
     const NavState& x, const Vec3& gyro, const Vec3& accel, double dt,
     const NoiseVector& w = NoiseVector::Zero());
