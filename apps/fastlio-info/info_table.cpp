@@ -7,6 +7,8 @@
 
 #include <mrpt/core/format.h>
 
+#include <cmath>
+
 namespace fastlio
 {
 namespace
@@ -130,11 +132,17 @@ std::string motionText(const RecordingSurvey& survey)
   if (!survey.motion) return text;
   const MotionCheck& motion = *survey.motion;
   if (!motion.conclusive)
+  {
+    const std::string sharpness =
+        std::isfinite(motion.time_offset_std)
+            ? format(", time offset known to %.3f s", motion.time_offset_std)
+            : "";
     return text + line(
                       "motion", format(
-                                    "not conclusive: %zu pairs of scans, correlation %.2f, "
-                                    "time offset known to %.3f s",
-                                    motion.turns, motion.correlation, motion.time_offset_std));
+                                    "not conclusive: %zu pairs of scans, correlation %.2f",
+                                    motion.turns, motion.correlation) +
+                                    sharpness);
+  }
   text += line(
       "offset", format(
                     "lidar.time_offset of about %.3f s +- %.3f s (%zu pairs of scans, correlation "

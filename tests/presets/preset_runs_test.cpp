@@ -43,9 +43,9 @@ void writeAsTheDriver(const Preset& preset, LidarSettings& lidar)
   if (preset.name == "velodyne_vlp16") return;  // raw packets
   lidar.cloud = LidarCloud::Generic;
   lidar.time_unit = CloudTimeUnit::Nanoseconds;
-  const bool absolute = isOf(preset, "hesai") || isOf(preset, "robosense");
-  if (absolute) lidar.time_unit = CloudTimeUnit::Seconds;
-  if (absolute) lidar.time_reference = CloudTimeReference::Absolute;
+  if (!isOf(preset, "hesai") && !isOf(preset, "robosense")) return;
+  lidar.time_unit = CloudTimeUnit::Seconds;
+  lidar.time_reference = CloudTimeReference::Absolute;
 }
 
 /** The Mid-360's pattern, which does not repeat, is stood in for by lines over its field of view.
@@ -75,11 +75,6 @@ SimulationSettings recordingOf(const Preset& preset)
   settings.duration = 12.0;
   settings.lidar = sensorOf(preset);
   return settings;
-}
-
-std::vector<Preset> presets()
-{
-  return presetTable();
 }
 }  // namespace
 
@@ -121,7 +116,7 @@ TEST_P(PresetRuns, AreNotWarnedAboutOnTheirSensor)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Preset, PresetRuns, ::testing::ValuesIn(presets()),
+    Preset, PresetRuns, ::testing::ValuesIn(presetTable()),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace fastlio::testing

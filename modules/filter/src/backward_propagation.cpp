@@ -76,6 +76,11 @@ void backwardPropagate(
 
 // T_Ik_Ij of eq. 10: inside an interval the same zero-order hold as between the knots, so that the
 // motion is continuous at them.
+Pose poseAfter(const MotionKnot& knot, double dt)
+{
+  return {knot.R * expSO3(dt * knot.w), knot.p + dt * knot.v + 0.5 * dt * dt * knot.a};
+}
+
 Pose bodyPoseAt(const std::vector<MotionKnot>& knots, std::int64_t stamp_ns)
 {
   if (knots.empty())
@@ -86,8 +91,7 @@ Pose bodyPoseAt(const std::vector<MotionKnot>& knots, std::int64_t stamp_ns)
       knots.begin(), knots.end(), stamp_ns,
       [](std::int64_t stamp, const MotionKnot& knot) { return stamp < knot.stamp_ns; });
   const MotionKnot& left = right == knots.begin() ? knots.front() : *(right - 1);
-  const double dt = secondsBetween(left.stamp_ns, stamp_ns);
-  return {left.R * expSO3(dt * left.w), left.p + dt * left.v + 0.5 * dt * dt * left.a};
+  return poseAfter(left, secondsBetween(left.stamp_ns, stamp_ns));
 }
 
 }  // namespace fastlio

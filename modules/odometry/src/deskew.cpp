@@ -20,16 +20,15 @@ MotionStep stepAt(
     const MotionKnot& knot, std::int64_t begin_ns, std::int64_t middle_ns, const Pose& T_imu_lidar)
 {
   const double dt = static_cast<double>(middle_ns - knot.stamp_ns) * 1e-9;
-  const Mat3 R = knot.R * expSO3(knot.w * dt);
-  const Mat3 R_rate = R * skew(knot.w);
+  const Pose middle = poseAfter(knot, dt);
+  const Vec3 v = knot.v + dt * knot.a;
+  const Mat3 R_rate = middle.R * skew(knot.w);
   MotionStep step;
   step.begin_ns = begin_ns;
   step.middle_ns = middle_ns;
-  step.M = (R * T_imu_lidar.R).cast<float>();
+  step.M = (middle.R * T_imu_lidar.R).cast<float>();
   step.N = (R_rate * T_imu_lidar.R).cast<float>();
-  const Vec3 p = knot.p + dt * knot.v + 0.5 * dt * dt * knot.a;
-  const Vec3 v = knot.v + dt * knot.a;
-  step.b = (R * T_imu_lidar.p + p).cast<float>();
+  step.b = (middle * T_imu_lidar.p).cast<float>();
   step.c = (R_rate * T_imu_lidar.p + v).cast<float>();
   return step;
 }

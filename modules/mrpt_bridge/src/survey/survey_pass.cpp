@@ -3,6 +3,7 @@
 
 #include "survey_pass.h"
 
+#include <fastlio/filter/backward_propagation.h>
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/imu_conversion.h>
 
@@ -93,9 +94,25 @@ TimedScan timed(const LidarScan& scan)
   return {scan, span.begin_ns + (span.end_ns - span.begin_ns) / 2};
 }
 
-/** The points as seen from the pose at the scan's middle, under a steady motion.
- * \param motion per second, in the LiDAR's axes: rotation vector [rad/s], translation [m/s] */
-PointColumns seenFromMiddle(const TimedScan& timed_scan, const Vec3& rate, const Vec3& velocity)
+/** Motion that takes so many seconds, as a steady one: rate and velocity, in the LiDAR's axes. */
+MotionKnot steadyMotion(const Pose& moved, double seconds)
+{
+  MotionKnot motion;
+  motion.w = logSO3(moved.R) / seconds;
+  motion.v = moved.p / seconds;
+  return motion;
+}
+
+MotionKnot meanOf(const MotionKnot& a, const MotionKnot& b)
+{
+  MotionKnot mean;
+  mean.w = 0.5 * (a.w + b.w);
+  mean.v = 0.5 * (a.v + b.v);
+  return mean;
+}
+
+/** The points as seen from the pose at the scan's middle, under a steady motion. */
+PointColumns seenFromMiddle(const TimedScan& timed_scan, const MotionKnot& motion)
 {
   const LidarScan& scan = timed_scan.scan;
   PointColumns points = scan.points;
@@ -103,9 +120,8 @@ PointColumns seenFromMiddle(const TimedScan& timed_scan, const Vec3& rate, const
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
-    const double dt = 1e-9 * static_cast<double>(stamp_ns - timed_scan.middle_ns);
-    const Vec3 p(points.x[i], points.y[i], points.z[i]);
-    const Vec3 q = expSO3(rate * dt) * p + velocity * dt;
+    const double dt = kSecondsPerNanosecond * static_cast<double>(stamp_ns - timed_scan.middle_ns);
+    const Vec3 q = poseAfter(motion, dt) * Vec3(points.x[i], points.y[i], points.z[i]);
     points.x[i] = static_cast<float>(q.x());
     points.y[i] = static_cast<float>(q.y());
     points.z[i] = static_cast<float>(q.z());
@@ -130,25 +146,23 @@ class TurnFinder
   /** Twice: what the first pass finds is how the points of both scans moved. */
   void match(const TimedScan& later)
   {
-    const double seconds = 1e-9 * static_cast<double>(later.middle_ns - earlier_.middle_ns);
-    std::optional<Pose> motion = guess_;
-    for (int pass = 0; pass < 2 && motion && seconds > 0; ++pass)
+    const double seconds =
+        kSecondsPerNanosecond * static_cast<double>(later.middle_ns - earlier_.middle_ns);
+    if (!(seconds > 0)) return;
+    std::optional<Pose> moved = poseAfter(before_, seconds);
+    MotionKnot now = before_;
+    for (int pass = 0; pass < 2 && moved; ++pass)
     {
-      const Vec3 rate = logSO3(motion->R) / seconds, velocity = motion->p / seconds;
-      motion = matchScans(
-          seenFromMiddle(earlier_, 0.5 * (rate + rate_), 0.5 * (velocity + velocity_)),
-          seenFromMiddle(later, rate, velocity), *motion);
+      moved = matchScans(
+          seenFromMiddle(earlier_, meanOf(before_, now)), seenFromMiddle(later, now), *moved);
+      now = moved ? steadyMotion(*moved, seconds) : MotionKnot{};
     }
-    guess_ = motion.value_or(Pose{});
-    if (!motion || !(seconds > 0)) return;
-    rate_ = logSO3(motion->R) / seconds;
-    velocity_ = motion->p / seconds;
-    turns_.push_back({earlier_.middle_ns, later.middle_ns, logSO3(motion->R)});
+    before_ = now;
+    if (moved) turns_.push_back({earlier_.middle_ns, later.middle_ns, logSO3(moved->R)});
   }
 
   TimedScan earlier_;
-  Pose guess_;                                          // motion of the pair before
-  Vec3 rate_ = Vec3::Zero(), velocity_ = Vec3::Zero();  // and what it is per second
+  MotionKnot before_;  // of the pair before
   std::vector<ScanTurn> turns_;
 };
 }  // namespace

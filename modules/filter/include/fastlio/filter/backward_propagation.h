@@ -36,6 +36,9 @@ void backwardPropagate(
     const NavState& end_state, std::int64_t end_ns, const std::vector<ImuSample>& samples,
     std::vector<MotionKnot>& knots);
 
+/** T_Ik_Ij: pose of the body dt [s], of either sign, after a knot whose inputs hold that long. */
+[[nodiscard]] Pose poseAfter(const MotionKnot& knot, double dt);
+
 /** T_Ik_Ij: pose of the body at stamp_ns in the body frame at the scan's end, from the knot at its
  * left. Continuous over the knots; instants before the first knot use the first knot's input.
  * \throw std::invalid_argument when there are no knots */
