@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
 # What is tested is optimised as ever; the tests themselves had better be built soon.
-set(FASTLIO_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+set(FASTLIO_TEST_OPTIONS $<$<NOT:$<CONFIG:Debug>>:-O1>)
 
 # The headers that most units read, precompiled once for libraries and once for tests, whose flags differ.
 if(MRPT_FASTLIO_PRECOMPILE)

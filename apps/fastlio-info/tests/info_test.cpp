@@ -116,6 +116,15 @@ TEST_F(Info, FindsTheTimeOffsetAndTheMounting)
   }
 }
 
+TEST_F(Info, IsNotMisledByTurnsThatChangeWithinAScan)
+{
+  const Json all = jsonOf(record("shake"));
+  const Json& motion = all["motion"];
+  ASSERT_TRUE(motion["conclusive"]) << table_;
+  EXPECT_NEAR(motion["time_offset_s"], 0.0, 0.004) << table_;
+  EXPECT_NEAR(motion["time_offset_s"], 0.0, 2 * motion["time_offset_std_s"].get<double>());
+}
+
 TEST_F(Info, SeesStampsAtTheEndOfScansWhoseTimesStartAtZero)
 {
   // A driver that stamps scans at their end but counts times from their start.

@@ -19,6 +19,7 @@ constexpr double kConclusive = 0.95;      // correlation
 constexpr double kSharp = 0.01;           // standard deviation of the offset [s]
 constexpr double kLeastRate = 0.05;       // RMS of the LiDAR's rate: slower tells nothing [rad/s]
 constexpr double kLeastSecondAxis = 0.1;  // of the strongest axis' singular value
+constexpr double kUnsteadiness = 0.02;    // what a rate that changes within a scan does [of a scan]
 constexpr std::size_t kFewestTurns = 10;
 
 /** The gyro's integral, to be read at any time. */
@@ -136,13 +137,22 @@ struct Parabola
 };
 
 /** Of the offset where the correlation of n pairs has its top: with unit variances, pairs that are
- * dt off differ by -bend dt^2 more than their noise does, 1 - correlation^2. */
-double offsetDeviation(const MotionCheck& check, double bend)
+ * dt off differ by -bend dt^2 more than their noise does, 1 - correlation^2. To which comes that
+ * the turns are found as if the rate were steady within a scan. */
+double offsetDeviation(const MotionCheck& check, double bend, double scan_seconds)
 {
   const double noise = 1.0 - check.correlation * check.correlation;
   const double information = -bend * static_cast<double>(check.turns);
-  return information > 0 ? std::sqrt(std::max(noise, 0.0) / information)
-                         : std::numeric_limits<double>::infinity();
+  if (!(information > 0)) return std::numeric_limits<double>::infinity();
+  return std::hypot(std::sqrt(std::max(noise, 0.0) / information), kUnsteadiness * scan_seconds);
+}
+
+double meanSeconds(const std::vector<ScanTurn>& turns)
+{
+  double sum = 0;
+  for (const ScanTurn& turn : turns)
+    sum += static_cast<double>(turn.end_ns - turn.begin_ns) * 1e-9;
+  return sum / static_cast<double>(std::max<std::size_t>(1, turns.size()));
 }
 }  // namespace
 
@@ -164,7 +174,7 @@ MotionCheck checkMotion(
   const double offset = kStep * best + parabola.top();
   MotionCheck check = compare(pairsAt(turns, angle, offset));
   check.time_offset = offset;
-  check.time_offset_std = offsetDeviation(check, parabola.bend());
+  check.time_offset_std = offsetDeviation(check, parabola.bend(), meanSeconds(turns));
   // At the edge there is no maximum.
   if (std::abs(best) == most || check.time_offset_std > kSharp)
     check.conclusive = check.rotation_known = false;

@@ -10,6 +10,7 @@
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace fastlio
 {
@@ -129,40 +130,57 @@ PointColumns seenFromMiddle(const TimedScan& timed_scan, const MotionKnot& motio
   return points;
 }
 
-/** Rotations between scans that follow each other. */
+/** Rotations between scans that follow each other. A scan's points are brought to its middle by the
+ * mean of the motions before and after it, so that a pair is only known with the scan after it. */
 class TurnFinder
 {
  public:
   void add(const LidarScan& scan)
   {
-    TimedScan later = timed(scan);
-    if (earlier_.scan.points.size() > 0) match(later);
-    earlier_ = std::move(later);
+    TimedScan newest = timed(scan);
+    if (last_) follow(newest);
+    before_last_ = std::exchange(last_, std::move(newest));
   }
 
   std::vector<ScanTurn> take() { return std::move(turns_); }
 
  private:
-  /** Twice: what the first pass finds is how the points of both scans moved. */
-  void match(const TimedScan& later)
+  /** A motion from the last scan to the newest, which sharpens the one that led to the last. */
+  void follow(const TimedScan& newest)
   {
-    const double seconds =
-        kSecondsPerNanosecond * static_cast<double>(later.middle_ns - earlier_.middle_ns);
-    if (!(seconds > 0)) return;
-    std::optional<Pose> moved = poseAfter(before_, seconds);
-    MotionKnot now = before_;
-    for (int pass = 0; pass < 2 && moved; ++pass)
-    {
-      moved = matchScans(
-          seenFromMiddle(earlier_, meanOf(before_, now)), seenFromMiddle(later, now), *moved);
-      now = moved ? steadyMotion(*moved, seconds) : MotionKnot{};
-    }
-    before_ = now;
-    if (moved) turns_.push_back({earlier_.middle_ns, later.middle_ns, logSO3(moved->R)});
+    const auto next = matched(*last_, newest, motion_, motion_, motion_);
+    std::optional<MotionKnot> sharp;
+    if (before_last_ && next)
+      sharp = matched(
+          *before_last_, *last_, meanOf(motion_before_, motion_), meanOf(motion_, *next), motion_);
+    if (sharp)
+      turns_.push_back(
+          {before_last_->middle_ns, last_->middle_ns, sharp->w * secondsOf(*before_last_, *last_)});
+    motion_before_ = std::exchange(motion_, next.value_or(MotionKnot{}));
   }
 
-  TimedScan earlier_;
-  MotionKnot before_;  // of the pair before
+  static double secondsOf(const TimedScan& earlier, const TimedScan& later)
+  {
+    return kSecondsPerNanosecond * static_cast<double>(later.middle_ns - earlier.middle_ns);
+  }
+
+  /** The motion between two scans' middles.
+   * \param in_earlier, in_later motions within the scans \param guess of the result */
+  static std::optional<MotionKnot> matched(
+      const TimedScan& earlier, const TimedScan& later, const MotionKnot& in_earlier,
+      const MotionKnot& in_later, const MotionKnot& guess)
+  {
+    const double seconds = secondsOf(earlier, later);
+    if (!(seconds > 0)) return std::nullopt;
+    const auto moved = matchScans(
+        seenFromMiddle(earlier, in_earlier), seenFromMiddle(later, in_later),
+        poseAfter(guess, seconds));
+    if (!moved) return std::nullopt;
+    return steadyMotion(*moved, seconds);
+  }
+
+  std::optional<TimedScan> before_last_, last_;
+  MotionKnot motion_before_, motion_;  // that led to these
   std::vector<ScanTurn> turns_;
 };
 }  // namespace

@@ -28,7 +28,7 @@ struct MotionCheck
   std::size_t turns = 0;   //!< pairs of scans that were used
   double correlation = 0;  //!< 0..1, at the best offset
   double time_offset = 0;  //!< added to the LiDAR's stamps it brings them to the IMU's clock [s]
-  double time_offset_std = 0;  //!< of it, by the noise of the turns alone [s]
+  double time_offset_std = 0;  //!< of it, with what unsteady turning costs [s]
   double scale = 0;            //!< rate of the IMU over rate of the LiDAR: 1, or 57.3 for deg/s
   Mat3 R_imu_lidar = Mat3::Identity();  //!< LiDAR axes to IMU axes
   bool conclusive = false;              //!< the time offset is certain to some milliseconds
