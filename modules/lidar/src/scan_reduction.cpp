@@ -96,6 +96,19 @@ ScanReducer::Ranges ScanReducer::gateRanges(
   return total;
 }
 
+std::size_t ScanReducer::targetOf(const Ranges& ranges, const ReductionLimits& limits)
+{
+  if (limits.wide_points <= limits.target_points || ranges.usable == 0) return limits.target_points;
+  double squares = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    squares += static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
+  const double wide =
+      static_cast<double>(limits.wide_range) * static_cast<double>(limits.wide_range);
+  const double growth = squares / (wide * static_cast<double>(ranges.usable));
+  const double target = static_cast<double>(limits.target_points) * std::max(growth, 1.0);
+  return static_cast<std::size_t>(std::min(target, static_cast<double>(limits.wide_points)));
+}
+
 float ScanReducer::densityFactor(const Ranges& ranges, std::size_t target)
 {
   // Bins from the farthest on are kept whole while the rest can be thinned to meet the target.
@@ -146,8 +159,9 @@ void ScanReducer::select(
   selection.dropped_invalid = ranges.invalid;
   selection.dropped_near = ranges.near;
   selection.dropped_far = ranges.far;
-  const bool keep_all = limits.target_points == 0 || ranges.usable <= limits.target_points;
-  const float factor = keep_all ? kKeepAll : densityFactor(ranges, limits.target_points);
+  const std::size_t target = targetOf(ranges, limits);
+  const bool keep_all = limits.target_points == 0 || ranges.usable <= target;
+  const float factor = keep_all ? kKeepAll : densityFactor(ranges, target);
   ++scan_;
   kept_.resize(points.size());
   kept_counts_.resize(chunk_ranges_.size());

@@ -104,6 +104,25 @@ TEST(ScanReducer, CountsAnewForEachScan)
   EXPECT_EQ(s.dropped_near + s.dropped_far + s.dropped_invalid + s.indices.size(), 0U);
 }
 
+TEST(ScanReducer, UsesMorePointsWhereTheSurfacesAreLarger)
+{
+  const auto kept = [](double nearest, double farthest, std::size_t wide_points)
+  {
+    std::uniform_real_distribution<double> range(nearest, farthest);
+    const PointColumns points = randomScan(50000, [&](std::mt19937& rng) { return range(rng); });
+    ReductionLimits limits{0.5F, 1000.0F, 1000};
+    limits.wide_range = 20.0F;
+    limits.wide_points = wide_points;
+    return static_cast<double>(selected(points, limits).indices.size());
+  };
+  EXPECT_NEAR(kept(5.0, 19.0, 3000), 1000.0, 50.0);
+  // The mean square of 15 to 45 m is 975 m^2.
+  EXPECT_NEAR(kept(15.0, 45.0, 3000), 1000.0 * 975.0 / 400.0, 120.0);
+  EXPECT_NEAR(kept(15.0, 45.0, 2000), 2000.0, 100.0);
+  EXPECT_NEAR(kept(15.0, 45.0, 0), 1000.0, 50.0);
+  EXPECT_NEAR(kept(50.0, 200.0, 3000), 3000.0, 150.0);
+}
+
 TEST(ScanReducer, KeepsAllForTargetZeroAndForFewPoints)
 {
   const PointColumns points = scanAtRange(1000, 10.0);

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct ReductionLimits
   float min_range = 0.5F;            //!< [m]
   float max_range = 150.0F;          //!< [m]
   std::size_t target_points = 2000;  //!< about so many points are kept; 0 keeps all
+  /** RMS range [m] beyond which the target grows with the range's square: as large as the surfaces
+   * around the sensor are, so many points cover them as densely. */
+  float wide_range = std::numeric_limits<float>::infinity();
+  std::size_t wide_points = 0;  //!< where that growth ends
 };
 
 /** Chosen points, by index into the scan, and what was left out. */
@@ -69,6 +74,7 @@ class ScanReducer
       const PointColumns& points, const ReductionLimits& limits, std::size_t first,
       std::size_t last);
   [[nodiscard]] Ranges gateRanges(const PointColumns& points, const ReductionLimits& limits);
+  [[nodiscard]] static std::size_t targetOf(const Ranges& ranges, const ReductionLimits& limits);
   [[nodiscard]] static float densityFactor(const Ranges& ranges, std::size_t target);
   [[nodiscard]] std::size_t keep(float factor, std::size_t first, std::size_t last);
   void gather(std::vector<std::uint32_t>& indices) const;
