@@ -16,11 +16,16 @@ struct CalibrationChange
   Pose extrinsic;  //!< C C_0^-1
 };
 
+Vec3 velocityOf(const NavState& x, const CompensatedWith& compensation)
+{
+  return compensation.moves ? x.v : Vec3::Zero();
+}
+
 CalibrationChange calibrationChange(const NavState& x, const CompensatedWith& compensation)
 {
   const double dt = x.time_offset - compensation.time_offset;
   return {
-      {expSO3(compensation.angular_rate * dt), x.v * dt},
+      {expSO3(compensation.angular_rate * dt), velocityOf(x, compensation) * dt},
       x.extrinsic_correction * compensation.extrinsic_correction.inverse()};
 }
 }  // namespace
@@ -49,8 +54,9 @@ ScanPoseJacobian scanPoseJacobian(const NavState& x, const CompensatedWith& comp
   attitude.middleCols<3>(kAttitude) = (motion.R * extrinsic.R).transpose();
   position.middleCols<3>(kAttitude) = -x.R * skew(motion.R * extrinsic.p);
   position.middleCols<3>(kPosition).setIdentity();
-  position.middleCols<3>(kVelocity).diagonal().setConstant(
-      x.time_offset - compensation.time_offset);
+  if (compensation.moves)
+    position.middleCols<3>(kVelocity).diagonal().setConstant(
+        x.time_offset - compensation.time_offset);
 
   attitude.middleCols<3>(kExtrinsicRotation) = C_0.R;
   position.middleCols<3>(kExtrinsicRotation) =
@@ -58,7 +64,8 @@ ScanPoseJacobian scanPoseJacobian(const NavState& x, const CompensatedWith& comp
   position.middleCols<3>(kExtrinsicTranslation) = R;
 
   attitude.col(kTimeOffset) = extrinsic.R.transpose() * compensation.angular_rate;
-  position.col(kTimeOffset) = x.v + R * compensation.angular_rate.cross(extrinsic.p);
+  position.col(kTimeOffset) =
+      velocityOf(x, compensation) + R * compensation.angular_rate.cross(extrinsic.p);
   return J;
 }
 

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace fastlio
 {
 namespace
@@ -43,14 +45,28 @@ TEST(ScanPose, isTheBodyPoseWithTheCalibrationOfTheCompensation)
       (J.leftCols<kNavigationDim>() - bodyPoseJacobian().leftCols<kNavigationDim>()).norm(), 1e-12);
 }
 
+TEST(ScanPose, ofABodyAtRestDoesNotDependOnTheTimeOffset)
+{
+  Random random(43);
+  NavState x = random.state();
+  CompensatedWith c = compensationNear(random, x, 0.1);
+  c.angular_rate.setZero();
+  c.moves = false;
+  const Pose before = scanPose(x, c);
+  EXPECT_EQ(scanPoseJacobian(x, c).col(kTimeOffset).norm(), 0.0);
+  x.time_offset += 1.0;
+  EXPECT_EQ(difference(scanPose(x, c), before).norm(), 0.0);
+}
+
 TEST(ScanPose, jacobianIsTheDerivative)
 {
   constexpr double kStep = 1e-6;
   Random random(42);
-  for (const double distance : {0.0, 0.01, 0.5})
+  for (const double distance : {0.0, 0.01, 0.5, -0.5})
   {
     const NavState x = random.state();
-    const CompensatedWith c = compensationNear(random, x, distance);
+    CompensatedWith c = compensationNear(random, x, std::abs(distance));
+    c.moves = distance >= 0.0;
     const Pose at = scanPose(x, c);
     const ScanPoseJacobian J = scanPoseJacobian(x, c);
     for (int i = 0; i < kStateDim; ++i)

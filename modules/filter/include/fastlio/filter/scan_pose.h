@@ -24,7 +24,8 @@ struct CompensatedWith
 {
   Pose extrinsic_correction;         //!< C_0
   double time_offset = 0.0;          //!< tau_0 [s]
-  Vec3 angular_rate = Vec3::Zero();  //!< of the body at the scan's end, IMU frame [rad/s]
+  Vec3 angular_rate = Vec3::Zero();  //!< of the body during the scan, IMU frame [rad/s]
+  bool moves = true;                 //!< else the velocity is taken for zero
 };
 
 /** The pose that takes the compensated points to the world: with C and tau the iterate's,
