@@ -200,6 +200,7 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
     settings.lidar.time_offset = 0.02;
     Parameters parameters = parametersOf(settings);
     parameters.lidar.time_offset = 0.0;
+    parameters.calibration.estimate_time_offset = false;
     const SimulatedRun run = runOdometry(Simulation(settings), parameters);
     const StateVector error = stateError(run, run.scans.back());
     attitude.push_back(nees(error, run.scans.back().result.filter.P, kAttitude));

@@ -23,7 +23,7 @@ SimulatedRun runWithRest(const SimulationSettings& settings, bool enabled = true
 {
   Parameters parameters = matchingParameters(settings);
   parameters.threads = 1;
-  parameters.rest.enabled = enabled;
+  parameters.rest.enabled = parameters.rest.at_start = enabled;
   return runOdometry(Simulation(settings), parameters);
 }
 
@@ -100,6 +100,25 @@ TEST(Rest, ThingsThatMoveDoNotMoveThePlatform)
   EXPECT_EQ(
       scanAt(run, 10.0).result.statistics.map_points,
       run.scans.back().result.statistics.map_points);
+}
+
+// On a meadow with a few posts, whose scans show little more than the ground.
+TEST(Rest, AStartAtRestStaysWhereItIs)
+{
+  SimulationSettings settings = defaultSettings("open_area");
+  settings.duration = 2.5;
+  for (settings.seed = 1; settings.seed <= 3; ++settings.seed)
+  {
+    Parameters parameters = matchingParameters(settings);
+    parameters.threads = 1;
+    const SimulatedRun with = runOdometry(Simulation(settings), parameters);
+    parameters.rest.at_start = false;
+    const SimulatedRun without = runOdometry(Simulation(settings), parameters);
+    EXPECT_LT(largestDistance(with, 0.0), 0.003);
+    EXPECT_LT(largestDistance(with, 0.0), 0.6 * largestDistance(without, 0.0));
+    EXPECT_TRUE(with.scans.back().result.statistics.at_rest);
+    EXPECT_FALSE(without.scans.back().result.statistics.at_rest);
+  }
 }
 
 class RestInMotion : public ::testing::TestWithParam<const char*>

@@ -219,6 +219,7 @@ TEST(Summary, HasTheCalibrationThatWasAskedFor)
   result.filter.P(kTimeOffset, kTimeOffset) = 1e-6;
   result.filter.x.extrinsic_correction.p = {0.01, 0.02, 0.03};
   run.statistics.add(result);
+  run.parameters.calibration.estimate_time_offset = false;
   EXPECT_TRUE(writtenSummary(run)["calibration"].is_null());
   run.parameters.lidar.time_offset = 0.001;
   run.parameters.calibration.estimate_time_offset = true;
@@ -228,6 +229,17 @@ TEST(Summary, HasTheCalibrationThatWasAskedFor)
   EXPECT_NEAR(double(calibration["time_offset_sigma_s"]), 0.001, 1e-12);
   EXPECT_EQ(calibration["translation_correction_m"][2], 0.03);
   EXPECT_TRUE(calibration.contains("rotation_sigma_deg"));
+}
+
+TEST(Summary, TellsTheTimeOffsetAsGivenBeforeTheMapCanTellIt)
+{
+  RunSummary run;
+  ScanResult result = resultAt(0, ScanStatus::Tracking, 0, 1);
+  result.filter.P(kTimeOffset, kTimeOffset) = 0.0;
+  run.statistics.add(result);
+  const Json calibration = writtenSummary(run)["calibration"];
+  EXPECT_EQ(calibration["time_offset_s"], 0.0);
+  EXPECT_EQ(calibration["time_offset_sigma_s"], run.parameters.calibration.time_offset_std);
 }
 
 }  // namespace

@@ -9,13 +9,16 @@
 
 namespace fastlio
 {
-/** The state at the start with the prior of the calibration; what is not estimated is known
- * exactly.
+/** The state at the start with the prior of the extrinsic; what is not estimated is known exactly,
+ * and so is the time offset until the map can tell it (ScanPipeline::releaseTimeOffset).
  *
  * The map begins with the first scan, so that scan's pose has no error, whatever that of the
  * extrinsic: attitude and position of the body bear its opposite, and gravity, known in the body
  * frame, turns with the attitude. */
 [[nodiscard]] FilterState withCalibrationPrior(
     const FilterState& start, const CalibrationParameters& parameters);
+
+/** A new start with the calibration that was found before, as certain as it was. */
+[[nodiscard]] FilterState withCalibrationOf(const FilterState& before, const FilterState& start);
 
 }  // namespace fastlio

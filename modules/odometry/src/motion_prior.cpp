@@ -131,6 +131,7 @@ YoungMap youngMap(int target_points, std::int64_t until_ns)
   young.open_after_first_scan = poseVariances(kFirstMapAttitudeStd, kFirstMapPositionStd);
   young.founding_covariance =
       poseVariances(kYoungMapAttitudeStd, kYoungMapPositionStd).topLeftCorner<6, 6>();
+  young.in_motion = true;
   young.target_points = target_points;
   young.until_ns = until_ns;
   return young;

@@ -13,6 +13,9 @@ constexpr double kRadPerDeg = 0.017453292519943295;
 ParameterRows restRows()
 {
   return {
+      {"rest.at_start", "", BooleanValue{[](auto& p) { return &p.rest.at_start; }},
+       "true: a platform that starts at rest goes on standing still, as with rest.enabled, until "
+       "it is not quiet any more"},
       {"rest.enabled", "", BooleanValue{[](auto& p) { return &p.rest.enabled; }},
        "true: a platform that stands still is told so by a pseudo-measurement of no velocity, and "
        "its scans do not make the map grow"},

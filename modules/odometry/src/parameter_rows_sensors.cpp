@@ -147,7 +147,11 @@ ParameterRows calibrationRows()
       {"calibration.estimate_time_offset", "",
        BooleanValue{[](auto& p) { return &p.calibration.estimate_time_offset; }},
        "true: the time offset between LiDAR and IMU is part of the state, starting at "
-       "lidar.time_offset"},
+       "lidar.time_offset; not in runs that start in motion, which keep it as given"},
+      {"calibration.time_offset_min_share", "",
+       RealValue{[](auto& p) { return &p.calibration.time_offset_min_share; }, 0.0, 1.0},
+       "the time offset joins the state when this share of a scan's points match: a young map, in "
+       "which few do, would take an offset for a turn"},
       {"calibration.time_offset_std", "s",
        RealValue{[](auto& p) { return &p.calibration.time_offset_std; }, 0.0, 1.0},
        "uncertainty of lidar.time_offset"},

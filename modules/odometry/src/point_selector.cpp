@@ -14,7 +14,9 @@ ReductionLimits reductionLimits(const Parameters& p)
 {
   return {
       static_cast<float>(p.lidar.min_range), static_cast<float>(p.lidar.max_range),
-      static_cast<std::size_t>(p.reduction.target_points)};
+      static_cast<std::size_t>(p.reduction.target_points),
+      static_cast<float>(p.reduction.wide_range),
+      static_cast<std::size_t>(p.reduction.wide_points)};
 }
 
 FeatureLimits featureLimits(const Parameters& parameters)
@@ -50,14 +52,16 @@ PointSelector::PointSelector(
 }
 
 void PointSelector::thin(
-    const PointColumns& points, const std::vector<std::uint32_t>& candidates, std::size_t target,
-    ScanReducer& reducer, std::vector<std::uint32_t>& chosen)
+    const PointColumns& points, const std::vector<std::uint32_t>& candidates,
+    ReductionLimits limits, ScanReducer& reducer, std::vector<std::uint32_t>& chosen)
 {
+  // The candidates have passed the range gates.
+  limits.min_range = 0.0F;
+  limits.max_range = std::numeric_limits<float>::max();
   candidates_.clear();
   for (const std::uint32_t i : candidates)
     candidates_.push_back(points.x[i], points.y[i], points.z[i], 0.0F, 0, 0);
-  // The candidates have passed the range gates.
-  reducer.select(candidates_, {0.0F, std::numeric_limits<float>::max(), target}, thinned_);
+  reducer.select(candidates_, limits, thinned_);
   chosen.clear();
   for (const std::uint32_t k : thinned_.indices)
     chosen.push_back(candidates[k]);
@@ -76,9 +80,10 @@ void PointSelector::select(
     return;
   }
   extractor_.extract(points, feature_limits_, features_);
-  thin(points, features_.planar, limits.target_points, surface_reducer_, surfaces.indices);
+  thin(points, features_.planar, limits, surface_reducer_, surfaces.indices);
+  limits.target_points = limits.wide_points = target_edges_;
   if (mode_ == FeatureMode::PlanarAndEdge)
-    thin(points, features_.edges, target_edges_, edge_reducer_, edges);
+    thin(points, features_.edges, limits, edge_reducer_, edges);
   surfaces.dropped_invalid = features_.dropped_invalid;
   surfaces.dropped_near = features_.dropped_near;
   surfaces.dropped_far = features_.dropped_far;

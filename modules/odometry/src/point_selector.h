@@ -33,8 +33,8 @@ class PointSelector
 
  private:
   void thin(
-      const PointColumns& points, const std::vector<std::uint32_t>& candidates, std::size_t target,
-      ScanReducer& reducer, std::vector<std::uint32_t>& chosen);
+      const PointColumns& points, const std::vector<std::uint32_t>& candidates,
+      ReductionLimits limits, ScanReducer& reducer, std::vector<std::uint32_t>& chosen);
 
   FeatureMode mode_;
   ReductionLimits reduction_limits_;

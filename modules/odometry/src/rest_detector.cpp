@@ -42,6 +42,7 @@ void RestDetector::reset()
 {
   started_ = false;
   at_rest_ = false;
+  assumed_ = false;
 }
 
 double RestDetector::restingTime() const
@@ -67,8 +68,10 @@ bool RestDetector::quiet(const RestEvidence& evidence) const
 
 void RestDetector::begin(const RestEvidence& evidence)
 {
+  assumed_ = assumed_ && !started_ && evidence.velocity.norm() <= parameters_.max_velocity;
   started_ = evidence.matched;
-  at_rest_ = false;
+  at_rest_ = assumed_ && started_;
+  rest_begin_ns_ = now_ns_;
   begin_ns_ = now_ns_;
   anchor_ = evidence.T_world_imu;
   reference_ = recent_;
@@ -110,7 +113,7 @@ bool RestDetector::update(const RestEvidence& evidence)
   if (!started_ || !quiet(evidence))
   {
     begin(evidence);
-    return false;
+    return at_rest_;
   }
   add(evidence);
   const bool rests =

@@ -53,6 +53,13 @@ class RestDetector
   /** How long the platform has been known to rest [s]; 0 in motion. */
   [[nodiscard]] double restingTime() const;
 
+  /** The platform is known to rest: it does from the next scan on that matches, until one is not
+   * quiet. */
+  void assumeRest() { assumed_ = true; }
+
+  /** That knowledge still holds. */
+  [[nodiscard]] bool assumed() const { return assumed_; }
+
   /** Not at rest, whatever was seen so far. */
   void reset();
 
@@ -65,7 +72,7 @@ class RestDetector
   [[nodiscard]] double quietTime() const;
 
   RestParameters parameters_;
-  bool started_ = false, at_rest_ = false;
+  bool started_ = false, at_rest_ = false, assumed_ = false;
   std::int64_t begin_ns_ = 0, now_ns_ = 0, rest_begin_ns_ = 0;
   Pose anchor_;             // first pose of the quiet time
   InertialMean reference_;  // of the quiet time, the latest minute weighs most

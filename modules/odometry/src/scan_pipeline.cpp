@@ -61,8 +61,10 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
 void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const YoungMap& young_map)
 {
   young_map_ = young_map;
+  time_offset_released_ = false;
+  if (parameters_.rest.at_start && !young_map.in_motion) rest_.assumeRest();
   filter_ = state;
-  if (start_in_map_) filter_ = placedInMap(state, *start_in_map_, parameters_.initialization);
+  if (start_in_map_) filter_ = placedInMap(state, *start_in_map_);
   filter_ = withCalibrationPrior(filter_, parameters_.calibration);
   constrainGravity();
   state_ns_ = stamp_ns;
@@ -73,20 +75,6 @@ void ScanPipeline::constrainGravity()
 {
   const InitializationParameters& p = parameters_.initialization;
   if (p.gravity_model == GravityModel::Sphere) filter_ = withGravityOnSphere(filter_, p.gravity);
-}
-
-std::int64_t ScanPipeline::timeShift() const
-{
-  return static_cast<std::int64_t>(std::llround(filter_.x.time_offset / kNsToS));
-}
-
-void ScanPipeline::applyCalibration(LidarScan& scan, ScanSpan& span) const
-{
-  const std::int64_t shift_ns = timeShift();
-  scan.stamp_ns += shift_ns;
-  span.begin_ns += shift_ns;
-  span.end_ns += shift_ns;
-  scan.T_imu_lidar = filter_.x.extrinsic_correction * scan.T_imu_lidar;
 }
 
 ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu)
@@ -115,13 +103,14 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
     tellNotFound(result);
   else if (recovering_)
     judgeRecovery(result);
-  if (parameters_.rest.enabled) considerRest(result);
+  if (parameters_.rest.enabled || rest_.assumed()) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))
     growMap(scan, result.filter);  // eq. 21
   else
     forgetPoints();
   if (result.status == ScanStatus::FirstScan) filter_.P += young_map_.open_after_first_scan;
+  releaseTimeOffset(result);
   describeScan(scan, result.statistics);
   timings_.total = total.milliseconds();
   result.milliseconds = timings_;
@@ -210,9 +199,7 @@ void ScanPipeline::compensate(
     deskewer_.transformToBody(scan, selection_.indices, compensated_.points);
     deskewer_.transformToBody(scan, edge_indices_, edges_.points());
   }
-  compensated_.compensation = {
-      predicted.x.extrinsic_correction, predicted.x.time_offset,
-      inputs_.empty() ? Vec3::Zero() : Vec3(inputs_.back().gyro - predicted.x.gyro_bias)};
+  compensated_.compensation = compensationWith(predicted.x, span.end_ns);
   timings_.deskew = watch.milliseconds();
 }
 

@@ -85,12 +85,15 @@ class ScanPipeline
   void compensate(const LidarScan& scan, const ScanSpan& span, const FilterState& predicted);
   [[nodiscard]] UpdateResult updateWithScan(const FilterState& predicted);
   [[nodiscard]] UpdateResult findInMap(const FilterState& predicted);
-  [[nodiscard]] UpdateResult approach(const FilterState& candidate, const StateMatrix& P);
+  [[nodiscard]] UpdateResult approach(const FilterState& predicted, const Pose& candidate);
   void tellNotFound(ScanResult& result);
   void constrainGravity();
   void reduce(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
   void learnUsualShare(const ScanStatistics& statistics);
+  [[nodiscard]] CompensatedWith compensationWith(
+      const NavState& predicted, std::int64_t end_ns) const;
+  void releaseTimeOffset(const ScanResult& result);
   void considerRest(ScanResult& result);
   [[nodiscard]] UpdateResult findMap(const FilterState& predicted);
   void judgeRecovery(ScanResult& result);
@@ -113,6 +116,7 @@ class ScanPipeline
   RestDetector rest_;
   std::int64_t state_ns_ = 0;
   std::int64_t last_update_ns_ = 0;
+  bool time_offset_released_ = false;  // part of the state from now on
   bool prediction_finite_ = true;
   bool pose_trusted_ = true;
   double imu_gap_s_ = 0.0;

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "calibration_prior.h"
 #include "map_factory.h"
 #include "scan_pipeline.h"
 
@@ -64,7 +65,7 @@ void ScanPipeline::restart(
     const CarriedPose& carried)
 {
   young_map_ = young_map;
-  filter_ = startInCarriedWorld(start_state, carried);
+  filter_ = withCalibrationOf(filter_, startInCarriedWorld(start_state, carried));
   constrainGravity();
   state_ns_ = stamp_ns;
   last_update_ns_ = stamp_ns;

@@ -15,7 +15,7 @@ namespace
 {
 // From the whole uncertainty of the pose down: each pass looks nearer.
 constexpr int kPasses = 4;
-constexpr double kShrink = 0.25;  // of the covariance, per pass
+constexpr double kShrink = 0.25;  // of the variances of place and heading, per pass
 }  // namespace
 
 void ScanPipeline::useSavedMap(const SavedMap& saved)
@@ -38,9 +38,9 @@ UpdateResult ScanPipeline::findInMap(const FilterState& predicted)
 {
   UpdateResult best;
   best.posterior = predicted;
-  for (const FilterState& candidate : candidatesAround(predicted, parameters_.initialization))
+  for (const Pose& candidate : posesAround(predicted.x.pose(), parameters_.initialization))
   {
-    UpdateResult found = approach(candidate, predicted.P);
+    UpdateResult found = approach(predicted, candidate);
     if (found.updated && found.last.count > best.last.count) best = std::move(found);
   }
   share_in_map_ = static_cast<double>(best.last.count) /
@@ -54,23 +54,24 @@ UpdateResult ScanPipeline::findInMap(const FilterState& predicted)
   }
   // Once more, so that matches and constraints are those of the best.
   start_in_map_.reset();
-  FilterState near = best.posterior;
-  near.P = std::pow(kShrink, kPasses) * predicted.P;
-  return updateWithScan(near);
+  return updateWithScan(withUncertainPlace(
+      standingAt(predicted, best.posterior.x.pose()), parameters_.initialization,
+      std::pow(kShrink, kPasses)));
 }
 
-UpdateResult ScanPipeline::approach(const FilterState& candidate, const StateMatrix& P)
+UpdateResult ScanPipeline::approach(const FilterState& predicted, const Pose& candidate)
 {
   UpdateResult update;
-  update.posterior = candidate;
+  Pose at = candidate;
   double scale = 1.0;
   for (int pass = 0; pass < kPasses; ++pass)
   {
     scale *= kShrink;
-    FilterState from = update.posterior;
-    from.P = scale * P;
+    const FilterState from =
+        withUncertainPlace(standingAt(predicted, at), parameters_.initialization, scale);
     update = update_.run(from, compensated_, *map_, edges_);
     if (!update.updated) break;
+    at = update.posterior.x.pose();
   }
   return update;
 }

@@ -16,59 +16,61 @@ double headingTo(const Mat3& wanted, const Mat3& R)
   return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
 }
 
-/** Everything that has a direction in the world, turned about the vertical through the IMU. */
-NavState turned(NavState x, double heading)
+double squared(double x)
 {
-  const Mat3 turn = expSO3({0.0, 0.0, heading});
-  x.R = turn * x.R;
-  x.v = turn * x.v;
-  x.g = turn * x.g;
-  return x;
+  return x * x;
 }
 }  // namespace
 
-FilterState placedInMap(
-    const FilterState& start, const Pose& T_map_imu, const InitializationParameters& parameters)
+FilterState standingAt(const FilterState& state, const Pose& T_map_imu)
 {
-  FilterState state = start;
-  const double heading = headingTo(T_map_imu.R, start.x.R);
-  state.x = turned(start.x, heading);
-  state.x.p = T_map_imu.p + expSO3({0.0, 0.0, heading}) * start.x.p;
-  const Mat3 turn = expSO3({0.0, 0.0, heading});
+  const Mat3 turn = T_map_imu.R * state.x.R.transpose();
+  FilterState moved = state;
+  moved.x.R = T_map_imu.R;
+  moved.x.p = T_map_imu.p;
+  moved.x.v = turn * state.x.v;
+  moved.x.g = turn * state.x.g;
   StateMatrix T = StateMatrix::Identity();
   for (const int block :
        {static_cast<int>(kPosition), static_cast<int>(kVelocity), static_cast<int>(kGravity)})
     T.block<3, 3>(block, block) = turn;
-  state.P = T * start.P * T.transpose();
+  moved.P = T * state.P * T.transpose();
+  return moved;
+}
 
-  // An error of the map's axes turns attitude, velocity and gravity together.
+FilterState placedInMap(const FilterState& start, const Pose& T_map_imu)
+{
+  const Mat3 turn = expSO3({0.0, 0.0, headingTo(T_map_imu.R, start.x.R)});
+  return standingAt(start, {turn * start.x.R, T_map_imu.p + turn * start.x.p});
+}
+
+FilterState withUncertainPlace(
+    const FilterState& state, const InitializationParameters& parameters, double scale)
+{
+  FilterState uncertain = state;
   Eigen::Matrix<double, kStateDim, 3, Eigen::DontAlign> J =
       Eigen::Matrix<double, kStateDim, 3>::Zero();
   J.block<3, 3>(kAttitude, 0) = state.x.R.transpose();
   J.block<3, 3>(kVelocity, 0) = -skew(state.x.v);
   J.block<3, 3>(kGravity, 0) = -skew(state.x.g);
   const Vec3 std(parameters.pose_tilt_std, parameters.pose_tilt_std, parameters.pose_yaw_std);
-  const Mat3 turning = std.cwiseAbs2().asDiagonal();
-  state.P += J * turning * J.transpose();
-  state.P.block<3, 3>(kPosition, kPosition).diagonal().array() +=
-      std::pow(parameters.pose_position_std, 2);
-  return state;
+  const Mat3 turning = (scale * std.cwiseAbs2()).asDiagonal();
+  uncertain.P += J * turning * J.transpose();
+  uncertain.P.block<3, 3>(kPosition, kPosition).diagonal().array() +=
+      scale * squared(parameters.pose_position_std);
+  return uncertain;
 }
 
-std::vector<FilterState> candidatesAround(
-    const FilterState& state, const InitializationParameters& parameters)
+std::vector<Pose> posesAround(const Pose& pose, const InitializationParameters& parameters)
 {
-  std::vector<FilterState> candidates = {state};
+  std::vector<Pose> poses = {pose};
   for (const int turn : {0, -1, 1, -2, 2})
     for (const int x : {0, -1, 1})
       for (const int y : {0, -1, 1})
-      {
-        FilterState candidate = state;
-        candidate.x = turned(state.x, turn * parameters.pose_yaw_std);
-        candidate.x.p += parameters.pose_position_std * Vec3(x, y, 0.0);
-        candidates.push_back(candidate);
-      }
-  return candidates;
+        poses.push_back(
+            {expSO3({0.0, 0.0, turn * parameters.pose_yaw_std}) * pose.R,
+             pose.p + parameters.pose_position_std * Vec3(x, y, 0.0)});
+  return poses;
 }
 
 }  // namespace fastlio

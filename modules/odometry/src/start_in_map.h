@@ -11,14 +11,22 @@
 
 namespace fastlio
 {
-/** The state moved to a place and heading in the map, with their uncertainty; roll and pitch stay
- * as gravity tells them, give or take what the biases leave open. */
-[[nodiscard]] FilterState placedInMap(
-    const FilterState& start, const Pose& T_map_imu, const InitializationParameters& parameters);
+/** The state at another pose in the map. How gravity and velocity lie in the body does not depend
+ * on where the map's axes point: they turn with the body, and so does what is known of them. */
+[[nodiscard]] FilterState standingAt(const FilterState& state, const Pose& T_map_imu);
 
-/** Places and headings around the state, as far as their standard deviations reach: the state
- * itself first. */
-[[nodiscard]] std::vector<FilterState> candidatesAround(
-    const FilterState& state, const InitializationParameters& parameters);
+/** The state moved to a place and heading in the map; roll and pitch stay as gravity tells them. */
+[[nodiscard]] FilterState placedInMap(const FilterState& start, const Pose& T_map_imu);
+
+/** As uncertain about place and heading as the parameters say, and about roll and pitch as the
+ * biases leave them open. An error of the map's axes turns attitude, velocity and gravity together,
+ * so that what the scan tells of it leaves gravity as it is in the body.
+ * \param scale of these variances */
+[[nodiscard]] FilterState withUncertainPlace(
+    const FilterState& state, const InitializationParameters& parameters, double scale);
+
+/** Places and headings around a pose, as far as their standard deviations reach: itself first. */
+[[nodiscard]] std::vector<Pose> posesAround(
+    const Pose& pose, const InitializationParameters& parameters);
 
 }  // namespace fastlio

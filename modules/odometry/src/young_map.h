@@ -14,6 +14,7 @@ namespace fastlio
  * matters, as velocity and biases are known and the map has become dense before it is needed. */
 struct YoungMap
 {
+  bool in_motion = false;  //!< what the start was found in
   /** Added to the covariance when the first scan has founded the map: all scans after it share the
    * map's errors and would take them for motion and biases. */
   StateMatrix open_after_first_scan = StateMatrix::Zero();

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -67,7 +68,9 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
 {
   RoomRecording recording = room();
   recording.imu.erase(recording.imu.begin() + 900, recording.imu.begin() + 1140);  // 1.2 s
-  Odometry odometry(roomParameters());
+  Parameters parameters = roomParameters();
+  parameters.calibration.estimate_time_offset = true;
+  Odometry odometry(parameters);
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
   const std::string remarks = textOf(odometry.remarks());
@@ -75,6 +78,16 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
   EXPECT_NE(remarks.find("started anew"), std::string::npos) << remarks;
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
   EXPECT_EQ(countOf(results, ScanStatus::FirstScan), 1U) << "the old map is found again";
+  // What was found of the clocks outlasts the gap.
+  const auto lost = std::find_if(
+      results.begin(), results.end(),
+      [](const ScanResult& r) { return r.status == ScanStatus::Diverged; });
+  ASSERT_NE(lost, results.begin());
+  const FilterState& before = (lost - 1)->filter;
+  const FilterState& end = results.back().filter;
+  EXPECT_NE(before.x.time_offset, 0.0);
+  EXPECT_LE(end.P(kTimeOffset, kTimeOffset), before.P(kTimeOffset, kTimeOffset));
+  EXPECT_NEAR(end.x.time_offset, before.x.time_offset, 0.001);
   const WorstPoseErrors worst = worstFrom(results, recording, 7.5);
   EXPECT_LT(worst.position, 0.03);
   EXPECT_LT(worst.attitude, 0.01);

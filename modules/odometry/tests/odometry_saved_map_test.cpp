@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 using namespace fastlio;
 using namespace fastlio::test;
 
@@ -112,6 +113,34 @@ TEST(SavedMap, ReadyPlanesAreUsedAsTheyAre)
   odometry.startIn(map);
   expectInMap(runInOrder(odometry, earlierRun().recording), {}, 0.03);
   EXPECT_EQ(odometry.map().pointCount(), earlierRun().planes->pointCount());
+}
+
+// The inertial data at rest tell where gravity lies in the body; where the map's axes point is
+// another matter, however far the guess is off.
+TEST(SavedMap, WhatIsKnownOfGravityAndBiasesDoesNotDependOnTheGuess)
+{
+  for (const double heading : {-0.25, -0.12, 0.0, 0.12, 0.25})
+  {
+    Parameters parameters = roomParameters();
+    parameters.map.update = false;
+    Odometry odometry(parameters);
+    SavedMap map;
+    map.planes = earlierRun().planes;
+    map.T_map_imu = {expSO3({0.0, 0.0, heading}), {0.3, -0.3, 0.1}};
+    odometry.startIn(map);
+    const Results results = runInOrder(odometry, earlierRun().recording);
+    const auto first = std::find_if(
+        results.begin(), results.end(),
+        [](const ScanResult& r) { return r.status == ScanStatus::Tracking; });
+    ASSERT_NE(first, results.end()) << heading;
+    const NavState& x = first->filter.x;
+    const Pose truth = earlierRun().recording.truthAt(first->stamp_ns);
+    const Vec3 gravity = truth.R.transpose() * Vec3(0.0, 0.0, -9.81);
+    // Biases of the accelerometer of some 0.02 m/s^2 are in it.
+    EXPECT_LT((x.R.transpose() * x.g - gravity).norm(), 0.06) << heading;
+    const auto sigma = first->filter.P.diagonal().segment<3>(kAccelBias).cwiseSqrt();
+    EXPECT_GT(sigma.minCoeff(), 0.3 * parameters.initialization.accel_bias_std) << heading;
+  }
 }
 
 TEST(SavedMap, GrowsOnWhenItMay)

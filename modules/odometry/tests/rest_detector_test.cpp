@@ -127,6 +127,34 @@ TEST(RestDetector, WithoutScansThatMatchThereIsNoRest)
   EXPECT_FALSE(feed.run(5.0));
 }
 
+TEST(RestDetector, APlatformThatIsKnownToRestDoesSoFromItsFirstMatchOn)
+{
+  Feed feed;
+  feed.detector.assumeRest();
+  feed.matched = false;
+  EXPECT_FALSE(feed.run(0.3));
+  feed.matched = true;
+  EXPECT_TRUE(feed.run(0.1));
+  EXPECT_TRUE(feed.run(10.0));
+  EXPECT_NEAR(feed.detector.restingTime(), 10.0, 0.3);
+  EXPECT_TRUE(feed.detector.assumed());
+  feed.acceleration = {0.3, 0.0, 0.0};
+  EXPECT_FALSE(feed.run(0.1));
+  EXPECT_FALSE(feed.detector.assumed());
+}
+
+TEST(RestDetector, WhatMovesBeforeItsFirstMatchIsNotAssumedToRest)
+{
+  Feed feed;
+  feed.detector.assumeRest();
+  feed.matched = false;
+  feed.velocity = {1.0, 0.0, 0.0};
+  EXPECT_FALSE(feed.run(0.2));
+  EXPECT_FALSE(feed.detector.assumed());
+  feed.matched = true;
+  EXPECT_FALSE(feed.run(1.0));
+}
+
 TEST(RestDetector, MeansAreWeightedWithTime)
 {
   const std::vector<ImuSample> inputs = {

@@ -149,6 +149,7 @@ Parameters roomParameters(const RoomSettings& settings)
   p.initialization.accel_bias_std = 0.03;
   p.lidar.min_range = 0.3;
   p.reduction.target_points = 1000;
+  p.calibration.estimate_time_offset = false;  // the clocks agree, and stamps stay as they are
   p.threads = 1;
   return p;
 }

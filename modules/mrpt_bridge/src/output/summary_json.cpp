@@ -140,7 +140,9 @@ Json calibrationJson(const RunSummary& run)
   if (p.estimate_time_offset)
   {
     json["time_offset_s"] = run.parameters.lidar.time_offset + last->x.time_offset;
-    json["time_offset_sigma_s"] = std::sqrt(std::max(0.0, last->P(kTimeOffset, kTimeOffset)));
+    const double variance = last->P(kTimeOffset, kTimeOffset);
+    // Not a part of the state before the map can tell it: as uncertain as given.
+    json["time_offset_sigma_s"] = variance > 0.0 ? std::sqrt(variance) : p.time_offset_std;
   }
   return json;
 }

@@ -93,14 +93,17 @@ struct CalibrationParameters
   bool estimate_extrinsic = false;
   double extrinsic_rotation_std = 0.017453292519943295;  //!< of the given one [rad] (YAML: deg)
   double extrinsic_translation_std = 0.05;               //!< of the given one [m]
-  bool estimate_time_offset = false;
-  double time_offset_std = 0.003;  //!< of the given lidar.time_offset [s]
+  bool estimate_time_offset = true;
+  double time_offset_std = 0.003;      //!< of the given lidar.time_offset [s]
+  double time_offset_min_share = 0.3;  //!< of a scan's points that match, to begin with it
 };
 
 /** Group `reduction`. */
 struct ReductionParameters
 {
   int target_points = 1500;  //!< about so many points of a scan are used; 0 = all
+  double wide_range = 20.0;  //!< RMS range beyond which more points are used [m]
+  int wide_points = 3000;    //!< but not more than so many
 };
 
 /** Which points of a scan are measurements. */
@@ -196,6 +199,7 @@ constexpr std::size_t kMostFurtherLidars = 3;
 /** Group `rest`: standing still in the middle of a run. */
 struct RestParameters
 {
+  bool at_start = true;                           //!< a start at rest goes on resting
   bool enabled = false;                           //!< detect rest, and then keep still
   double duration = 2.0;                          //!< quiet for so long is rest [s]
   double max_speed = 0.01;                        //!< trend of the positions since then [m/s]
