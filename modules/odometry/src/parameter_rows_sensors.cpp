@@ -147,7 +147,8 @@ ParameterRows calibrationRows()
       {"calibration.estimate_time_offset", "",
        BooleanValue{[](auto& p) { return &p.calibration.estimate_time_offset; }},
        "true: the time offset between LiDAR and IMU is part of the state, starting at "
-       "lidar.time_offset; not in runs that start in motion, which keep it as given"},
+       "lidar.time_offset; not in runs that start in motion or with another map.type than planes, "
+       "which keep it as given"},
       {"calibration.time_offset_min_share", "",
        RealValue{[](auto& p) { return &p.calibration.time_offset_min_share; }, 0.0, 1.0},
        "the time offset joins the state when this share of a scan's points match: a young map, in "

@@ -48,11 +48,12 @@ CompensatedWith ScanPipeline::compensationWith(const NavState& predicted, std::i
 
 // From then on the offset is uncertain. A map that is still sparse could be made to fit a wrong
 // one, and so could one that was founded in motion: in a steady rotation nothing tells it from
-// heading.
+// heading. Maps that do not know the errors that neighbouring matches share are too sure of it.
 void ScanPipeline::releaseTimeOffset(const ScanResult& result)
 {
   const CalibrationParameters& p = parameters_.calibration;
   if (!p.estimate_time_offset || time_offset_released_ || young_map_.in_motion) return;
+  if (parameters_.map.type != MapType::Planes) return;
   if (result.status != ScanStatus::Tracking || !evidence_good_) return;
   const auto points = static_cast<double>(compensated_.points.size());
   if (static_cast<double>(result.statistics.points_effective) < p.time_offset_min_share * points)
