@@ -7,9 +7,9 @@
 # reduction are such that about as many match.
 . "$(dirname "$0")/library.sh"
 
-few="map.type=knn reduction.target_points=175"
-many="map.type=knn reduction.target_points=920"
-planes="reduction.target_points=2050"
+few="map.type=knn reduction.target_points=175 reduction.wide_points=0"
+many="map.type=knn reduction.target_points=920 reduction.wide_points=0"
+planes="reduction.target_points=2050 reduction.wide_points=0"
 
 header "open area"
 # shellcheck disable=SC2086  # several parameters
