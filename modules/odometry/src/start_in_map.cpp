@@ -15,11 +15,6 @@ double headingTo(const Mat3& wanted, const Mat3& R)
   const Mat3 turn = wanted * R.transpose();
   return std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
 }
-
-double squared(double x)
-{
-  return x * x;
-}
 }  // namespace
 
 FilterState standingAt(const FilterState& state, const Pose& T_map_imu)
@@ -57,7 +52,7 @@ FilterState withUncertainPlace(
   const Mat3 turning = (scale * std.cwiseAbs2()).asDiagonal();
   uncertain.P += J * turning * J.transpose();
   uncertain.P.block<3, 3>(kPosition, kPosition).diagonal().array() +=
-      scale * squared(parameters.pose_position_std);
+      scale * std::pow(parameters.pose_position_std, 2);
   return uncertain;
 }
 
