@@ -8,6 +8,7 @@
 #include "faults.h"
 
 #include "fault_run.h"
+#include "repeats.h"
 #include "temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -81,7 +82,7 @@ void tryFault(
   Row row;
   row.fault = fault.name + sensor;
   if (fault.error_factor > 0.0) row.limit = fault.error_factor * clean.worst_position + kAllowance;
-  for (std::size_t seed = 0; seed < kSeeds; ++seed)
+  for (std::size_t seed = 0; seed < repeats(kSeeds); ++seed)
   {
     Random random(seed);
     Observations observations = copyOf(recording.observations);
@@ -137,7 +138,7 @@ TEST(Faults, OfFiles)
     SCOPED_TRACE(fault.name);
     Row row;
     row.fault = fault.name;
-    for (std::size_t i = 0; i < fault.count; ++i)
+    for (std::size_t i = 0; i < repeats(fault.count); ++i)
     {
       const FaultOutcome outcome =
           replayBytes(fault.damage(rawlog, i, random), recording, folder.path(), false);

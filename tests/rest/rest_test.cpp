@@ -3,6 +3,7 @@
 
 /** \file rest_test.cpp Standing still: for long, among things that move, and moving on. */
 
+#include "repeats.h"
 #include "simulated_run.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ SimulationSettings sparse(const std::string& scenario, double duration)
 
 TEST(Rest, HalfAnHourNeitherDriftsNorGrowsTheMap)
 {
-  const SimulatedRun run = runWithRest(sparse("rest", 1800.0));
+  const SimulatedRun run = runWithRest(sparse("rest", repeats(1800.0)));
   EXPECT_LT(largestDistance(run, 20.0), 0.01);
   EXPECT_EQ(
       scanAt(run, 20.0).result.statistics.map_points,
