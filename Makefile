@@ -58,7 +58,7 @@ build: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS)
 
 test: test-dependencies
-	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
+	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_BENCHMARKS=ON -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
 	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS)
 	@test -n "$(RECORDINGS)" || echo "RECORDINGS is not given: tests on recordings will be skipped."
 	ctest --preset $(TEST_PRESET) --parallel $(JOBS)

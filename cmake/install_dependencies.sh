@@ -9,8 +9,8 @@ set -eu
 build_packages="g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-slam-dev libeigen3-dev libnanoflann-dev libtbb-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev zlib1g-dev libgtest-dev"
-# MRPT's own programs, which the tests run on our outputs.
-test_packages="mrpt-apps"
+# MRPT's own programs, which the tests run on our outputs, and what the benchmarks need, which are tested, too.
+test_packages="mrpt-apps libbenchmark-dev"
 lint_packages="clang-format clang-tidy"
 benchmark_packages="libbenchmark-dev"
 instructions_packages="valgrind"

@@ -77,7 +77,8 @@ void propagateSample(benchmark::State& state)
 void informationGain(benchmark::State& state)
 {
   const FilterState prior = someState();
-  const MeasurementEvaluation evaluation{sumsOf(matchedPoints(1000)), {}};
+  MeasurementEvaluation evaluation;
+  evaluation.sums = sumsOf(matchedPoints(1000));
   const MeasurementModel model = [&](const NavState&, int) { return evaluation; };
   IterationLimits limits;
   limits.max_iterations = 1;
@@ -88,8 +89,9 @@ void informationGain(benchmark::State& state)
 void standardGain(benchmark::State& state)
 {
   const Matched matched = matchedPoints(static_cast<std::size_t>(state.range(0)));
-  const MeasurementEvaluation evaluation{
-      sumsOf(matched), stack(Pose{}, matched.body, matched.matches, ResidualModel{})};
+  MeasurementEvaluation evaluation;
+  evaluation.sums = sumsOf(matched);
+  evaluation.stacked = stack(Pose{}, matched.body, matched.matches, ResidualModel{});
   const MeasurementModel model = [&](const NavState&, int) { return evaluation; };
   IterationLimits limits;
   limits.max_iterations = 1;
