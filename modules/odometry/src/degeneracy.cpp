@@ -39,26 +39,33 @@ using Solver = Eigen::SelfAdjointEigenSolver<Square6>;
 
 Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model)
+    const ResidualModel& model, std::size_t first, std::size_t last)
 {
-  // cov(h) = B cov(n) B^T, B = [[p]x R^T; I], cov(n) = s (I - n n^T) with half the summed variance.
-  const Mat3 R_scan_world = T_world_scan.R.transpose();
-  Square6 sum = Square6::Zero();
-  for (std::size_t i = 0; i < body.size(); ++i)
+  // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
+  double s_sum = 0.0;
+  Vec3 sp_sum = Vec3::Zero();
+  Mat3 spp_sum = Mat3::Zero();
+  Square6 shh_sum = Square6::Zero();
+  for (std::size_t i = first; i < last; ++i)
   {
     if (!matches[i].valid()) continue;
     const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
     if (!isConsistent(m, model)) continue;
     const double s = 0.5 * static_cast<double>(matches[i].normal_variance) * weightOf(m, model);
-    const Mat3 lever = skew(Vec3(body.x[i], body.y[i], body.z[i])) * R_scan_world;
-    const Vec3 n = m.h.tail<3>();
-    const Mat3 free = s * (Mat3::Identity() - n * n.transpose());
-    const Mat3 lever_free = lever * free;
-    sum.topLeftCorner<3, 3>() += lever_free * lever.transpose();
-    sum.topRightCorner<3, 3>() += lever_free;
-    sum.bottomRightCorner<3, 3>() += free;
+    const Vec3 p(body.x[i], body.y[i], body.z[i]);
+    const Eigen::Matrix<double, 6, 1> h = m.h;
+    s_sum += s;
+    sp_sum += s * p;
+    spp_sum += (s * p) * p.transpose();
+    shh_sum += (s * h) * h.transpose();
   }
-  sum.bottomLeftCorner<3, 3>() = sum.topRightCorner<3, 3>().transpose();
+  Square6 sum = -shh_sum;
+  // [p]x [p]x^T = |p|^2 I - p p^T
+  sum.topLeftCorner<3, 3>() += spp_sum.trace() * Mat3::Identity() - spp_sum;
+  const Mat3 lever = skew(sp_sum) * T_world_scan.R.transpose();
+  sum.topRightCorner<3, 3>() += lever;
+  sum.bottomLeftCorner<3, 3>() += lever.transpose();
+  sum.bottomRightCorner<3, 3>() += s_sum * Mat3::Identity();
   return sum;
 }
 

@@ -1,14 +1,18 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "information_lanes.h"
+#include "measurement_lanes.h"
 #include <fastlio/odometry/point_to_plane.h>
-
-#include <Eigen/Geometry>
-
-#include <cmath>
 
 namespace fastlio
 {
+namespace
+{
+// As many double-precision numbers as the widest registers of the processor family hold.
+constexpr std::size_t kLanes = 8;
+}  // namespace
+
 void transformToWorld(
     const BodyPoints& body, const Pose& T_world_imu, std::size_t first, std::size_t last,
     WorldPoints& world)
@@ -28,23 +32,20 @@ PlaneMeasurement planeMeasurement(
     const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
     const ResidualModel& model)
 {
-  const Vec3 p_imu(body.x[i], body.y[i], body.z[i]);
-  const Vec3 beam(body.ux[i], body.uy[i], body.uz[i]);
-  const Vec3 u(plane.nx, plane.ny, plane.nz);
-  const Vec3 u_imu = T_world_imu.R.transpose() * u;
+  MatchLanes<1> match;
+  load(match, 0, body, i, plane);
+  const MeasurementLanes<1> one = measure(T_world_imu, match, model.range_variance);
   PlaneMeasurement m;
-  m.h << p_imu.cross(u_imu), u;
-  m.z = u_imu.dot(p_imu) + u.dot(T_world_imu.p) + plane.d;
-  const double cos_incidence = u_imu.dot(beam);
-  m.variance = model.range_variance * cos_incidence * cos_incidence + plane.variance;
+  for (int k = 0; k < 6; ++k)
+    m.h[k] = one.h[k][0];
+  m.z = one.z[0];
+  m.variance = one.variance[0];
   return m;
 }
 
 bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
 {
-  const double prior_variance =
-      model.prior_position_variance + model.prior_attitude_variance * m.h.head<3>().squaredNorm();
-  return m.z * m.z <= model.gate * model.gate * (m.variance + prior_variance);
+  return withinGate(m.z, m.variance, m.h.head<3>().squaredNorm(), model);
 }
 
 double weightOf(const PlaneMeasurement& m, const ResidualModel& model)
@@ -56,24 +57,23 @@ InformationSums accumulate(
     const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last)
 {
-  InformationSums sums;
-  // Upper triangle only, mirrored at the end.
-  Eigen::Matrix<double, 6, 6> upper = Eigen::Matrix<double, 6, 6>::Zero();
+  InformationLanes<kLanes> sums;
+  MatchLanes<kLanes> lanes = {};
+  std::size_t filled = 0;
+  const auto flush = [&]
+  {
+    MeasurementLanes<kLanes> m = measure(T_world_imu, lanes, model.range_variance);
+    sums.add(m, filled, model);
+    filled = 0;
+  };
   for (std::size_t i = first; i < last; ++i)
   {
     if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_imu, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    const double weight = weightOf(m, model);
-    for (int c = 0; c < 6; ++c)
-      upper.col(c).head(c + 1) += weight * m.h[c] * m.h.head(c + 1);
-    sums.HtRinvz += weight * m.z * m.h;
-    sums.weighted_squares += weight * m.z * m.z;
-    sums.squares += m.z * m.z;
-    ++sums.count;
+    load(lanes, filled++, body, i, matches[i]);
+    if (filled == kLanes) flush();
   }
-  sums.HtRinvH = upper.selfadjointView<Eigen::Upper>();
-  return sums;
+  if (filled > 0) flush();
+  return sums.sums();
 }
 
 void addSums(InformationSums& a, const InformationSums& b)

@@ -51,7 +51,17 @@ void ScanUpdate::findConstraints(
   constraints_ = {};
   const double min_signal_to_noise = parameters_.measurement.min_signal_to_noise;
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
-  const Matrix6 noise = normalNoiseInformation(T_world_scan, points, matches_, model_);
+  chunk_noise_.resize(chunk_sums_.size());
+  workers_->forEachChunk(
+      points.size(),
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      {
+        chunk_noise_[chunk] =
+            normalNoiseInformation(T_world_scan, points, matches_, model_, first, last);
+      });
+  Matrix6 noise = Matrix6::Zero();
+  for (const Matrix6& part : chunk_noise_)
+    noise += part;
   constraints_ = scanConstraints(sums.HtRinvH, noise, min_signal_to_noise);
 }
 

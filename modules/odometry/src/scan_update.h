@@ -66,6 +66,7 @@ class ScanUpdate
   WorldPoints world_;
   std::vector<PlaneMatch> matches_;
   std::vector<InformationSums> chunk_sums_;
+  std::vector<Matrix6> chunk_noise_;
 };
 
 }  // namespace fastlio

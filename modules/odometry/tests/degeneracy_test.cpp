@@ -78,7 +78,8 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   const Pose pose;
   Analysis a;
   a.sums = accumulate(pose, scan.body, scan.matches, model, 0, scan.body.size());
-  const Matrix6 noise = normalNoiseInformation(pose, scan.body, scan.matches, model);
+  const Matrix6 noise =
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size());
   a.constraints = scanConstraints(a.sums.HtRinvH, noise, min_signal_to_noise);
   return a;
 }
@@ -103,6 +104,31 @@ TEST(Degeneracy, noiseOfTheNormalsIsWhatThereIsAlongTheTunnel)
     EXPECT_NEAR(a.constraints.information[0] / a.constraints.noise_information[0], 1.0, 0.25)
         << normal_std;
   }
+}
+
+TEST(Degeneracy, noiseIsTheSumOfTheRowsCovariances)
+{
+  const MatchedScan scan = tunnel(0.01, 20);
+  const Pose pose{expSO3({0.3, -0.2, 1.1}), {1.0, -2.0, 0.5}};
+  ResidualModel model;
+  model.gate = 1e9;
+  Matrix6 expected = Matrix6::Zero();
+  for (std::size_t i = 0; i < scan.body.size(); ++i)
+  {
+    const PlaneMatch& match = scan.matches[i];
+    const Vec3 n(match.nx, match.ny, match.nz), p(scan.body.x[i], scan.body.y[i], scan.body.z[i]);
+    Eigen::Matrix<double, 6, 3> by_normal;
+    by_normal << skew(p) * pose.R.transpose(), Mat3::Identity();
+    const Mat3 covariance =
+        0.5 * static_cast<double>(match.normal_variance) * (Mat3::Identity() - n * n.transpose());
+    const double weight = weightOf(planeMeasurement(pose, scan.body, i, match, model), model);
+    expected += weight * by_normal * covariance * by_normal.transpose();
+  }
+  const std::size_t half = scan.body.size() / 2;
+  const Matrix6 parts =
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half) +
+      normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size());
+  EXPECT_LT((parts - expected).norm(), 1e-6 * expected.norm());
 }
 
 TEST(Degeneracy, aWallAtTheEndConstrainsTheTunnel)

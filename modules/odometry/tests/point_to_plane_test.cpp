@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace fastlio
@@ -192,9 +193,10 @@ InformationSums sumOneByOne(const Matching& m, const ResidualModel& model)
     if (!m.matches[i].valid()) continue;
     const PlaneMeasurement one = planeMeasurement(m.x.pose(), m.body, i, m.matches[i], model);
     if (!isConsistent(one, model)) continue;
-    sums.HtRinvH += one.h * one.h.transpose() / one.variance;
-    sums.HtRinvz += one.h * one.z / one.variance;
-    sums.weighted_squares += one.z * one.z / one.variance;
+    const double weight = weightOf(one, model);
+    sums.HtRinvH += weight * one.h * one.h.transpose();
+    sums.HtRinvz += weight * one.z * one.h;
+    sums.weighted_squares += weight * one.z * one.z;
     sums.squares += one.z * one.z;
     ++sums.count;
   }
@@ -225,6 +227,30 @@ TEST(Accumulate, EqualsTheSumOfTheMeasurements)
       EXPECT_EQ(sums.count, 1000U - 143U) << "each seventh has no plane";
     }
   }
+}
+
+TEST(Accumulate, WeighsWithTheRobustKernel)
+{
+  const Matching m = randomMatching(8, 500, 0.05);
+  for (const RobustKernel kernel :
+       {RobustKernel::Huber, RobustKernel::Cauchy, RobustKernel::GemanMcClure})
+  {
+    ResidualModel model;
+    model.kernel = kernel;
+    model.kernel_scale = 0.5;
+    expectEqual(accumulate(m.x.pose(), m.body, m.matches, model, 0, 500), sumOneByOne(m, model));
+  }
+}
+
+TEST(Accumulate, LeavesOutWhatIsNoNumber)
+{
+  Matching m = randomMatching(9, 100);
+  m.body.x[3] = m.matches[17].nx = m.matches[50].d = std::nanf("");
+  m.body.ux[80] = std::numeric_limits<float>::infinity();
+  const InformationSums sums = accumulate(m.x.pose(), m.body, m.matches, wideOpen(), 0, 100);
+  EXPECT_TRUE(sums.HtRinvH.allFinite());
+  EXPECT_TRUE(sums.HtRinvz.allFinite());
+  expectEqual(sums, sumOneByOne(m, wideOpen()));
 }
 
 TEST(Accumulate, AddsUpOverChunks)

@@ -28,10 +28,11 @@ struct ScanConstraints
 
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
  * of w_j cov(h_j), the rows' covariance for the normals' variance. A wall of a tunnel that is known
- * to a degree seems to tell where along the tunnel one is. */
+ * to a degree seems to tell where along the tunnel one is. Of the points [first, last); the parts
+ * of a scan add up. */
 [[nodiscard]] Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model);
+    const ResidualModel& model, std::size_t first, std::size_t last);
 
 /** Analyses the information of a scan: a direction is unconstrained where the information is less
  * than \a min_signal_to_noise times that of the noise, or none at all. \param information the sum

@@ -46,7 +46,17 @@ struct ResidualModel
     const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
     const ResidualModel& model);
 
-/** True when the residual is within the gate of what noise and prediction explain. */
+/** True when a residual is within the gate of what noise and prediction explain; not for NaN.
+ * \param squared_lever_arm of the first three elements of its row [m^2] */
+[[nodiscard]] inline bool withinGate(
+    double z, double variance, double squared_lever_arm, const ResidualModel& model)
+{
+  const double prior_variance =
+      model.prior_position_variance + model.prior_attitude_variance * squared_lever_arm;
+  return z * z <= model.gate * model.gate * (variance + prior_variance);
+}
+
+/** The same for a measurement. */
 [[nodiscard]] bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model);
 
 /** 1 / variance, times the robust kernel's weight of the residual. */

@@ -1,0 +1,100 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file information_lanes.h The sums of the information form, kept apart per lane. */
+#pragma once
+
+#include "measurement_lanes.h"
+#include <fastlio/filter/update.h>
+
+#include <cstddef>
+
+namespace fastlio
+{
+/** InformationSums of the measurements of each lane. */
+template <std::size_t N>
+class InformationLanes
+{
+ public:
+  /** Adds the first \a filled lanes that are consistent with the model; the others may hold
+   * anything. */
+  void add(MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model)
+  {
+    double weight[N];
+    weigh(m, filled, model, weight);
+    std::size_t k = 0;
+    for (std::size_t c = 0; c < 6; ++c)
+    {
+      double weighted[N];
+      for (std::size_t l = 0; l < N; ++l)
+        weighted[l] = weight[l] * m.h[c][l];
+      for (std::size_t r = 0; r <= c; ++r, ++k)
+        for (std::size_t l = 0; l < N; ++l)
+          upper_[k][l] += weighted[l] * m.h[r][l];
+      for (std::size_t l = 0; l < N; ++l)
+        hz_[c][l] += weighted[l] * m.z[l];
+    }
+    for (std::size_t l = 0; l < N; ++l)
+    {
+      const double square = m.z[l] * m.z[l];
+      squares_[l] += square;
+      weighted_squares_[l] += weight[l] * square;
+    }
+  }
+
+  /** Over all lanes. */
+  [[nodiscard]] InformationSums sums() const
+  {
+    InformationSums s;
+    std::size_t k = 0;
+    for (int c = 0; c < 6; ++c)
+    {
+      for (int r = 0; r <= c; ++r, ++k)
+        s.HtRinvH(r, c) = s.HtRinvH(c, r) = total(upper_[k]);
+      s.HtRinvz[c] = total(hz_[static_cast<std::size_t>(c)]);
+    }
+    s.squares = total(squares_);
+    s.weighted_squares = total(weighted_squares_);
+    s.count = count_;
+    return s;
+  }
+
+ private:
+  /** Weights of the lanes; those that do not count become zero in every respect, as a NaN times a
+   * weight of zero would not. */
+  void weigh(
+      MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model, double (&weight)[N])
+  {
+    bool counts[N];
+    for (std::size_t l = 0; l < N; ++l)
+    {
+      const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
+      counts[l] = l < filled && withinGate(m.z[l], m.variance[l], lever, model);
+      weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
+      m.z[l] = counts[l] ? m.z[l] : 0.0;
+      count_ += counts[l] ? 1 : 0;
+    }
+    for (auto& row : m.h)
+      for (std::size_t l = 0; l < N; ++l)
+        row[l] = counts[l] ? row[l] : 0.0;
+    if (model.kernel == RobustKernel::None) return;
+    for (std::size_t l = 0; l < N; ++l)
+      weight[l] *= robustWeight(model.kernel, m.z[l] * m.z[l] * weight[l], model.kernel_scale);
+  }
+
+  static double total(const double (&lanes)[N])
+  {
+    double sum = 0.0;
+    for (const double lane : lanes)
+      sum += lane;
+    return sum;
+  }
+
+  double upper_[21][N] = {};
+  double hz_[6][N] = {};
+  double squares_[N] = {};
+  double weighted_squares_[N] = {};
+  std::size_t count_ = 0;
+};
+
+}  // namespace fastlio
