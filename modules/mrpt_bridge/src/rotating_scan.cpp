@@ -33,11 +33,18 @@ std::optional<VelodyneModel> modelOf(const Scan& scan)
   return std::nullopt;
 }
 
+/** The matrices of MRPT count from an unsigned zero. */
+template <typename Matrix>
+auto at(const Matrix& matrix, int row, int column)
+{
+  return matrix(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
+}
+
 bool isEmptyFrom(const Scan& scan, int first_column)
 {
   for (int row = 0; row < scan.rangeImage.rows(); ++row)
     for (int column = first_column; column < scan.rangeImage.cols(); ++column)
-      if (scan.rangeImage(row, column) != 0) return false;
+      if (at(scan.rangeImage, row, column) != 0) return false;
   return true;
 }
 
@@ -77,7 +84,7 @@ class Collector
     const bool bright = row < scan_.intensityImage.rows() && column < scan_.intensityImage.cols();
     result_.points.push_back(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-        bright ? static_cast<float>(scan_.intensityImage(row, column)) : 0.0F,
+        bright ? static_cast<float>(at(scan_.intensityImage, row, column)) : 0.0F,
         timed_ ? static_cast<std::int32_t>(std::lround(time_s * 1e9)) : 0,
         static_cast<std::uint16_t>(row));
   }
@@ -132,8 +139,8 @@ RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
     {
       const LaserGeometry& laser = lasers.at(static_cast<std::size_t>(row));
       const double range =
-          scan.rangeImage(row, column) * scan.rangeResolution + laser.distance_correction;
-      if (scan.rangeImage(row, column) == 0)
+          at(scan.rangeImage, row, column) * scan.rangeResolution + laser.distance_correction;
+      if (at(scan.rangeImage, row, column) == 0)
       {
         collector.skip();
         continue;
