@@ -93,7 +93,9 @@ void readWithPrefix(CArchive& in, const std::array<std::uint8_t, 4>& bytes, Rota
   const auto fifth = in.ReadAs<std::uint8_t>();
   if (bytes[0] != 0)
   {
-    std::string file(bytes[1] | (bytes[2] << 8U) | (bytes[3] << 16U), '\0');
+    const std::size_t length =
+        std::size_t{bytes[1]} | (std::size_t{bytes[2]} << 8U) | (std::size_t{bytes[3]} << 16U);
+    std::string file(length, '\0');
     if (fifth != 0) throw std::runtime_error("CObservationRotatingScan: absurd name of a file.");
     in.ReadBuffer(file.data(), file.size());
     setExternal(scan, bytes[0], file);
