@@ -24,8 +24,7 @@ CGenericPointsMap::Fields<T> readFields(CArchive& in, std::uint32_t points)
   const auto count = in.ReadAs<std::uint32_t>();
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    std::string name;
-    in >> name;
+    const std::string name = fastlio::readText(in, kName);
     const auto length = in.ReadAs<std::uint32_t>();
     if (length != points)
       throw std::runtime_error(

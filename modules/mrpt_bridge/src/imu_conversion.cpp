@@ -4,9 +4,40 @@
 #include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/mrpt_bridge/imu_conversion.h>
 
+#include <cstdint>
+#include <cstring>
+
 namespace
 {
 using namespace mrpt::obs;
+
+/** The channels of a vector. */
+struct Channels
+{
+  TIMUDataIndex x, y, z;
+};
+constexpr Channels kAcceleration{IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC};
+constexpr Channels kAngularRate{IMU_WX, IMU_WY, IMU_WZ};
+
+/** A damaged file may have put any byte where a bool belongs: it must not be read as one. */
+bool isPresent(const CObservationIMU& observation, TIMUDataIndex channel)
+{
+  std::uint8_t byte = 0;
+  std::memcpy(&byte, &observation.dataIsPresent.at(channel), sizeof(byte));
+  return byte == 1;
+}
+
+bool arePresent(const CObservationIMU& observation, const Channels& channels)
+{
+  return isPresent(observation, channels.x) && isPresent(observation, channels.y) &&
+         isPresent(observation, channels.z);
+}
+
+fastlio::Vec3 valuesOf(const CObservationIMU& observation, const Channels& channels)
+{
+  const auto& values = observation.rawMeasurements;
+  return {values.at(channels.x), values.at(channels.y), values.at(channels.z)};
+}
 
 fastlio::ImuConversion unusable(fastlio::ImuDefect defect)
 {
@@ -37,14 +68,11 @@ const char* toString(ImuDefect defect)
 ImuConversion toImuSample(const CObservationIMU& observation)
 {
   if (observation.timestamp == INVALID_TIMESTAMP) return unusable(ImuDefect::NoStamp);
-  if (!observation.has(IMU_X_ACC) || !observation.has(IMU_Y_ACC) || !observation.has(IMU_Z_ACC))
-    return unusable(ImuDefect::NoAcceleration);
-  if (!observation.has(IMU_WX) || !observation.has(IMU_WY) || !observation.has(IMU_WZ))
-    return unusable(ImuDefect::NoAngularRate);
+  if (!arePresent(observation, kAcceleration)) return unusable(ImuDefect::NoAcceleration);
+  if (!arePresent(observation, kAngularRate)) return unusable(ImuDefect::NoAngularRate);
   const ImuSample sample{
-      toNanoseconds(observation.timestamp),
-      Vec3(observation.get(IMU_WX), observation.get(IMU_WY), observation.get(IMU_WZ)),
-      Vec3(observation.get(IMU_X_ACC), observation.get(IMU_Y_ACC), observation.get(IMU_Z_ACC))};
+      toNanoseconds(observation.timestamp), valuesOf(observation, kAngularRate),
+      valuesOf(observation, kAcceleration)};
   if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return unusable(ImuDefect::NotFinite);
   return {sample, ImuDefect::None};
 }

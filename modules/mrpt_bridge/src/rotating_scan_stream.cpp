@@ -3,11 +3,16 @@
 
 #include "rotating_scan_stream.h"
 
+#include "point_map_stream.h"
+
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/stl_serialization.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
+#include <type_traits>
+#include <vector>
 
 namespace fastlio
 {
@@ -15,6 +20,7 @@ namespace
 {
 using mrpt::serialization::CArchive;
 
+constexpr const char* kName = "CObservationRotatingScan";
 constexpr std::uint8_t kSerialized = 1, kText = 2;
 
 std::uint16_t shortAt(const std::array<std::uint8_t, 4>& bytes, std::size_t at)
@@ -40,8 +46,10 @@ Size readSize(CArchive& in)
 template <typename Matrix>
 void readImage(CArchive& in, const Size& size, Matrix& image)
 {
+  using Number = std::decay_t<decltype(image(0, 0))>;
+  const auto numbers = readColumn<std::vector<Number>>(in, size.count(), kName);
   image.resize(size.rows, size.columns);
-  if (size.count() > 0) in.ReadBufferFixEndianness(&image(0, 0), size.count());
+  if (!numbers.empty()) std::copy(numbers.begin(), numbers.end(), &image(0, 0));
 }
 
 void readImages(CArchive& in, const Size& size, RotatingScan& scan)
@@ -52,8 +60,7 @@ void readImages(CArchive& in, const Size& size, RotatingScan& scan)
   const auto layers = in.ReadAs<std::uint16_t>();
   for (std::uint16_t i = 0; i < layers; ++i)
   {
-    std::string name;
-    in >> name;
+    const std::string name = readText(in, kName);
     readImage(in, size, scan.rangeOtherLayers[name]);
   }
 }
@@ -61,15 +68,21 @@ void readImages(CArchive& in, const Size& size, RotatingScan& scan)
 void readPoints(CArchive& in, RotatingScan& scan)
 {
   const Size size = readSize(in);
+  const auto numbers = readColumn<std::vector<float>>(in, 3 * size.count(), kName);
+  const float* number = numbers.data();
 #if FASTLIO_MRPT_HAS_ROTATING_POINTS
   scan.organizedPoints.resize(size.rows, size.columns);
-  for (auto& point : scan.organizedPoints)
-    in >> point.x >> point.y >> point.z;
+  auto& points = scan.organizedPoints;
 #else
   scan.points.resize(size.count());
-  for (auto& point : scan.points)
-    in >> point.x >> point.y >> point.z;
+  auto& points = scan.points;
 #endif
+  for (auto& point : points)
+  {
+    point.x = *number++;
+    point.y = *number++;
+    point.z = *number++;
+  }
 }
 
 void setExternal(RotatingScan& scan, std::uint8_t format, const std::string& file)
@@ -144,10 +157,13 @@ RotatingScanLayout layoutOf(
 std::shared_ptr<RotatingScan> readRotatingScan(CArchive& in)
 {
   auto scan = std::make_shared<RotatingScan>();
-  in >> scan->timestamp >> scan->sensorLabel >> scan->rowCount >> scan->columnCount >>
-      scan->rangeResolution >> scan->startAzimuth >> scan->azimuthSpan >> scan->sweepDuration >>
-      scan->lidarModel >> scan->minRange >> scan->maxRange >> scan->sensorPose >>
-      scan->originalReceivedTimestamp >> scan->has_satellite_timestamp;
+  in >> scan->timestamp;
+  scan->sensorLabel = readText(in, kName);
+  in >> scan->rowCount >> scan->columnCount >> scan->rangeResolution >> scan->startAzimuth >>
+      scan->azimuthSpan >> scan->sweepDuration;
+  scan->lidarModel = readText(in, kName);
+  in >> scan->minRange >> scan->maxRange >> scan->sensorPose >> scan->originalReceivedTimestamp;
+  scan->has_satellite_timestamp = readFlag(in);
   std::array<std::uint8_t, 4> bytes{};
   in.ReadBuffer(bytes.data(), bytes.size());
   switch (layoutOf(bytes, scan->rowCount, scan->columnCount))

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace
@@ -81,6 +83,16 @@ TEST(Imu, defects_are_told_apart)
   imu->timestamp = INVALID_TIMESTAMP;
   EXPECT_EQ(toImuSample(*imu).defect, ImuDefect::NoStamp);
   EXPECT_FALSE(toImuSample(*imu).sample);
+}
+
+// Found by fuzzing: an archive fills bools with whatever bytes the file has.
+TEST(Imu, a_byte_that_is_no_bool_is_no_channel)
+{
+  const auto imu = imuAt(0);
+  ASSERT_TRUE(toImuSample(*imu).sample);
+  const std::uint8_t byte = 38;
+  std::memcpy(&imu->dataIsPresent.at(mrpt::obs::IMU_Y_ACC), &byte, sizeof(byte));
+  EXPECT_EQ(toImuSample(*imu).defect, ImuDefect::NoAcceleration);
 }
 
 TEST(PointCloud, times_of_either_sign_become_nanoseconds)
