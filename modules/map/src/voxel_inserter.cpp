@@ -17,6 +17,15 @@ void fetchForWriting(const void* voxel)
   __builtin_prefetch(voxel, 1);
   __builtin_prefetch(static_cast<const char*>(voxel) + 64, 1);
 }
+
+// Of points that lie in no voxel, such as those whose deskewing overflowed.
+constexpr std::uint8_t kNoShard = VoxelShards::kCount;
+
+std::uint8_t shardOf(const VoxelGrid& grid, float x, float y, float z)
+{
+  return grid.contains(x, y, z) ? VoxelShards::shardOf(grid.addressOf(x, y, z).block_key)
+                                : kNoShard;
+}
 }  // namespace
 
 void VoxelInserter::collect(
@@ -105,8 +114,7 @@ void VoxelInserter::insert(
       [&](std::size_t, std::size_t first, std::size_t last)
       {
         for (std::size_t i = first; i < last; ++i)
-          shard_of_[i] = VoxelShards::shardOf(
-              context.grid.addressOf(points.x[i], points.y[i], points.z[i]).block_key);
+          shard_of_[i] = shardOf(context.grid, points.x[i], points.y[i], points.z[i]);
       });
   workers.forEach(
       VoxelShards::kCount, [&](std::size_t shard)

@@ -24,6 +24,9 @@ struct Query
 
 using Batch = std::array<Query, kBatch>;
 
+// No block has it: keys have fewer bits.
+constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+
 void findBlocks(
     const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
     std::size_t count, Batch& batch)
@@ -31,7 +34,14 @@ void findBlocks(
   for (std::size_t i = 0; i < count; ++i)
   {
     Query& query = batch[i];
-    query.address = grid.addressOf(points.x[first + i], points.y[first + i], points.z[first + i]);
+    const float x = points.x[first + i], y = points.y[first + i], z = points.z[first + i];
+    if (!grid.contains(x, y, z))  // nor is a NaN anywhere
+    {
+      query.address.block_key = kNowhere;
+      query.block = nullptr;
+      continue;
+    }
+    query.address = grid.addressOf(x, y, z);
     // Neighbours in the scan mostly share the block.
     if (i > 0 && batch[i - 1].address.block_key == query.address.block_key)
     {

@@ -112,6 +112,34 @@ TEST(VoxelPlaneMap, HasNoMatchInTheCornerOfARoom)
   EXPECT_FALSE(matchOne(map, {0.04F, 0.2F, 0.2F}).valid());
 }
 
+// Found by fuzzing: a scan whose deskewing overflowed.
+TEST(VoxelPlaneMap, HasNoMatchForWhatLiesNowhere)
+{
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.0F, 0.0F, 0.2F, 3.0F, 4000)), {0.0, 0.0, 3.0});
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Xyz near{0.1F, 0.1F, 0.2F};
+  for (const float nowhere : {kNaN, kInfinity, -kInfinity, 1e30F, 1e12F})
+  {
+    const auto matches =
+        matchAll(map, worldPoints({near, {nowhere, 0.1F, 0.2F}, {0.1F, nowhere, 0.2F}, near}));
+    EXPECT_TRUE(matches[0].valid() && matches[3].valid()) << nowhere;
+    EXPECT_FALSE(matches[1].valid() || matches[2].valid()) << nowhere;
+  }
+}
+
+TEST(VoxelPlaneMap, DoesNotTakeWhatLiesNowhere)
+{
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.0F, 0.0F, 0.2F, 3.0F, 4000)), {0.0, 0.0, 3.0});
+  const std::size_t before = map.pointCount();
+  map.insert(
+      worldPoints({{kNaN, 0.1F, 0.2F}, {0.1F, 1e30F, 0.2F}, {0.1F, 0.1F, -kNaN}}), {0.0, 0.0, 3.0});
+  EXPECT_EQ(map.pointCount(), before);
+}
+
 TEST(VoxelPlaneMap, WritesOnlyTheRangeThatIsAskedFor)
 {
   VoxelPlaneMap map(halfMetre());
