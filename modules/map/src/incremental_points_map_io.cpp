@@ -3,6 +3,7 @@
 
 #include "point_index.h"
 #include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/read_flag.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/serialization/CArchive.h>
@@ -55,9 +56,13 @@ void writeOptions(
 
 void readOptions(CArchive& in, CPointsMap::TInsertionOptions& i, CPointsMap::TLikelihoodOptions& l)
 {
-  in >> i.minDistBetweenLaserPoints >> i.addToExistingPointsMap >> i.also_interpolate >>
-      i.fuseWithExisting >> i.isPlanarMap >> i.horizontalTolerance >>
-      i.maxDistForInterpolatePoints >> i.insertInvalidPoints;
+  in >> i.minDistBetweenLaserPoints;
+  i.addToExistingPointsMap = readFlag(in);
+  i.also_interpolate = readFlag(in);
+  i.fuseWithExisting = readFlag(in);
+  i.isPlanarMap = readFlag(in);
+  in >> i.horizontalTolerance >> i.maxDistForInterpolatePoints;
+  i.insertInvalidPoints = readFlag(in);
   in >> l.sigma_dist >> l.max_corr_distance >> l.decimation;
 }
 }  // namespace

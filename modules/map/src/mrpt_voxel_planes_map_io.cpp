@@ -3,6 +3,7 @@
 
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/map/read_flag.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/io/CFileGZInputStream.h>
@@ -52,7 +53,9 @@ void CVoxelPlanesMap::serializeFrom(CArchive& in, std::uint8_t version)
   in >> genericMapParams >> insertionOptions.radius;
   auto& l = likelihoodOptions;
   in >> l.sigma_dist >> l.max_corr_distance >> l.decimation;
-  in >> renderOptions.points >> renderOptions.planes >> renderOptions.point_size;
+  renderOptions.points = readFlag(in);
+  renderOptions.planes = readFlag(in);
+  in >> renderOptions.point_size;
 }
 
 // ---- Files ----

@@ -130,6 +130,23 @@ constexpr std::size_t kOptions = 1 + 24 + 1;
 constexpr std::size_t kBlockCount = kOptions + 8 + 4 * 4 + 4;
 }  // namespace
 
+TEST(VoxelPlanesMapIo, ArchivesMakeABoolOfAByteThatIsNone)
+{
+  mrpt::io::CMemoryStream stream;
+  archiveFrom(stream) << unusualMap();
+  // At the end: two flags, a float, and the mark of the end.
+  auto* flag = static_cast<unsigned char*>(stream.getRawBufferData()) +
+               stream.getTotalBytesCount() - 1 - sizeof(float) - 2;
+  ASSERT_EQ(*flag, 1);
+  *flag = 7;
+  stream.Seek(0);
+  CVoxelPlanesMap map;
+  archiveFrom(stream) >> map;
+  unsigned char as_stored = 0;
+  std::memcpy(&as_stored, &map.renderOptions.points, 1);
+  EXPECT_EQ(as_stored, 1);
+}
+
 TEST(VoxelPlanesMapIo, ArchivesGoOnAsTheOriginal)
 {
   ASSERT_EQ(std::strlen("fastlio::CVoxelPlanesMap"), 24U);

@@ -3,7 +3,8 @@
 
 #include "rotating_scan_stream.h"
 
-#include "point_map_stream.h"
+#include "bounded_read.h"
+#include <fastlio/map/read_flag.h>
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/stl_serialization.h>
@@ -108,10 +109,8 @@ void readWithPrefix(CArchive& in, const std::array<std::uint8_t, 4>& bytes, Rota
   {
     const std::size_t length =
         std::size_t{bytes[1]} | (std::size_t{bytes[2]} << 8U) | (std::size_t{bytes[3]} << 16U);
-    std::string file(length, '\0');
     if (fifth != 0) throw std::runtime_error("CObservationRotatingScan: absurd name of a file.");
-    in.ReadBuffer(file.data(), file.size());
-    setExternal(scan, bytes[0], file);
+    setExternal(scan, bytes[0], readColumn<std::string>(in, length, kName));
     return;
   }
   const Size size{shortAt(bytes, 1), static_cast<std::uint16_t>(bytes[3] | (fifth << 8U))};
