@@ -84,8 +84,10 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   ScanResult result;
   result.begin_ns = span.begin_ns;
   result.stamp_ns = span.end_ns;
-  const FilterState predicted = propagateTo(span.end_ns, imu);  // eq. 4-8
-  reduce(scan, span.end_ns);
+  FilterState predicted;
+  workers_->alongside(
+      [&] { predicted = propagateTo(span.end_ns, imu); },  // eq. 4-8
+      [&] { reduce(scan, span.end_ns); });
   compensate(scan, span, predicted);  // eq. 9-10
   if (recovering_ && span.end_ns > recovery_end_ns_) beginNewMap();
   const UpdateResult update = start_in_map_ ? findInMap(predicted)

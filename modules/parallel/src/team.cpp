@@ -100,10 +100,10 @@ void Team::takeChunks(std::size_t member)
   }
 }
 
-/** Waits until a loop has begun that had not when \a seen had. False: the team ends. */
+/** Waits for a loop or task that is newer than \a seen. False: the team ends. */
 bool Team::awaitNews(std::size_t seen)
 {
-  const auto news = [&] { return stop_ || loops_ != seen; };
+  const auto news = [&] { return stop_ || news_ != seen; };
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   waitActively([&] { return news() || std::chrono::steady_clock::now() > deadline; });
   if (!news())
@@ -129,11 +129,68 @@ void Team::help(std::size_t member)
   std::size_t seen = 0;
   while (awaitNews(seen))
   {
-    seen = loops_;
+    seen = news_;
+    if (takeTask()) doTask();
     if (!join()) continue;
     takeChunks(member);
     --gate_;
   }
+}
+
+void Team::announce()
+{
+  ++news_;
+  // Either a helper on its way to sleep sees the new number, or it is seen here.
+  if (sleeping_ == 0) return;
+  const std::lock_guard lock(sleep_mutex_);
+  wake_up_.notify_all();
+}
+
+bool Team::takeTask()
+{
+  TaskState state = TaskState::Offered;
+  return task_state_.compare_exchange_strong(state, TaskState::Taken);
+}
+
+void Team::doTask()
+{
+  try
+  {
+    task_(task_context_);
+  }
+  catch (...)
+  {
+    task_failure_ = std::current_exception();
+  }
+  task_state_ = TaskState::Done;
+}
+
+void Team::awaitTask()
+{
+  waitActively([&] { return task_state_ == TaskState::Done; });
+  task_state_ = TaskState::None;
+}
+
+void Team::offer(TaskCall call, const void* context)
+{
+  task_ = call;
+  task_context_ = context;
+  task_state_ = TaskState::Offered;
+  announce();
+}
+
+void Team::settle()
+{
+  if (takeTask()) doTask();
+  awaitTask();
+  if (task_failure_) std::rethrow_exception(std::exchange(task_failure_, nullptr));
+}
+
+void Team::withdraw() noexcept
+{
+  if (takeTask()) task_state_ = TaskState::Done;
+  awaitTask();
+  task_failure_ = nullptr;
 }
 
 void Team::loop(std::size_t count, ChunkCall call, const void* context)
@@ -142,13 +199,7 @@ void Team::loop(std::size_t count, ChunkCall call, const void* context)
   context_ = context;
   share(count);
   gate_ = kOpen;
-  ++loops_;
-  // Either a helper on its way to sleep sees the new number, or it is seen here.
-  if (sleeping_ > 0)
-  {
-    const std::lock_guard lock(sleep_mutex_);
-    wake_up_.notify_all();
-  }
+  announce();
   takeChunks(0);
   gate_ &= ~kOpen;
   waitActively([&] { return gate_ == 0; });

@@ -38,6 +38,20 @@ class Team
    * are left out then */
   void loop(std::size_t count, ChunkCall call, const void* context);
 
+  /** Does something else. */
+  using TaskCall = void (*)(const void* context);
+
+  /** Lets a helper that is free call call(context) while this thread does other things. */
+  void offer(TaskCall call, const void* context);
+
+  /** Waits until the task that was offered has ended; does it if no helper has begun.
+   * \exception whatever it threw */
+  void settle();
+
+  /** Settles where nobody cares any more: what no helper has begun is left out, what it throws is
+   * dropped. */
+  void withdraw() noexcept;
+
  private:
   /** Chunks that a member of the team takes first: always the same part of a loop, so that what it
    * wrote in one loop is still in its cache in the next. On a cache line of its own. */
@@ -53,6 +67,10 @@ class Team
   void share(std::size_t count);
   void takeChunks(std::size_t member);
   void keepFailure();
+  void announce();
+  [[nodiscard]] bool takeTask();
+  void doTask();
+  void awaitTask();
 
   // The loop at hand: written while the gate is closed and nobody is inside, read inside.
   ChunkCall call_ = nullptr;
@@ -61,9 +79,22 @@ class Team
   std::exception_ptr failure_;
   std::mutex failure_mutex_;
 
+  // The task at hand: written while there is none, read by the one who has taken it.
+  enum class TaskState
+  {
+    None,
+    Offered,
+    Taken,
+    Done
+  };
+  TaskCall task_ = nullptr;
+  const void* task_context_ = nullptr;
+  std::exception_ptr task_failure_;
+  std::atomic<TaskState> task_state_{TaskState::None};
+
   static constexpr std::uint32_t kOpen = 1U << 31U;
   std::atomic<std::uint32_t> gate_{0};  // kOpen while helpers may join, plus how many are inside
-  std::atomic<std::size_t> loops_{0};   // begun so far
+  std::atomic<std::size_t> news_{0};    // loops and tasks so far
   std::atomic<std::size_t> sleeping_{0};
   std::atomic<bool> stop_{false};
   std::mutex sleep_mutex_;

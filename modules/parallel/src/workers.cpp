@@ -43,4 +43,25 @@ void Workers::loop(std::size_t n, std::size_t chunk_size, ChunkCall call, const 
     run(chunk);
 }
 
+void Workers::together(const Call& task, const Call& main) const
+{
+  if (!team_)
+  {
+    main.function(main.callable);
+    task.function(task.callable);
+    return;
+  }
+  team_->offer(task.function, task.callable);
+  try
+  {
+    main.function(main.callable);
+  }
+  catch (...)
+  {
+    team_->withdraw();
+    throw;
+  }
+  team_->settle();
+}
+
 }  // namespace fastlio

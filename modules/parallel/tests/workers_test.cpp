@@ -83,6 +83,43 @@ TEST_P(WorkersOf, HandsOnWhatAChunkThrows)
   EXPECT_EQ(calls, 100);
 }
 
+TEST_P(WorkersOf, DoATaskAlongsideLoops)
+{
+  const Workers workers(GetParam());
+  for (int i = 0; i < 1000; ++i)
+  {
+    int done = 0;
+    std::atomic<int> calls{0};
+    workers.alongside(
+        [&] { done = i; },
+        [&]
+        {
+          workers.forEach(5, [&](std::size_t) { ++calls; });
+          workers.forEach(3, [&](std::size_t) { ++calls; });
+        });
+    ASSERT_EQ(done, i);
+    ASSERT_EQ(calls, 8);
+    if (i % 100 == 0) std::this_thread::sleep_for(std::chrono::microseconds(i));
+  }
+}
+
+TEST_P(WorkersOf, HandOnWhatATaskOrItsCompanyThrows)
+{
+  const Workers workers(GetParam());
+  const auto fail = [] { throw std::runtime_error("task"); };
+  const auto fail_otherwise = [] { throw std::out_of_range("main"); };
+  const auto nothing = [] {};
+  for (int i = 0; i < 100; ++i)
+  {
+    EXPECT_THROW(workers.alongside(fail, nothing), std::runtime_error);
+    EXPECT_THROW(workers.alongside(nothing, fail_otherwise), std::out_of_range);
+    EXPECT_THROW(workers.alongside(fail, fail_otherwise), std::out_of_range);
+  }
+  bool done = false;
+  workers.alongside([&] { done = true; }, nothing);  // and go on to work
+  EXPECT_TRUE(done);
+}
+
 std::set<std::thread::id> threadsOf(const Workers& workers)
 {
   std::mutex mutex;

@@ -59,7 +59,29 @@ class Workers
     forEachChunk(n, 1, [&](std::size_t i, std::size_t, std::size_t) { body(i); });
   }
 
+  /** Does \a task, which is not divided and has no loops, on another thread if one is free, while
+   * the calling one does \a main, loops included. Neither may touch what the other writes.
+   * \exception whatever \a main threw, or else the task, once both have ended */
+  template <typename Task, typename Main>
+  void alongside(const Task& task, const Main& main) const
+  {
+    together({callOf<Task>, &task}, {callOf<Main>, &main});
+  }
+
  private:
+  /** Something to call that is kept by the caller. */
+  struct Call
+  {
+    void (*function)(const void* callable);
+    const void* callable;
+  };
+  template <typename Callable>
+  static void callOf(const void* callable)
+  {
+    (*static_cast<const Callable*>(callable))();
+  }
+  void together(const Call& task, const Call& main) const;
+
   using ChunkCall =
       void (*)(const void* body, std::size_t chunk, std::size_t first, std::size_t last);
   void loop(std::size_t n, std::size_t chunk_size, ChunkCall call, const void* body) const;
