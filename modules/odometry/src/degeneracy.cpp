@@ -1,6 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "information_lanes.h"
+#include "measurement_lanes.h"
 #include <fastlio/odometry/degeneracy.h>
 
 #include <Eigen/Eigenvalues>
@@ -35,6 +37,44 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
 }
 
 using Solver = Eigen::SelfAdjointEigenSolver<Square6>;
+
+/** Sums of s, s p and s p p^T over points, kept apart per lane. */
+struct WeightedPointLanes
+{
+  double s[kLanes] = {};
+  double sp[3][kLanes] = {};
+  double spp[6][kLanes] = {};  // upper triangle
+
+  void add(const double (&weight)[kLanes], const double (&p)[3][kLanes])
+  {
+    for (std::size_t l = 0; l < kLanes; ++l)
+      s[l] += weight[l];
+    std::size_t k = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      double weighted[kLanes];
+      for (std::size_t l = 0; l < kLanes; ++l)
+        // Lanes without weight may hold a point that is no number.
+        weighted[l] = weight[l] > 0.0 ? weight[l] * p[c][l] : 0.0;
+      for (std::size_t l = 0; l < kLanes; ++l)
+        sp[c][l] += weighted[l];
+      for (std::size_t r = 0; r <= c; ++r, ++k)
+        for (std::size_t l = 0; l < kLanes; ++l)
+          spp[k][l] += weight[l] > 0.0 ? weighted[l] * p[r][l] : 0.0;
+    }
+  }
+
+  /** Sum of s p p^T over all lanes. */
+  [[nodiscard]] Mat3 squares() const
+  {
+    Mat3 m;
+    std::size_t k = 0;
+    for (int c = 0; c < 3; ++c)
+      for (int r = 0; r <= c; ++r, ++k)
+        m(r, c) = m(c, r) = total(spp[k]);
+    return m;
+  }
+};
 }  // namespace
 
 Matrix6 normalNoiseInformation(
@@ -42,23 +82,25 @@ Matrix6 normalNoiseInformation(
     const ResidualModel& model, std::size_t first, std::size_t last)
 {
   // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
-  double s_sum = 0.0;
-  Vec3 sp_sum = Vec3::Zero();
-  Mat3 spp_sum = Mat3::Zero();
-  Square6 shh_sum = Square6::Zero();
-  for (std::size_t i = first; i < last; ++i)
-  {
-    if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    const double s = 0.5 * static_cast<double>(matches[i].normal_variance) * weightOf(m, model);
-    const Vec3 p(body.x[i], body.y[i], body.z[i]);
-    const Eigen::Matrix<double, 6, 1> h = m.h;
-    s_sum += s;
-    sp_sum += s * p;
-    spp_sum += (s * p) * p.transpose();
-    shh_sum += (s * h) * h.transpose();
-  }
+  OuterProductLanes<kLanes> shh_lanes;
+  WeightedPointLanes points;
+  forMatches<kLanes>(
+      body, matches, first, last,
+      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+      {
+        auto m = measure(T_world_scan, lanes, model.range_variance);
+        double s[kLanes];
+        weigh(m, filled, model, s);
+        for (std::size_t l = 0; l < kLanes; ++l)
+          s[l] *=
+              s[l] > 0.0 ? 0.5 * static_cast<double>(matches[lanes.index[l]].normal_variance) : 0;
+        shh_lanes.add(s, m.h);
+        points.add(s, lanes.p);
+      });
+  const double s_sum = total(points.s);
+  const Vec3 sp_sum(total(points.sp[0]), total(points.sp[1]), total(points.sp[2]));
+  const Mat3 spp_sum = points.squares();
+  const Square6 shh_sum = shh_lanes.sum();
   Square6 sum = -shh_sum;
   // [p]x [p]x^T = |p|^2 I - p p^T
   sum.topLeftCorner<3, 3>() += spp_sum.trace() * Mat3::Identity() - spp_sum;

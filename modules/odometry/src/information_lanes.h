@@ -11,6 +11,78 @@
 
 namespace fastlio
 {
+// As many double-precision numbers as the widest registers of the processor family hold.
+constexpr std::size_t kLanes = 8;
+
+/** Sum over the lanes, in their order. */
+template <std::size_t N>
+[[nodiscard]] double total(const double (&lanes)[N])
+{
+  double sum = 0.0;
+  for (const double lane : lanes)
+    sum += lane;
+  return sum;
+}
+
+/** Weights of the first \a filled lanes that are consistent with the model. The others become zero
+ * in every respect, as a NaN times a weight of zero would not. \return how many count */
+template <std::size_t N>
+std::size_t weigh(
+    MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model, double (&weight)[N])
+{
+  bool counts[N];
+  std::size_t count = 0;
+  for (std::size_t l = 0; l < N; ++l)
+  {
+    const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
+    counts[l] = l < filled && withinGate(m.z[l], m.variance[l], lever, model);
+    weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
+    m.z[l] = counts[l] ? m.z[l] : 0.0;
+    count += counts[l] ? 1 : 0;
+  }
+  for (auto& row : m.h)
+    for (std::size_t l = 0; l < N; ++l)
+      row[l] = counts[l] ? row[l] : 0.0;
+  if (model.kernel == RobustKernel::None) return count;
+  for (std::size_t l = 0; l < N; ++l)
+    weight[l] *= robustWeight(model.kernel, m.z[l] * m.z[l] * weight[l], model.kernel_scale);
+  return count;
+}
+
+/** Sum of w h h^T. */
+template <std::size_t N>
+class OuterProductLanes
+{
+ public:
+  void add(const double (&weight)[N], const double (&h)[6][N])
+  {
+    std::size_t k = 0;
+    for (std::size_t c = 0; c < 6; ++c)
+    {
+      double weighted[N];
+      for (std::size_t l = 0; l < N; ++l)
+        weighted[l] = weight[l] * h[c][l];
+      for (std::size_t r = 0; r <= c; ++r, ++k)
+        for (std::size_t l = 0; l < N; ++l)
+          upper_[k][l] += weighted[l] * h[r][l];
+    }
+  }
+
+  /** Over all lanes. */
+  [[nodiscard]] Matrix6 sum() const
+  {
+    Matrix6 s;
+    std::size_t k = 0;
+    for (int c = 0; c < 6; ++c)
+      for (int r = 0; r <= c; ++r, ++k)
+        s(r, c) = s(c, r) = total(upper_[k]);
+    return s;
+  }
+
+ private:
+  double upper_[21][N] = {};
+};
+
 /** InformationSums of the measurements of each lane. */
 template <std::size_t N>
 class InformationLanes
@@ -21,24 +93,15 @@ class InformationLanes
   void add(MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model)
   {
     double weight[N];
-    weigh(m, filled, model, weight);
-    std::size_t k = 0;
-    for (std::size_t c = 0; c < 6; ++c)
-    {
-      double weighted[N];
-      for (std::size_t l = 0; l < N; ++l)
-        weighted[l] = weight[l] * m.h[c][l];
-      for (std::size_t r = 0; r <= c; ++r, ++k)
-        for (std::size_t l = 0; l < N; ++l)
-          upper_[k][l] += weighted[l] * m.h[r][l];
-      for (std::size_t l = 0; l < N; ++l)
-        hz_[c][l] += weighted[l] * m.z[l];
-    }
+    count_ += weigh(m, filled, model, weight);
+    information_.add(weight, m.h);
     for (std::size_t l = 0; l < N; ++l)
     {
-      const double square = m.z[l] * m.z[l];
-      squares_[l] += square;
-      weighted_squares_[l] += weight[l] * square;
+      const double weighted_z = weight[l] * m.z[l];
+      for (std::size_t c = 0; c < 6; ++c)
+        hz_[c][l] += weighted_z * m.h[c][l];
+      squares_[l] += m.z[l] * m.z[l];
+      weighted_squares_[l] += weighted_z * m.z[l];
     }
   }
 
@@ -46,13 +109,9 @@ class InformationLanes
   [[nodiscard]] InformationSums sums() const
   {
     InformationSums s;
-    std::size_t k = 0;
+    s.HtRinvH = information_.sum();
     for (int c = 0; c < 6; ++c)
-    {
-      for (int r = 0; r <= c; ++r, ++k)
-        s.HtRinvH(r, c) = s.HtRinvH(c, r) = total(upper_[k]);
       s.HtRinvz[c] = total(hz_[static_cast<std::size_t>(c)]);
-    }
     s.squares = total(squares_);
     s.weighted_squares = total(weighted_squares_);
     s.count = count_;
@@ -60,37 +119,7 @@ class InformationLanes
   }
 
  private:
-  /** Weights of the lanes; those that do not count become zero in every respect, as a NaN times a
-   * weight of zero would not. */
-  void weigh(
-      MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model, double (&weight)[N])
-  {
-    bool counts[N];
-    for (std::size_t l = 0; l < N; ++l)
-    {
-      const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
-      counts[l] = l < filled && withinGate(m.z[l], m.variance[l], lever, model);
-      weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
-      m.z[l] = counts[l] ? m.z[l] : 0.0;
-      count_ += counts[l] ? 1 : 0;
-    }
-    for (auto& row : m.h)
-      for (std::size_t l = 0; l < N; ++l)
-        row[l] = counts[l] ? row[l] : 0.0;
-    if (model.kernel == RobustKernel::None) return;
-    for (std::size_t l = 0; l < N; ++l)
-      weight[l] *= robustWeight(model.kernel, m.z[l] * m.z[l] * weight[l], model.kernel_scale);
-  }
-
-  static double total(const double (&lanes)[N])
-  {
-    double sum = 0.0;
-    for (const double lane : lanes)
-      sum += lane;
-    return sum;
-  }
-
-  double upper_[21][N] = {};
+  OuterProductLanes<N> information_;
   double hz_[6][N] = {};
   double squares_[N] = {};
   double weighted_squares_[N] = {};

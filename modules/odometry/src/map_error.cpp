@@ -19,6 +19,7 @@ constexpr std::size_t kMaxFoundings = 256;
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
 using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 using AlignedStateBy6 = Eigen::Matrix<double, kStateDim, 6>;
+using Aligned6ByState = Eigen::Matrix<double, 6, kStateDim>;
 
 /** d(phi, rho) / d(dtheta, dp): phi = R dtheta, rho = dp + [p]x phi. */
 AlignedMatrix6 twistJacobian(const Pose& T_world_imu)
@@ -60,6 +61,31 @@ AlignedStateBy6 gainOf(const LinearizedUpdate& update)
   gain.bottomRows<kCalibrationDim>().setZero();
   return gain * update.constrained.transpose();
 }
+
+/** I - K H = I - G (S B): what an update leaves of an error, as a change of rank six. */
+struct Keeping
+{
+  AlignedStateBy6 G;
+  Aligned6ByState SB;
+
+  template <typename Columns>
+  [[nodiscard]] Columns times(const Columns& m) const
+  {
+    return m - G * (SB * m);
+  }
+
+  [[nodiscard]] AlignedStateMatrix onBothSidesOf(const AlignedStateMatrix& m) const
+  {
+    const AlignedStateMatrix left = times(m);
+    return left - (left * SB.transpose()) * G.transpose();
+  }
+
+  /** Of the rows and columns of the pose. */
+  [[nodiscard]] double poseTrace() const
+  {
+    return 6.0 - (G.topRows<6>() * SB.leftCols<6>()).trace();
+  }
+};
 
 /** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
 AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
@@ -122,8 +148,7 @@ void MapErrorModel::thinOut()
 void MapErrorModel::propagate(const StateMatrix& transition)
 {
   const AlignedStateMatrix Phi = transition;
-  E_ = Phi * E_ * Phi.transpose();
-  counted_twice_ = Phi * counted_twice_ * Phi.transpose();
+  addition_ = Phi * addition_ * Phi.transpose();
   Y_planes_ = Phi * Y_planes_;
   Y_founding_ = Phi * Y_founding_;
 }
@@ -139,28 +164,25 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
   const AlignedMatrix6 C_founding = M * squareRoot(foundingCovariance(scan.groups));
 
   const AlignedStateBy6 gain = gainOf(update);
-  const AlignedStateMatrix keep = AlignedStateMatrix::Identity() -
-                                  gain * scan.information * (update.constrained * update.by_state);
-  memory_ *= std::clamp(keep.topLeftCorner<6, 6>().trace() / 6.0, 0.0, 1.0);
+  const Keeping keep{gain, scan.information * (update.constrained * update.by_state)};
+  memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
   const AlignedStateBy6 in_planes = G * C_planes, in_founding = G * C_founding;
-  const AlignedStateBy6 kept_planes = scan.persistence * (keep * Y_planes_);
-  const AlignedStateBy6 kept_founding = keep * Y_founding_;
+  const AlignedStateBy6 kept_planes = scan.persistence * keep.times(AlignedStateBy6(Y_planes_));
+  const AlignedStateBy6 kept_founding = keep.times(AlignedStateBy6(Y_founding_));
 
-  const AlignedStateMatrix cross =
-      kept_planes * in_planes.transpose() + kept_founding * in_founding.transpose();
-  E_ = keep * E_ * keep.transpose() + in_planes * in_planes.transpose() +
-       in_founding * in_founding.transpose() + cross + cross.transpose();
+  // One half of all that comes in; its transpose is the other.
+  const AlignedStateMatrix half = (kept_planes + 0.5 * in_planes) * in_planes.transpose() +
+                                  (kept_founding + 0.5 * in_founding) * in_founding.transpose() -
+                                  (0.5 * gain * scan.shared_noise) * gain.transpose();
+  addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
   Y_planes_ = kept_planes + in_planes;
   Y_founding_ = kept_founding + in_founding;
-  counted_twice_ =
-      keep * counted_twice_ * keep.transpose() + gain * scan.shared_noise * gain.transpose();
 }
 
 StateMatrix MapErrorModel::addition() const
 {
-  const StateMatrix m = E_ - counted_twice_;
-  return 0.5 * (m + m.transpose());
+  return 0.5 * (addition_ + addition_.transpose());
 }
 
 StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const

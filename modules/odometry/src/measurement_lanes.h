@@ -9,6 +9,7 @@
 #include <fastlio/odometry/point_to_plane.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace fastlio
 {
@@ -16,6 +17,7 @@ namespace fastlio
 template <std::size_t N>
 struct MatchLanes
 {
+  std::size_t index[N];      //!< of the points in the scan
   double p[3][N];            //!< points, body frame [m]
   double beam[3][N];         //!< unit vectors along the beams, body frame
   double u[3][N];            //!< normals, world frame
@@ -28,6 +30,7 @@ void load(
     MatchLanes<N>& lanes, std::size_t lane, const BodyPoints& body, std::size_t i,
     const PlaneMatch& plane)
 {
+  lanes.index[lane] = i;
   lanes.p[0][lane] = body.x[i];
   lanes.p[1][lane] = body.y[i];
   lanes.p[2][lane] = body.z[i];
@@ -39,6 +42,26 @@ void load(
   lanes.u[2][lane] = plane.nz;
   lanes.d[lane] = plane.d;
   lanes.plane_variance[lane] = plane.variance;
+}
+
+/** Calls use(lanes, filled) with the matched ones of the points [first, last), N at a time and in
+ * their order; lanes from \a filled on may hold anything that is in the scan. */
+template <std::size_t N, typename Use>
+void forMatches(
+    const BodyPoints& body, const std::vector<PlaneMatch>& matches, std::size_t first,
+    std::size_t last, const Use& use)
+{
+  MatchLanes<N> lanes = {};
+  std::size_t filled = 0;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    if (!matches[i].valid()) continue;
+    load(lanes, filled++, body, i, matches[i]);
+    if (filled < N) continue;
+    use(lanes, filled);
+    filled = 0;
+  }
+  if (filled > 0) use(lanes, filled);
 }
 
 /** PlaneMeasurement, one per lane. */

@@ -1,6 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "information_lanes.h"
+#include "measurement_lanes.h"
 #include <fastlio/odometry/plane_groups.h>
 
 #include <utility>
@@ -42,29 +44,30 @@ PlaneGrouping::Sums PlaneGrouping::measure(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last)
 {
-  // Upper triangles only, mirrored at the end.
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 6> shared_noise = Eigen::Matrix<double, 6, 6>::Zero();
   for (std::size_t i = first; i < last; ++i)
-  {
-    Row& row = rows_[i];
-    row.weight = 0.0;
-    if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    row.weight = weightOf(m, model);
-    row.shared = row.weight * static_cast<double>(matches[i].shared_variance);
-    row.weighted_h = row.weight * m.h;
-    for (int c = 0; c < 6; ++c)
-    {
-      information.col(c).head(c + 1) += m.h[c] * row.weighted_h.head(c + 1);
-      shared_noise.col(c).head(c + 1) += row.shared * m.h[c] * row.weighted_h.head(c + 1);
-    }
-  }
-  Sums sums;
-  sums.information = information.selfadjointView<Eigen::Upper>();
-  sums.shared_noise = shared_noise.selfadjointView<Eigen::Upper>();
-  return sums;
+    rows_[i].weight = 0.0;
+  OuterProductLanes<kLanes> information, shared_noise;
+  forMatches<kLanes>(
+      body, matches, first, last,
+      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+      {
+        auto m = fastlio::measure(T_world_scan, lanes, model.range_variance);
+        double weight[kLanes], noise[kLanes] = {};
+        weigh(m, filled, model, weight);
+        for (std::size_t l = 0; l < filled; ++l)
+        {
+          if (weight[l] == 0.0) continue;
+          Row& row = rows_[lanes.index[l]];
+          row.weight = weight[l];
+          row.shared = weight[l] * static_cast<double>(matches[lanes.index[l]].shared_variance);
+          noise[l] = weight[l] * row.shared;
+          for (std::size_t k = 0; k < 6; ++k)
+            row.weighted_h[static_cast<Eigen::Index>(k)] = weight[l] * m.h[k][l];
+        }
+        information.add(weight, m.h);
+        shared_noise.add(noise, m.h);
+      });
+  return {information.sum(), shared_noise.sum()};
 }
 
 const GroupedMeasurements& PlaneGrouping::group(

@@ -7,12 +7,6 @@
 
 namespace fastlio
 {
-namespace
-{
-// As many double-precision numbers as the widest registers of the processor family hold.
-constexpr std::size_t kLanes = 8;
-}  // namespace
-
 void transformToWorld(
     const BodyPoints& body, const Pose& T_world_imu, std::size_t first, std::size_t last,
     WorldPoints& world)
@@ -58,21 +52,13 @@ InformationSums accumulate(
     const ResidualModel& model, std::size_t first, std::size_t last)
 {
   InformationLanes<kLanes> sums;
-  MatchLanes<kLanes> lanes = {};
-  std::size_t filled = 0;
-  const auto flush = [&]
-  {
-    MeasurementLanes<kLanes> m = measure(T_world_imu, lanes, model.range_variance);
-    sums.add(m, filled, model);
-    filled = 0;
-  };
-  for (std::size_t i = first; i < last; ++i)
-  {
-    if (!matches[i].valid()) continue;
-    load(lanes, filled++, body, i, matches[i]);
-    if (filled == kLanes) flush();
-  }
-  if (filled > 0) flush();
+  forMatches<kLanes>(
+      body, matches, first, last,
+      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+      {
+        MeasurementLanes<kLanes> m = measure(T_world_imu, lanes, model.range_variance);
+        sums.add(m, filled, model);
+      });
   return sums.sums();
 }
 

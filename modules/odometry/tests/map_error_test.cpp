@@ -3,7 +3,10 @@
 
 #include <fastlio/odometry/map_error.h>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+
+#include <cstdlib>
 
 namespace fastlio
 {
@@ -95,6 +98,89 @@ TEST(MapError, staysBoundedOverMoreFoundingsThanAreKept)
     const double largest = poseAddition(model).diagonal().maxCoeff();
     EXPECT_GT(largest, 1.9e-6);
     EXPECT_LT(largest, 4.1e-6);
+  }
+}
+
+/** The recursion of docs/covariance.md with dense matrices, E and D apart. */
+class DenseRecursion
+{
+ public:
+  void propagate(const StateMatrix& Phi)
+  {
+    E_ = Phi * E_ * Phi.transpose();
+    D_ = Phi * D_ * Phi.transpose();
+    Y_planes_ = Phi * Y_planes_;
+    Y_founding_ = Phi * Y_founding_;
+  }
+
+  void update(
+      const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& founding)
+  {
+    const StateBy6 G = update.gain;
+    const StateMatrix keep =
+        StateMatrix::Identity() - G * scan.information * Matrix6(update.constrained) *
+                                      Eigen::Matrix<double, 6, kStateDim>(update.by_state);
+    Matrix6 planes = Matrix6::Zero();
+    for (const PlaneGroup& group : scan.groups)
+      planes += group.shared_variance * group.g * group.g.transpose();
+    const StateBy6 in_planes = G * squareRoot(planes);
+    const StateBy6 in_founding = G * scan.information * squareRoot(founding);
+    const StateMatrix cross = scan.persistence * keep * Y_planes_ * in_planes.transpose() +
+                              keep * Y_founding_ * in_founding.transpose();
+    E_ = keep * E_ * keep.transpose() + in_planes * in_planes.transpose() +
+         in_founding * in_founding.transpose() + cross + cross.transpose();
+    D_ = keep * D_ * keep.transpose() + G * scan.shared_noise * G.transpose();
+    Y_planes_ = scan.persistence * keep * Y_planes_ + in_planes;
+    Y_founding_ = keep * Y_founding_ + in_founding;
+  }
+
+  [[nodiscard]] StateMatrix addition() const { return E_ - D_; }
+
+ private:
+  using StateBy6 = Eigen::Matrix<double, kStateDim, 6>;
+  static Matrix6 squareRoot(const Matrix6& m) { return m.llt().matrixL(); }
+
+  StateMatrix E_ = StateMatrix::Zero(), D_ = StateMatrix::Zero();
+  StateBy6 Y_planes_ = StateBy6::Zero(), Y_founding_ = StateBy6::Zero();
+};
+
+Matrix6 randomCovariance(double scale)
+{
+  const Matrix6 m = Matrix6::Random();
+  return scale * (m * m.transpose() + 0.1 * Matrix6::Identity());
+}
+
+TEST(MapError, isTheRecursionWithDenseMatrices)
+{
+  std::srand(1);  // of Eigen's random matrices
+  FoundingError founding;
+  founding.inherited = randomCovariance(1e-6);
+  MapErrorModel model;
+  model.recordInsertion(1, founding, {});
+  DenseRecursion dense;
+  for (int i = 0; i < 30; ++i)
+  {
+    StateMatrix Phi = StateMatrix::Identity() + 0.02 * StateMatrix::Random();
+    model.propagate(Phi);
+    dense.propagate(Phi);
+
+    GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1});
+    scan.information = randomCovariance(kInformation);
+    scan.shared_noise = randomCovariance(1e-3 * kInformation);
+    scan.persistence = 0.7;
+    for (PlaneGroup& group : scan.groups)
+    {
+      group.g = 100.0 * Vector6::Random();
+      group.shared_variance = 1e-6;
+    }
+    LinearizedUpdate update;
+    update.gain = 0.2 / kInformation * ScanGain::Random();
+    update.gain.bottomRows<kCalibrationDim>().setZero();
+    model.update(update, scan);
+    dense.update(update, scan, founding.inherited);
+    const StateMatrix expected = dense.addition();
+    ASSERT_GT(expected.norm(), 0.0);
+    EXPECT_LT((model.addition() - expected).norm(), 1e-9 * expected.norm()) << "update " << i;
   }
 }
 

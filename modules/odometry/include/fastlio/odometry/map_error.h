@@ -24,7 +24,8 @@
  * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were founded,
  * averaged with their weights. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
  * founding poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
- * eta), E = cov(e) follows without any approximation. See docs/covariance.md. */
+ * eta), E = cov(e) follows without any approximation. The share D of it that the filter has counted
+ * as noise of the points is taken off. See docs/covariance.md. */
 #pragma once
 
 #include <fastlio/filter/update.h>
@@ -95,12 +96,11 @@ class MapErrorModel
   void thinOut();
   [[nodiscard]] TwistCovariance foundingCovariance(const std::vector<PlaneGroup>& groups);
 
-  StateMatrix E_ = StateMatrix::Zero();              //!< cov e
-  StateMatrix counted_twice_ = StateMatrix::Zero();  //!< of the points' noise in P, the shared part
-  StateBy6 Y_planes_ = StateBy6::Zero();             //!< cov(e, eta) of the planes' own errors
-  StateBy6 Y_founding_ = StateBy6::Zero();           //!< the same of the founding poses'
-  double memory_ = 0.0;                              // since the last insertion
-  std::vector<Founding> foundings_;                  // ascending by scan
+  StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
+  StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors
+  StateBy6 Y_founding_ = StateBy6::Zero();      //!< the same of the founding poses'
+  double memory_ = 0.0;                         // since the last insertion
+  std::vector<Founding> foundings_;             // ascending by scan
 };
 
 }  // namespace fastlio
