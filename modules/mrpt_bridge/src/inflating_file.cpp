@@ -4,59 +4,85 @@
 #include "inflating_file.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
-#include <zlib.h>
+#include <utility>
 
 namespace
 {
-// Small, since what zlib has decompressed but not handed over is lost when it meets corrupt data.
-constexpr unsigned kBufferBytes = 1U << 13U;
-constexpr std::size_t kLargestRead = kBufferBytes;
-
-gzFile handle(void* file)
-{
-  return static_cast<gzFile>(file);
-}
-
-fastlio::FileEnd endOf(void* file)
-{
-  int error = Z_OK;
-  gzerror(handle(file), &error);
-  if (error == Z_OK || error == Z_STREAM_END) return fastlio::FileEnd::Clean;
-  return error == Z_BUF_ERROR ? fastlio::FileEnd::Truncated : fastlio::FileEnd::Corrupt;
-}
+constexpr std::size_t kBufferBytes = 1U << 16U;
+constexpr unsigned char kMagic[2] = {0x1F, 0x8B};  // of a gzip member
 }  // namespace
 
 namespace fastlio
 {
-void InflatingFile::Closer::operator()(void* file) const
+std::unique_ptr<GzipInflater> InflatingFile::fastestInflater()
 {
-  gzclose_r(handle(file));
+  auto inflater = makeIsalInflater();
+  return inflater ? std::move(inflater) : makeZlibInflater();
 }
 
-InflatingFile::InflatingFile(const std::string& path) : file_(gzopen(path.c_str(), "rb"))
+InflatingFile::InflatingFile(const std::string& path, std::unique_ptr<GzipInflater> inflater)
+    : file_(std::fopen(path.c_str(), "rb")), inflater_(std::move(inflater)), buffer_(kBufferBytes)
 {
   if (!file_) throw std::runtime_error("cannot be opened");
-  gzbuffer(handle(file_.get()), kBufferBytes);
+  if (!atMember()) inflater_.reset();
+}
+
+/** Fills the buffer up behind what is left in it. */
+void InflatingFile::load()
+{
+  std::copy(
+      buffer_.begin() + static_cast<std::ptrdiff_t>(buffer_begin_),
+      buffer_.begin() + static_cast<std::ptrdiff_t>(buffer_end_), buffer_.begin());
+  buffer_end_ = available();
+  buffer_begin_ = 0;
+  const std::size_t got =
+      std::fread(buffer_.data() + buffer_end_, 1, buffer_.size() - buffer_end_, file_.get());
+  buffer_end_ += got;
+  loaded_ += got;
+}
+
+bool InflatingFile::atMember()
+{
+  if (available() < sizeof kMagic) load();
+  return available() >= sizeof kMagic &&
+         std::memcmp(buffer_.data() + buffer_begin_, kMagic, sizeof kMagic) == 0;
+}
+
+std::size_t InflatingFile::readPlain(unsigned char* data, std::size_t size)
+{
+  if (available() == 0) load();
+  const std::size_t count = std::min(size, available());
+  std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(buffer_begin_), count, data);
+  buffer_begin_ += count;
+  if (count == 0) end_ = std::ferror(file_.get()) != 0 ? FileEnd::Corrupt : FileEnd::Clean;
+  return count;
+}
+
+std::size_t InflatingFile::inflate(unsigned char* data, std::size_t size)
+{
+  if (available() == 0) load();
+  const InflateStep step = inflater_->step(buffer_.data() + buffer_begin_, available(), data, size);
+  buffer_begin_ += step.consumed;
+  if (step.status == InflateStatus::Corrupt)
+    end_ = FileEnd::Corrupt;
+  else if (step.status == InflateStatus::MemberEnd && atMember())
+    inflater_->reset();
+  else if (step.status == InflateStatus::MemberEnd)
+    end_ = FileEnd::Clean;
+  else if (step.consumed == 0 && step.produced == 0)
+    end_ = std::ferror(file_.get()) != 0 || available() > 0 ? FileEnd::Corrupt : FileEnd::Truncated;
+  return step.produced;
 }
 
 std::size_t InflatingFile::read(char* data, std::size_t size)
 {
+  auto* bytes = reinterpret_cast<unsigned char*>(data);
   std::size_t done = 0;
   while (done < size && end_ == FileEnd::NotYet)
-  {
-    const auto wanted = static_cast<unsigned>(std::min(size - done, kLargestRead));
-    const int got = gzread(handle(file_.get()), data + done, wanted);
-    if (got > 0) done += static_cast<std::size_t>(got);
-    if (got < 0 || static_cast<unsigned>(got) < wanted) end_ = endOf(file_.get());
-  }
+    done += inflater_ ? inflate(bytes + done, size - done) : readPlain(bytes + done, size - done);
   return done;
-}
-
-std::uint64_t InflatingFile::compressedPosition() const
-{
-  const auto offset = gzoffset(handle(file_.get()));
-  return offset < 0 ? 0 : static_cast<std::uint64_t>(offset);
 }
 
 }  // namespace fastlio

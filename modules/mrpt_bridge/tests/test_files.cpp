@@ -40,12 +40,13 @@ std::string serialize(const std::vector<Object>& objects)
       static_cast<std::size_t>(stream.getTotalBytesCount())};
 }
 
-std::string gzip(const std::string& bytes)
+std::string gzip(const std::string& bytes, int level, int strategy, gz_header* header)
 {
   constexpr int kGzipWindow = 15 + 16;
   z_stream stream{};
-  if (deflateInit2(&stream, 6, Z_DEFLATED, kGzipWindow, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+  if (deflateInit2(&stream, level, Z_DEFLATED, kGzipWindow, 8, strategy) != Z_OK)
     throw std::runtime_error("deflateInit2");
+  if (header != nullptr) deflateSetHeader(&stream, header);
   std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
   std::string input = bytes;
   stream.next_in = reinterpret_cast<Bytef*>(input.data());

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 #include <vector>
+#include <zlib.h>
 
 namespace fastlio_test
 {
@@ -34,7 +35,10 @@ using Object = mrpt::serialization::CSerializable::Ptr;
 /** The bytes of an uncompressed rawlog. */
 std::string serialize(const std::vector<Object>& objects);
 
-std::string gzip(const std::string& bytes);
+/** One member of a gzip file, with whatever kinds of blocks zlib's level and strategy make. */
+std::string gzip(
+    const std::string& bytes, int level = 6, int strategy = Z_DEFAULT_STRATEGY,
+    gz_header* header = nullptr);
 
 void write(const std::string& file, const std::string& bytes);
 

@@ -1,0 +1,81 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "gzip_inflater.h"
+
+#ifdef FASTLIO_WITH_ISAL
+
+#include <algorithm>
+#include <cstdint>
+#include <isa-l/igzip_lib.h>
+#include <limits>
+
+namespace fastlio
+{
+namespace
+{
+std::uint32_t clamped(std::size_t size)
+{
+  return static_cast<std::uint32_t>(
+      std::min<std::size_t>(size, std::numeric_limits<std::uint32_t>::max()));
+}
+
+class IsalInflater : public GzipInflater
+{
+ public:
+  IsalInflater()
+  {
+    isal_inflate_init(&state_);
+    state_.crc_flag = ISAL_GZIP;
+  }
+
+  void reset() override
+  {
+    isal_inflate_reset(&state_);
+    state_.crc_flag = ISAL_GZIP;
+  }
+
+  InflateStep step(
+      const unsigned char* input, std::size_t input_size, unsigned char* output,
+      std::size_t output_size) override
+  {
+    const std::uint32_t in = clamped(input_size), out = clamped(output_size);
+    state_.next_in = const_cast<unsigned char*>(input);  // which ISA-L does not write to
+    state_.avail_in = in;
+    state_.next_out = output;
+    state_.avail_out = out;
+    const int result = isal_inflate(&state_);
+    InflateStep step;
+    step.consumed = in - state_.avail_in;
+    step.produced = out - state_.avail_out;
+    if (result < ISAL_DECOMP_OK || result > ISAL_OUT_OVERFLOW)
+      step.status = InflateStatus::Corrupt;
+    else if (state_.block_state == ISAL_BLOCK_FINISH)
+      step.status = InflateStatus::MemberEnd;
+    return step;
+  }
+
+ private:
+  inflate_state state_;
+};
+}  // namespace
+
+std::unique_ptr<GzipInflater> makeIsalInflater()
+{
+  return std::make_unique<IsalInflater>();
+}
+
+}  // namespace fastlio
+
+#else
+
+namespace fastlio
+{
+std::unique_ptr<GzipInflater> makeIsalInflater()
+{
+  return nullptr;
+}
+
+}  // namespace fastlio
+
+#endif
