@@ -3,6 +3,7 @@
 
 #include "velodyne_models.h"
 #include <fastlio/mrpt_bridge/rotating_scan.h>
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -128,9 +129,8 @@ RotatingScanPoints fromOwnPoints(const Scan& scan, const std::vector<mrpt::math:
 RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
 {
   const FiringTiming timing = timingOf(model);
-  const auto calibration = model == VelodyneModel::Hdl64e
-                               ? mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("HDL64")
-                               : mrpt::obs::VelodyneCalibration{};
+  const auto calibration = model == VelodyneModel::Hdl64e ? defaultVelodyneCalibration("HDL64")
+                                                          : mrpt::obs::VelodyneCalibration{};
   const std::vector<LaserGeometry> lasers = lasersOf(model, calibration);
   const double turn_rate = scan.sweepDuration > 0 ? scan.azimuthSpan / scan.sweepDuration : 0.0;
   Collector collector(scan);

@@ -3,9 +3,12 @@
 
 #include "velodyne_models.h"
 
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -206,6 +209,13 @@ std::optional<VelodyneModel> modelOf(const mrpt::obs::CObservationVelodyneScan& 
   if (calibrated == kLasersHdl32e) return VelodyneModel::Hdl32e;
   if (calibrated == kVlp16.size()) return VelodyneModel::Vlp16;
   return std::nullopt;
+}
+
+mrpt::obs::VelodyneCalibration defaultVelodyneCalibration(const std::string& model)
+{
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  return mrpt::obs::VelodyneCalibration::LoadDefaultCalibration(model);
 }
 
 FiringTiming timingOf(VelodyneModel model)

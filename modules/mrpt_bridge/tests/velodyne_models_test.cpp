@@ -8,8 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -34,6 +38,25 @@ TEST(VelodyneModels, hdl32e_fires_32_lasers_per_block)
     EXPECT_EQ(sweep.points.ring[0], 0);
     EXPECT_EQ(sweep.points.ring[31], 31);
   }
+}
+
+TEST(VelodyneModels, several_threads_load_their_calibrations_at_once)
+{
+  // For the thread sanitizer, which sees what goes wrong only sometimes.
+  const std::vector<std::pair<std::string, std::size_t>> models{{"VLP16", 16}, {"HDL32", 32}};
+  std::vector<std::thread> threads;
+  std::atomic<int> right{0};
+  for (int i = 0; i < 6; ++i)
+    threads.emplace_back(
+        [&, i]
+        {
+          const auto& [model, lasers] = models.at(static_cast<std::size_t>(i) % models.size());
+          const auto calibration = fastlio::defaultVelodyneCalibration(model);
+          right += calibration.laser_corrections.size() == lasers ? 1 : 0;
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(right, 6);
 }
 
 TEST(VelodyneModels, hdl64e_has_two_banks_at_once_and_needs_its_calibration)

@@ -3,6 +3,7 @@
 
 #include "cloud_formats.h"
 #include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/mrpt_bridge/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -132,7 +133,7 @@ CObservationVelodyneScan::Ptr toVelodyneScan(
   observation->minRange = settings.lidar.min_range;
   // Noise may carry a return beyond the range of surfaces.
   observation->maxRange = settings.lidar.max_range + 10.0 * settings.lidar.range_noise;
-  observation->calibration = mrpt::obs::VelodyneCalibration::LoadDefaultCalibration("VLP16");
+  observation->calibration = defaultVelodyneCalibration("VLP16");
   for (std::size_t i = 0; i < fired.sweep.shots.size(); i += vlp16::kShotsPerPacket)
     observation->scan_packets.push_back(encodePacket(fired, i, stamp_ns));
   return observation;

@@ -6,6 +6,7 @@
 #include <fastlio/mrpt_bridge/output/number_text.h>
 #include <fastlio/mrpt_bridge/register_classes.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/parallel/workers.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
 
@@ -13,18 +14,19 @@
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
-#include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 namespace fastlio
 {
 namespace
 {
 constexpr std::int64_t kTruthPeriodNs = 5'000'000;
-constexpr std::size_t kSweepsInFlight = 8;
+constexpr std::size_t kSweepsAtOnce = 16;
 
 /** The bytes of an object as a rawlog holds them. */
 std::string serialized(const mrpt::serialization::CSerializable& object)
@@ -98,27 +100,27 @@ void writeRawlog(
 {
   registerBridgeClasses();
   RawlogFile file(path, simulation.imu().samples);
+  const Workers workers(0);
   const std::size_t total = simulation.scanCount();
-  std::size_t next = 0, done = 0;
+  std::size_t done = 0;
+  std::vector<EncodedSweep> coming, ready;
+  const auto writeReady = [&]
+  {
+    for (const EncodedSweep& sweep : ready)
+    {
+      file.write(sweep);
+      if (progress) progress(++done, total);
+    }
+  };
   // Sweeps are fired and encoded in parallel, but compressed and written in order.
-  tbb::parallel_pipeline(
-      kSweepsInFlight, tbb::make_filter<void, std::size_t>(
-                           tbb::filter_mode::serial_in_order,
-                           [&](tbb::flow_control& control)
-                           {
-                             if (next == total) control.stop();
-                             return next++;
-                           }) &
-                           tbb::make_filter<std::size_t, EncodedSweep>(
-                               tbb::filter_mode::parallel,
-                               [&](std::size_t index) { return encodeSweep(simulation, index); }) &
-                           tbb::make_filter<EncodedSweep, void>(
-                               tbb::filter_mode::serial_in_order,
-                               [&](const EncodedSweep& sweep)
-                               {
-                                 file.write(sweep);
-                                 if (progress) progress(++done, total);
-                               }));
+  for (std::size_t first = 0; first < total; first += kSweepsAtOnce)
+  {
+    coming.resize(std::min(kSweepsAtOnce, total - first));
+    const auto encode = [&](std::size_t i) { coming[i] = encodeSweep(simulation, first + i); };
+    workers.alongside(writeReady, [&] { workers.forEach(coming.size(), encode); });
+    ready.swap(coming);
+  }
+  writeReady();
   file.finish();
 }
 

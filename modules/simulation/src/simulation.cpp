@@ -6,9 +6,6 @@
 #include <fastlio/simulation/settings_table.h>
 #include <fastlio/simulation/simulation.h>
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +17,6 @@ namespace
 constexpr double kNsPerSecond = 1e9;
 constexpr double kFinalRest = 1.0;                 // after the stop [s]
 constexpr std::int64_t kFirstShotNs = 13'700'000;  // LiDAR and IMU do not start at the same time
-constexpr std::size_t kShotsPerTask = 2048;
 
 bool walksOneLoop(const SimulationSettings& s, const ScenarioRow& row, const CarrierPath& path)
 {
@@ -58,7 +54,7 @@ std::int64_t nanoseconds(double seconds)
   return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
 }
 
-/** Noise-free echoes of some shots; shots of a column that fire together share the pose. */
+/** Noise-free echoes of a sweep; shots of a column that fire together share the pose. */
 struct Caster
 {
   const Motion& motion;
@@ -66,12 +62,12 @@ struct Caster
   const LidarSettings& lidar;
   double sweep_time;  // [s] since the start
 
-  void cast(const Sweep& sweep, std::size_t first, std::size_t last, std::vector<Echo>& out) const
+  void cast(const Sweep& sweep, std::vector<Echo>& out) const
   {
     std::int64_t posed_at = std::numeric_limits<std::int64_t>::min();
     Pose T_world_lidar;
     double t = 0.0;
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = 0; i < sweep.shots.size(); ++i)
     {
       const Shot& shot = sweep.shots[i];
       if (shot.column % static_cast<std::uint32_t>(lidar.stride) != 0) continue;
@@ -144,12 +140,9 @@ FiredSweep Simulation::fire(std::size_t index) const
 {
   FiredSweep fired;
   fired.sweep = lidar_->sweep(index);
-  const std::size_t n = fired.sweep.shots.size();
-  fired.echoes.resize(n);
+  fired.echoes.resize(fired.sweep.shots.size());
   const Caster caster{motion_, world_, settings_.lidar, secondsSinceStart(fired.sweep.stamp_ns)};
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, n, kShotsPerTask), [&](const auto& range)
-      { caster.cast(fired.sweep, range.begin(), range.end(), fired.echoes); });
+  caster.cast(fired.sweep, fired.echoes);
   addRangeNoise(fired.echoes, settings_, index);
   return fired;
 }

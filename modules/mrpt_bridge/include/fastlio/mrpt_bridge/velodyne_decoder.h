@@ -48,4 +48,9 @@ struct VelodyneSweep
  * model that is not supported (the message names it) */
 [[nodiscard]] VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan);
 
+/** MRPT's calibration of a model, for several threads at once: MRPT keeps those that it has loaded
+ * in a container that nothing guards. Without lasers where MRPT cannot read its own table (HDL64 in
+ * 2.5.8). \param model "VLP16", "HDL32", "HDL64" */
+[[nodiscard]] mrpt::obs::VelodyneCalibration defaultVelodyneCalibration(const std::string& model);
+
 }  // namespace fastlio
