@@ -4,6 +4,7 @@
 #include "odometry_impl.h"
 
 #include "plausible_time.h"
+#include "stack_anchor.h"
 #include <fastlio/odometry/parameter_yaml.h>
 
 #include <algorithm>
@@ -148,6 +149,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
 
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)
 {
+  const StackAnchor anchor;
   if (at_end) finishInputs();
   if (auto given_up = giveUpOldest(at_end)) return given_up;
   if (imu_.empty()) return std::nullopt;
@@ -170,6 +172,7 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
 
 std::optional<ImuRateState> Odometry::Impl::stateAtNewestSample()
 {
+  const StackAnchor anchor;
   if (imu_.empty() || !pipeline_.started()) return std::nullopt;
   return pipeline_.stateAtNewestSample(imu_);
 }

@@ -148,6 +148,21 @@ TEST(Odometry, ThreadsChangeNoBit)
   }
 }
 
+/** A run whose stack begins so many bytes further down. */
+[[gnu::noinline]] Results runBelow(std::size_t bytes)
+{
+  auto* gap = static_cast<volatile char*>(__builtin_alloca(bytes));
+  gap[0] = 0;
+  return runInOrder(roomParameters(), room());
+}
+
+TEST(Odometry, WhereTheStackBeginsChangesNoBit)
+{
+  const Results results = runBelow(16);
+  for (const std::size_t bytes : {32, 48, 64, 80})
+    EXPECT_TRUE(sameBits(runBelow(bytes), results)) << bytes;
+}
+
 TEST(Odometry, RunsSideBySideDoNotDisturbEachOther)
 {
   Odometry a(roomParameters()), b(roomParameters());
