@@ -51,7 +51,9 @@ void inflate(benchmark::State& state, std::unique_ptr<GzipInflater> (*make)())
     inflater->reset();
     InflateStep step;
     for (std::size_t used = 0; step.status == InflateStatus::Going; used += step.consumed)
-      step = inflater->step(input + used, file.size() - used, out.data(), out.size());
+      step = inflater->step(
+          input + used, static_cast<std::uint32_t>(file.size() - used), out.data(),
+          static_cast<std::uint32_t>(out.size()));
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes.size()));
 }

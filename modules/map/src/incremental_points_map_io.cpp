@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "point_index.h"
+#include <fastlio/map/bounded_read.h>
 #include <fastlio/map/incremental_points_map.h>
-#include <fastlio/map/read_flag.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/serialization/CArchive.h>
@@ -24,23 +24,11 @@ using mrpt::maps::CPointsMap;
 using mrpt::serialization::CArchive;
 using Column = mrpt::aligned_std_vector<float>;
 
+constexpr const char* kName = "CIncrementalPointsMap";
+
 void writeColumn(CArchive& out, const Column& column)
 {
   if (!column.empty()) out.WriteBufferFixEndianness(column.data(), column.size());
-}
-
-/** Reads piece by piece, so that a corrupt count ends at the end of the file, not of the memory. */
-void readColumn(CArchive& in, Column& column, std::size_t count)
-{
-  constexpr std::size_t kPiece = std::size_t{1} << 16;
-  column.clear();
-  while (column.size() < count)
-  {
-    const std::size_t first = column.size();
-    const std::size_t n = std::min(kPiece, count - first);
-    column.resize(first + n);
-    in.ReadBufferFixEndianness(column.data() + first, n);
-  }
 }
 
 // The options are written field by field: the layout of MRPT's own writer changed in 2.15.3, and
@@ -92,10 +80,9 @@ void CIncrementalPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
   TCreationOptions options;
   std::uint32_t count = 0;
   in >> options.cell_size >> options.min_spacing >> count;
-  Column x, y, z;
-  readColumn(in, x, count);
-  readColumn(in, y, count);
-  readColumn(in, z, count);
+  auto x = readColumn<Column>(in, count, kName);
+  auto y = readColumn<Column>(in, count, kName);
+  auto z = readColumn<Column>(in, count, kName);
   setCreationOptions(options);
   m_x.swap(x);
   m_y.swap(y);

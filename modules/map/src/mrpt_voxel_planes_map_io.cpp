@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/files/gzip_file.h>
+#include <fastlio/map/bounded_read.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
-#include <fastlio/map/read_flag.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/io/CFileGZInputStream.h>

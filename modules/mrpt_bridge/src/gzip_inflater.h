@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 
 namespace fastlio
@@ -38,8 +39,8 @@ class GzipInflater
 
   /** As much as there is input and room for; also without input, as some may be inside still. */
   virtual InflateStep step(
-      const unsigned char* input, std::size_t input_size, unsigned char* output,
-      std::size_t output_size) = 0;
+      const unsigned char* input, std::uint32_t input_size, unsigned char* output,
+      std::uint32_t output_size) = 0;
 };
 
 /** zlib. \exception std::bad_alloc */

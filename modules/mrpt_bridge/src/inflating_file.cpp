@@ -11,6 +11,7 @@
 namespace
 {
 constexpr std::size_t kBufferBytes = 1U << 16U;
+constexpr std::size_t kLargestStep = 1U << 30U;    // what the libraries count fits 32 bits
 constexpr unsigned char kMagic[2] = {0x1F, 0x8B};  // of a gzip member
 }  // namespace
 
@@ -63,7 +64,9 @@ std::size_t InflatingFile::readPlain(unsigned char* data, std::size_t size)
 std::size_t InflatingFile::inflate(unsigned char* data, std::size_t size)
 {
   if (available() == 0) load();
-  const InflateStep step = inflater_->step(buffer_.data() + buffer_begin_, available(), data, size);
+  const InflateStep step = inflater_->step(
+      buffer_.data() + buffer_begin_, static_cast<std::uint32_t>(available()), data,
+      static_cast<std::uint32_t>(std::min(size, kLargestStep)));
   buffer_begin_ += step.consumed;
   if (step.status == InflateStatus::Corrupt)
     end_ = FileEnd::Corrupt;

@@ -5,21 +5,13 @@
 
 #ifdef FASTLIO_WITH_ISAL
 
-#include <algorithm>
 #include <cstdint>
 #include <isa-l/igzip_lib.h>
-#include <limits>
 
 namespace fastlio
 {
 namespace
 {
-std::uint32_t clamped(std::size_t size)
-{
-  return static_cast<std::uint32_t>(
-      std::min<std::size_t>(size, std::numeric_limits<std::uint32_t>::max()));
-}
-
 class IsalInflater : public GzipInflater
 {
  public:
@@ -36,18 +28,17 @@ class IsalInflater : public GzipInflater
   }
 
   InflateStep step(
-      const unsigned char* input, std::size_t input_size, unsigned char* output,
-      std::size_t output_size) override
+      const unsigned char* input, std::uint32_t input_size, unsigned char* output,
+      std::uint32_t output_size) override
   {
-    const std::uint32_t in = clamped(input_size), out = clamped(output_size);
     state_.next_in = const_cast<unsigned char*>(input);  // which ISA-L does not write to
-    state_.avail_in = in;
+    state_.avail_in = input_size;
     state_.next_out = output;
-    state_.avail_out = out;
+    state_.avail_out = output_size;
     const int result = isal_inflate(&state_);
     InflateStep step;
-    step.consumed = in - state_.avail_in;
-    step.produced = out - state_.avail_out;
+    step.consumed = input_size - state_.avail_in;
+    step.produced = output_size - state_.avail_out;
     if (result < ISAL_DECOMP_OK || result > ISAL_OUT_OVERFLOW)
       step.status = InflateStatus::Corrupt;
     else if (state_.block_state == ISAL_BLOCK_FINISH)

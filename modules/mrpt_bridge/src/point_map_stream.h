@@ -5,8 +5,7 @@
  * older versions lack (internal). */
 #pragma once
 
-#include "bounded_read.h"
-#include <fastlio/map/read_flag.h>
+#include <fastlio/map/bounded_read.h>
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/serialization/CArchive.h>

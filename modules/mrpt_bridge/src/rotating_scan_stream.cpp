@@ -3,8 +3,7 @@
 
 #include "rotating_scan_stream.h"
 
-#include "bounded_read.h"
-#include <fastlio/map/read_flag.h>
+#include <fastlio/map/bounded_read.h>
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/stl_serialization.h>

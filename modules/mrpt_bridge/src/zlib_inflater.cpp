@@ -3,8 +3,6 @@
 
 #include "gzip_inflater.h"
 
-#include <algorithm>
-#include <limits>
 #include <new>
 #include <zlib.h>
 
@@ -13,11 +11,6 @@ namespace fastlio
 namespace
 {
 constexpr int kGzipFormat = 16;  // added to the size of the window
-
-uInt clamped(std::size_t size)
-{
-  return static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
-}
 
 class ZlibInflater : public GzipInflater
 {
@@ -31,18 +24,17 @@ class ZlibInflater : public GzipInflater
   void reset() override { inflateReset(&stream_); }
 
   InflateStep step(
-      const unsigned char* input, std::size_t input_size, unsigned char* output,
-      std::size_t output_size) override
+      const unsigned char* input, std::uint32_t input_size, unsigned char* output,
+      std::uint32_t output_size) override
   {
-    const uInt in = clamped(input_size), out = clamped(output_size);
     stream_.next_in = const_cast<Bytef*>(input);  // which zlib does not write to
-    stream_.avail_in = in;
+    stream_.avail_in = input_size;
     stream_.next_out = output;
-    stream_.avail_out = out;
+    stream_.avail_out = output_size;
     const int result = inflate(&stream_, Z_NO_FLUSH);
     InflateStep step;
-    step.consumed = in - stream_.avail_in;
-    step.produced = out - stream_.avail_out;
+    step.consumed = input_size - stream_.avail_in;
+    step.produced = output_size - stream_.avail_out;
     if (result == Z_STREAM_END)
       step.status = InflateStatus::MemberEnd;
     else if (result != Z_OK && result != Z_BUF_ERROR)

@@ -38,43 +38,17 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
 
 using Solver = Eigen::SelfAdjointEigenSolver<Square6>;
 
-/** Sums of s, s p and s p p^T over points, kept apart per lane. */
-struct WeightedPointLanes
+/** (p, 1) of the points that count; the others may be no numbers. */
+void homogeneous(
+    const double (&weight)[kLanes], const double (&p)[3][kLanes], double (&out)[4][kLanes])
 {
-  double s[kLanes] = {};
-  double sp[3][kLanes] = {};
-  double spp[6][kLanes] = {};  // upper triangle
-
-  void add(const double (&weight)[kLanes], const double (&p)[3][kLanes])
+  for (std::size_t l = 0; l < kLanes; ++l)
   {
-    for (std::size_t l = 0; l < kLanes; ++l)
-      s[l] += weight[l];
-    std::size_t k = 0;
     for (std::size_t c = 0; c < 3; ++c)
-    {
-      double weighted[kLanes];
-      for (std::size_t l = 0; l < kLanes; ++l)
-        // Lanes without weight may hold a point that is no number.
-        weighted[l] = weight[l] > 0.0 ? weight[l] * p[c][l] : 0.0;
-      for (std::size_t l = 0; l < kLanes; ++l)
-        sp[c][l] += weighted[l];
-      for (std::size_t r = 0; r <= c; ++r, ++k)
-        for (std::size_t l = 0; l < kLanes; ++l)
-          spp[k][l] += weight[l] > 0.0 ? weighted[l] * p[r][l] : 0.0;
-    }
+      out[c][l] = weight[l] > 0.0 ? p[c][l] : 0.0;
+    out[3][l] = 1.0;
   }
-
-  /** Sum of s p p^T over all lanes. */
-  [[nodiscard]] Mat3 squares() const
-  {
-    Mat3 m;
-    std::size_t k = 0;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r <= c; ++r, ++k)
-        m(r, c) = m(c, r) = total(spp[k]);
-    return m;
-  }
-};
+}
 }  // namespace
 
 Matrix6 normalNoiseInformation(
@@ -83,7 +57,7 @@ Matrix6 normalNoiseInformation(
 {
   // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
   OuterProductLanes<kLanes> shh_lanes;
-  WeightedPointLanes points;
+  OuterProductLanes<kLanes, 4> spp_lanes;  // of (p, 1): s p p^T, s p and s
   forMatches<kLanes>(
       body, matches, first, last,
       [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
@@ -95,11 +69,14 @@ Matrix6 normalNoiseInformation(
           s[l] *=
               s[l] > 0.0 ? 0.5 * static_cast<double>(matches[lanes.index[l]].normal_variance) : 0;
         shh_lanes.add(s, m.h);
-        points.add(s, lanes.p);
+        double p[4][kLanes];
+        homogeneous(s, lanes.p, p);
+        spp_lanes.add(s, p);
       });
-  const double s_sum = total(points.s);
-  const Vec3 sp_sum(total(points.sp[0]), total(points.sp[1]), total(points.sp[2]));
-  const Mat3 spp_sum = points.squares();
+  const auto sums = spp_lanes.sum();
+  const double s_sum = sums(3, 3);
+  const Vec3 sp_sum = sums.topRightCorner<3, 1>();
+  const Mat3 spp_sum = sums.topLeftCorner<3, 3>();
   const Square6 shh_sum = shh_lanes.sum();
   Square6 sum = -shh_sum;
   // [p]x [p]x^T = |p|^2 I - p p^T

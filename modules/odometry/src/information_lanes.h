@@ -49,15 +49,18 @@ std::size_t weigh(
   return count;
 }
 
-/** Sum of w h h^T. */
-template <std::size_t N>
+/** Sum of w h h^T of vectors h with D elements. */
+template <std::size_t N, std::size_t D = 6>
 class OuterProductLanes
 {
  public:
-  void add(const double (&weight)[N], const double (&h)[6][N])
+  static constexpr int kSize = static_cast<int>(D);
+  using Square = Eigen::Matrix<double, kSize, kSize, Eigen::DontAlign>;
+
+  void add(const double (&weight)[N], const double (&h)[D][N])
   {
     std::size_t k = 0;
-    for (std::size_t c = 0; c < 6; ++c)
+    for (std::size_t c = 0; c < D; ++c)
     {
       double weighted[N];
       for (std::size_t l = 0; l < N; ++l)
@@ -69,18 +72,18 @@ class OuterProductLanes
   }
 
   /** Over all lanes. */
-  [[nodiscard]] Matrix6 sum() const
+  [[nodiscard]] Square sum() const
   {
-    Matrix6 s;
+    Square s;
     std::size_t k = 0;
-    for (int c = 0; c < 6; ++c)
+    for (int c = 0; c < kSize; ++c)
       for (int r = 0; r <= c; ++r, ++k)
         s(r, c) = s(c, r) = total(upper_[k]);
     return s;
   }
 
  private:
-  double upper_[21][N] = {};
+  double upper_[D * (D + 1) / 2][N] = {};
 };
 
 /** InformationSums of the measurements of each lane. */

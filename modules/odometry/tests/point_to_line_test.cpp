@@ -4,30 +4,18 @@
 /** \file point_to_line_test.cpp Edge residuals: eq. 12-14 with G = [u]x, numerically and by hand.
  */
 
+#include "random_numbers.h"
 #include <fastlio/odometry/point_to_line.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace fastlio
 {
 namespace
 {
-class Random
-{
- public:
-  explicit Random(unsigned seed) : rng_(seed) {}
-  double normal(double sigma = 1.0) { return sigma * normal_(rng_); }
-  Vec3 vector(double sigma = 1.0) { return {normal(sigma), normal(sigma), normal(sigma)}; }
-
- private:
-  std::mt19937 rng_;
-  std::normal_distribution<double> normal_;
-};
-
 /** Edge points at a pose and a line for each of them. */
 struct Matching
 {

@@ -4,29 +4,13 @@
 /** \file random_matching.h A scan of random points and a plane for most of them. */
 #pragma once
 
+#include "random_numbers.h"
 #include <fastlio/odometry/point_to_plane.h>
 
-#include <random>
 #include <vector>
 
 namespace fastlio
 {
-class Random
-{
- public:
-  explicit Random(unsigned seed) : rng_(seed) {}
-  double normal(double sigma = 1.0) { return sigma * normal_(rng_); }
-  Vec3 vector(double sigma = 1.0) { return {normal(sigma), normal(sigma), normal(sigma)}; }
-  double uniform(double low, double high)
-  {
-    return std::uniform_real_distribution<double>(low, high)(rng_);
-  }
-
- private:
-  std::mt19937 rng_;
-  std::normal_distribution<double> normal_;
-};
-
 /** A scan at a pose and a plane for each of its points. */
 struct Matching
 {

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file bounded_read.h Reading what a damaged stream may lie about (internal). */
+/** \file bounded_read.h Reading what a damaged archive may lie about. */
 #pragma once
 
 #include <mrpt/serialization/CArchive.h>
@@ -42,6 +42,13 @@ Column readColumn(mrpt::serialization::CArchive& in, std::size_t length, const c
 {
   const auto length = in.ReadAs<std::uint32_t>();
   return readColumn<std::string>(in, length, what);
+}
+
+/** A flag as MRPT writes them, one byte. MRPT's own reader makes a bool of any byte, also of one
+ * that is none. */
+[[nodiscard]] inline bool readFlag(mrpt::serialization::CArchive& in)
+{
+  return in.ReadAs<std::uint8_t>() != 0;
 }
 
 }  // namespace fastlio
