@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "velodyne_block.h"
 #include "velodyne_models.h"
 #include "velodyne_packet.h"
 #include <fastlio/mrpt_bridge/velodyne_decoder.h>
@@ -9,47 +10,58 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
 #include <vector>
 
 namespace
 {
 using fastlio::azimuthOf;
-using fastlio::distanceOf;
+using fastlio::FiringAngles;
 using fastlio::FiringTiming;
 using fastlio::headerOf;
-using fastlio::intensityOf;
-using fastlio::LaserGeometry;
+using fastlio::VelodyneBank;
 using fastlio::VelodyneModel;
-using fastlio::VelodyneSweep;
 using Scan = mrpt::obs::CObservationVelodyneScan;
 using Packet = fastlio::VelodynePacket;
 using Block = fastlio::VelodyneBlock;
 
 constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
-constexpr std::size_t kReturns = Scan::SCANS_PER_BLOCK;
+constexpr std::size_t kMostBanks = 2;
 constexpr int kFullCircle = Scan::ROTATION_MAX_UNITS;  // azimuth unit: 0.01 deg
 constexpr double kRadiansPerUnit = 1e-4 * 1.7453292519943295;
-constexpr double kMetresPerUnit = 0.002;
 constexpr std::int64_t kMicrosecondsPerHour = 3'600'000'000;
 constexpr std::int64_t kMaxSweepMicroseconds = 2'000'000;
-constexpr double kNanosecondsPerMicrosecond = 1e3;
 
 // What stays the same for all packets of a sweep.
 struct Sensor
 {
   VelodyneModel model;
   FiringTiming timing;
-  std::vector<LaserGeometry> lasers;
-  double min_range, max_range;  // [m]
+  std::array<VelodyneBank, kMostBanks> banks;
 };
 
-// A return of a block: which laser gave it, when and in which direction after the block's first.
-struct Firing
+using Angles = std::array<FiringAngles, kMostBanks>;
+
+// The angles between firings at a speed of the rotor. It is a mean of rounded steps, so that the
+// packets of a sweep share a few values.
+class AnglesBySpeed
 {
-  const LaserGeometry* laser = nullptr;
-  double since_block_us = 0;
-  double sin_azimuth = 0, cos_azimuth = 1;  // of its angle to the block's azimuth
+ public:
+  explicit AnglesBySpeed(const Sensor& sensor) : sensor_(&sensor) {}
+
+  const Angles& at(double azimuth_per_us)
+  {
+    const auto [known, is_new] = angles_.try_emplace(azimuth_per_us);
+    if (is_new)
+      for (std::size_t bank = 0; bank < sensor_->timing.blocks_at_once; ++bank)
+        known->second[bank] = fastlio::firingAngles(sensor_->banks[bank], azimuth_per_us);
+    return known->second;
+  }
+
+ private:
+  const Sensor* sensor_;
+  std::map<double, Angles> angles_;  // [rad/us]; what it holds stays where it is
 };
 
 // One packet, understood: blocks of one group fire at the same time (banks, or the two returns of a
@@ -58,9 +70,8 @@ struct PacketLayout
 {
   std::size_t blocks_per_group = 1;
   bool dual = false;
-  double azimuth_per_us = 0;  // [rad/us]
-  double offset_us = 0;       // of the packet's first firing to that of the sweep
-  std::array<std::array<Firing, kReturns>, 2> firings;  // of a block, by its bank
+  double offset_us = 0;  // of the packet's first firing to that of the sweep
+  const Angles* angles = nullptr;
 };
 
 bool isGood(const Block& block, const FiringTiming& timing)
@@ -127,7 +138,7 @@ class PacketClock
     const bool good = elapsed >= 0 && elapsed < kMaxSweepMicroseconds && !repeats;
     if (!good) ++bad;
     const double offset = good ? static_cast<double>(elapsed) : due_us_;
-    due_us_ = offset + duration_us;
+    due_us_ = std::min(offset + duration_us, static_cast<double>(kMaxSweepMicroseconds));
     previous_us_ = stamp_us;
     started_ = true;
     return offset;
@@ -140,43 +151,6 @@ class PacketClock
   bool started_ = false;
 };
 
-// Makes room for n points, or leaves n of them.
-void resize(fastlio::PointColumns& points, std::size_t n)
-{
-  for (auto* column : {&points.x, &points.y, &points.z, &points.intensity})
-    column->resize(n);
-  points.time_offset_ns.resize(n);
-  points.ring.resize(n);
-}
-
-// A block's azimuth and the time of its first firing.
-struct BlockStart
-{
-  double sin_azimuth, cos_azimuth;
-  double time_us;
-};
-
-// Velodyne's azimuth runs clockwise from its +y axis, which is forward: our +x.
-void storePoint(
-    fastlio::PointColumns& points, std::size_t at, const BlockStart& start, const Firing& firing,
-    double distance, std::uint8_t intensity)
-{
-  const LaserGeometry& laser = *firing.laser;
-  // Sine and cosine of the sum: these functions once per block and per firing, not per point.
-  const double sin_a =
-      start.sin_azimuth * firing.cos_azimuth + start.cos_azimuth * firing.sin_azimuth;
-  const double cos_a =
-      start.cos_azimuth * firing.cos_azimuth - start.sin_azimuth * firing.sin_azimuth;
-  const double xy = distance * laser.cos_elevation + laser.offset_xy;
-  const double time_ns = (start.time_us + firing.since_block_us) * kNanosecondsPerMicrosecond;
-  points.x[at] = static_cast<float>(xy * cos_a + laser.horizontal_offset * sin_a);
-  points.y[at] = static_cast<float>(-xy * sin_a + laser.horizontal_offset * cos_a);
-  points.z[at] = static_cast<float>(distance * laser.sin_elevation + laser.offset_z);
-  points.intensity[at] = intensity;
-  points.time_offset_ns[at] = static_cast<std::int32_t>(std::floor(time_ns + 0.5));
-  points.ring[at] = laser.ring;
-}
-
 // The block of the same lasers that a dual return packet holds for the first of both returns.
 const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std::size_t index)
 {
@@ -185,64 +159,28 @@ const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std
   return second ? &packet.blocks[index - banks] : nullptr;
 }
 
-std::array<Firing, kReturns> firingsOf(
-    const Sensor& sensor, std::size_t bank, double azimuth_per_us)
-{
-  const FiringTiming& timing = sensor.timing;
-  std::array<Firing, kReturns> firings;
-  for (std::size_t i = 0; i < kReturns; ++i)
-  {
-    const std::size_t sequence = i / timing.lasers_per_sequence;
-    const std::size_t laser = i % timing.lasers_per_sequence;
-    Firing& firing = firings[i];
-    firing.laser = &sensor.lasers[bank * timing.lasers_per_sequence + laser];
-    firing.since_block_us = static_cast<double>(sequence) * timing.sequence_us +
-                            static_cast<double>(laser) * timing.laser_us;
-    const double azimuth =
-        firing.since_block_us * azimuth_per_us - firing.laser->azimuth_correction;
-    firing.sin_azimuth = std::sin(azimuth);
-    firing.cos_azimuth = std::cos(azimuth);
-  }
-  return firings;
-}
-
-// Returns the number of points now stored.
-std::size_t decodeBlock(
-    VelodyneSweep& sweep, std::size_t points, const Packet& packet, const Sensor& sensor,
-    const PacketLayout& layout, std::size_t index)
+void decodeBlock(
+    const Packet& packet, std::size_t index, const Sensor& sensor, const PacketLayout& layout,
+    fastlio::PacketPoints& points, fastlio::VelodyneDecodeCounts& counts)
 {
   const Block& block = packet.blocks[index];
-  const Block* first_return = firstReturnOf(packet, layout, index);
-  const auto& firings = layout.firings[headerOf(block) == Scan::LOWER_BANK ? 1 : 0];
+  const std::size_t bank = headerOf(block) == Scan::LOWER_BANK ? 1 : 0;
   const std::size_t group = index / layout.blocks_per_group;
   const double azimuth = azimuthOf(block) * kRadiansPerUnit;
-  const BlockStart start{
+  const fastlio::BlockStart start{
       std::sin(azimuth), std::cos(azimuth),
       layout.offset_us + static_cast<double>(group) * sensor.timing.block_us};
-  for (std::size_t i = 0; i < kReturns; ++i)
-  {
-    const int raw = distanceOf(block, i);
-    const double distance = raw * kMetresPerUnit + firings[i].laser->distance_correction;
-    if (raw == 0)
-      ++sweep.counts.no_return;
-    else if (first_return != nullptr && distanceOf(*first_return, i) == raw)
-      ++sweep.counts.duplicate;
-    else if (!(distance >= sensor.min_range && distance <= sensor.max_range))
-      ++sweep.counts.out_of_range;
-    else
-      storePoint(sweep.points, points++, start, firings[i], distance, intensityOf(block, i));
-  }
-  return points;
+  points.add(
+      block, firstReturnOf(packet, layout, index), sensor.banks[bank], (*layout.angles)[bank],
+      start, counts);
 }
 
-PacketLayout layoutOf(const Packet& packet, const Sensor& sensor)
+PacketLayout layoutOf(const Packet& packet, const Sensor& sensor, AnglesBySpeed& angles)
 {
   PacketLayout layout;
   layout.dual = isDual(packet, sensor);
   layout.blocks_per_group = sensor.timing.blocks_at_once * (layout.dual ? 2 : 1);
-  layout.azimuth_per_us = azimuthPerMicrosecond(packet, sensor.timing, layout.blocks_per_group);
-  for (std::size_t bank = 0; bank < sensor.timing.blocks_at_once; ++bank)
-    layout.firings[bank] = firingsOf(sensor, bank, layout.azimuth_per_us);
+  layout.angles = &angles.at(azimuthPerMicrosecond(packet, sensor.timing, layout.blocks_per_group));
   return layout;
 }
 
@@ -254,9 +192,11 @@ Sensor sensorOf(const Scan& scan)
         "Velodyne model byte " + std::to_string(scan.scan_packets.front().velodyne_model_ID) +
         " is not supported (VLP-16, Puck LITE, Puck Hi-Res, HDL-32E and HDL-64E are). Convert the "
         "recording to point clouds with the time of each point.");
-  return {
-      *model, fastlio::timingOf(*model), fastlio::lasersOf(*model, scan.calibration), scan.minRange,
-      scan.maxRange};
+  const auto lasers = fastlio::lasersOf(*model, scan.calibration);
+  Sensor sensor{*model, fastlio::timingOf(*model), {}};
+  for (std::size_t bank = 0; bank < sensor.timing.blocks_at_once; ++bank)
+    sensor.banks[bank] = fastlio::bankOf(lasers, sensor.timing, bank);
+  return sensor;
 }
 }  // namespace
 
@@ -273,23 +213,25 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   VelodyneSweep sweep;
   if (scan.scan_packets.empty()) return sweep;
   const Sensor sensor = sensorOf(scan);
-  resize(sweep.points, scan.scan_packets.size() * kBlocks * kReturns);
-  std::size_t points = 0;
+  AnglesBySpeed angles(sensor);
+  PacketPoints points({scan.minRange, scan.maxRange});
   PacketClock clock(timeOf(scan.scan_packets.front()));
+  sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturnsPerBlock);
   for (const Packet& packet : scan.scan_packets)
   {
-    PacketLayout layout = layoutOf(packet, sensor);
+    PacketLayout layout = layoutOf(packet, sensor, angles);
     layout.offset_us = clock.offsetOf(
         timeOf(packet), packetDuration(layout, sensor.timing), sweep.counts.bad_packet_times);
+    points.clear();
     for (std::size_t i = 0; i < kBlocks; ++i)
     {
       if (isGood(packet.blocks[i], sensor.timing))
-        points = decodeBlock(sweep, points, packet, sensor, layout, i);
+        decodeBlock(packet, i, sensor, layout, points, sweep.counts);
       else
         ++sweep.counts.bad_blocks;
     }
+    points.appendTo(sweep.points);
   }
-  resize(sweep.points, points);
   return sweep;
 }
 

@@ -116,6 +116,36 @@ TEST(Velodyne, packet_times_that_cannot_be_are_replaced)
   EXPECT_NEAR(untimed.points.time_offset_ns[2 * kBlocks * kReturns], 2 * 1327.104e3, 1.0);
 }
 
+TEST(Velodyne, packets_without_times_end_at_the_longest_sweep)
+{
+  // 2000 packets of 1.327 ms are more than 32 bits of nanoseconds hold.
+  const std::vector<Packet> packets(2000, makePacket(0, 40, 0, 5000));
+  const auto sweep = decodeVelodyne(*makeVlp16Scan(packets));
+  EXPECT_EQ(sweep.counts.bad_packet_times, packets.size() - 1);
+  EXPECT_EQ(sweep.points.size(), packets.size() * kBlocks * kReturns);
+  EXPECT_NEAR(sweep.points.time_offset_ns.back(), 2e9, 2e6);
+  for (const std::int32_t offset_ns : sweep.points.time_offset_ns)
+    ASSERT_GE(offset_ns, 0);
+}
+
+TEST(Velodyne, each_packet_has_the_angles_of_its_own_speed)
+{
+  const int steps[] = {40, 20, 40};  // [0.01 deg] per block
+  std::vector<Packet> packets;
+  for (std::uint32_t i = 0; i < 3; ++i)
+    packets.push_back(makePacket(0, static_cast<std::uint16_t>(steps[i]), 1327 * i, 5000));
+  const auto sweep = decodeVelodyne(*makeVlp16Scan(packets));
+  ASSERT_EQ(sweep.points.size(), packets.size() * kBlocks * kReturns);
+  for (std::size_t i = 0; i < sweep.points.size(); ++i)
+  {
+    const std::size_t packet = i / (kBlocks * kReturns);
+    const double since_packet_us =
+        sweep.points.time_offset_ns[i] * 1e-3 - 1327.0 * static_cast<double>(packet);
+    const double turned = since_packet_us / 110.592 * steps[packet] * 0.01;
+    EXPECT_NEAR(azimuthOf(sweep.points, i), turned, 1e-4);
+  }
+}
+
 TEST(Velodyne, corrupt_blocks_are_skipped_and_counted)
 {
   Packet packet = makePacket(0, 40, 0, 5000);

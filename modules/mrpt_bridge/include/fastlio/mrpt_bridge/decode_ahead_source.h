@@ -29,7 +29,7 @@ class DecodeAheadSource
 {
  public:
   /** Starts reading. \a capacity: inputs that are kept ready. */
-  DecodeAheadSource(RawlogSource source, ObservationBridge bridge, std::size_t capacity = 1024);
+  DecodeAheadSource(RawlogSource source, ObservationBridge bridge, std::size_t capacity = 256);
 
   /** Stops reading if it has not come to the end. */
   ~DecodeAheadSource();
