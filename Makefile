@@ -49,7 +49,7 @@ test-dependencies:
 	@cmake/install_dependencies.sh build test
 
 lint-dependencies:
-	@cmake/install_dependencies.sh build lint
+	@cmake/install_dependencies.sh build test benchmark lint
 
 configure: dependencies
 	cmake --preset $(PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
@@ -108,10 +108,12 @@ docs: build
 format: lint-dependencies
 	cmake/list_sources.sh | xargs clang-format -i
 
-lint: lint-dependencies build
+# Not of a build with precompiled headers: clang cannot read those of g++.
+lint: lint-dependencies
 	cmake/list_sources.sh | xargs clang-format --dry-run --Werror
 	tests/structure/check_structure.sh
-	cmake/run_clang_tidy.sh $(BUILD_DIR) $(JOBS)
+	cmake --preset $(PRESET) -B build/lint -DMRPT_FASTLIO_PRECOMPILE=OFF -DMRPT_FASTLIO_BENCHMARKS=ON
+	cmake/run_clang_tidy.sh build/lint $(JOBS)
 
 packages:
 	@cmake/install_dependencies.sh build packages

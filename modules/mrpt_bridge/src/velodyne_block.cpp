@@ -45,7 +45,9 @@ void place(
     points.y[i] = static_cast<float>(-xy * sin_a + bank.horizontal_offset[i] * cos_a);
     points.z[i] = static_cast<float>(distance * bank.sin_elevation[i] + bank.offset_z[i]);
     const double time_ns = (start.time_us + bank.since_block_us[i]) * kNanosecondsPerMicrosecond;
-    points.time_offset_ns[i] = static_cast<std::int32_t>(time_ns + 0.5);  // not negative: rounded
+    // Never negative, so this rounds; lround() would be called for each return.
+    points.time_offset_ns[i] =
+        static_cast<std::int32_t>(time_ns + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
 }
 

@@ -101,7 +101,7 @@ ScanConstraints scanConstraints(
   c.lever_arm = leverArmOf(information);
   const Solver solver(inLengths(information, c.lever_arm));
   const Square6 noise = inLengths(noise_information, c.lever_arm);
-  const Square6 V = solver.eigenvectors();
+  const Square6& V = solver.eigenvectors();
   c.directions = V;
   c.information = solver.eigenvalues();
   Vector6 keep = Vector6::Ones();
