@@ -49,7 +49,7 @@ test-dependencies:
 	@cmake/install_dependencies.sh build test
 
 lint-dependencies:
-	@cmake/install_dependencies.sh build test benchmark lint
+	@cmake/install_dependencies.sh build lint
 
 configure: dependencies
 	cmake --preset $(PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
@@ -110,6 +110,7 @@ format: lint-dependencies
 
 # Not of a build with precompiled headers: clang cannot read those of g++.
 lint: lint-dependencies
+	@cmake/install_dependencies.sh test benchmark
 	cmake/list_sources.sh | xargs clang-format --dry-run --Werror
 	tests/structure/check_structure.sh
 	cmake --preset $(PRESET) -B build/lint -DMRPT_FASTLIO_PRECOMPILE=OFF -DMRPT_FASTLIO_BENCHMARKS=ON

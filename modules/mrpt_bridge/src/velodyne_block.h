@@ -64,8 +64,6 @@ class PacketPoints
  public:
   explicit PacketPoints(const RangeLimits& limits) : limits_(limits) {}
 
-  void clear() { size_ = 0; }
-
   /** Those returns of a block that count. \a first_return is the block with the first returns of
    * the same lasers where this one holds the second ones, else null. */
   void add(

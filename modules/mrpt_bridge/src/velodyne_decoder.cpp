@@ -214,7 +214,7 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   if (scan.scan_packets.empty()) return sweep;
   const Sensor sensor = sensorOf(scan);
   AnglesBySpeed angles(sensor);
-  PacketPoints points({scan.minRange, scan.maxRange});
+  const RangeLimits limits{scan.minRange, scan.maxRange};
   PacketClock clock(timeOf(scan.scan_packets.front()));
   sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturnsPerBlock);
   for (const Packet& packet : scan.scan_packets)
@@ -222,7 +222,7 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
     PacketLayout layout = layoutOf(packet, sensor, angles);
     layout.offset_us = clock.offsetOf(
         timeOf(packet), packetDuration(layout, sensor.timing), sweep.counts.bad_packet_times);
-    points.clear();
+    PacketPoints points(limits);
     for (std::size_t i = 0; i < kBlocks; ++i)
     {
       if (isGood(packet.blocks[i], sensor.timing))
