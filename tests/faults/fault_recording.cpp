@@ -34,6 +34,14 @@ SimulationSettings settingsOf(LidarKind kind)
   settings.lidar.stride = kind == LidarKind::Vlp16 ? 2 : 16;
   return settings;
 }
+
+std::vector<std::int64_t> endsOfScans(const Simulation& simulation)
+{
+  std::vector<std::int64_t> ends;
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+    ends.push_back(spanOf(simulation.scan(i)).end_ns);
+  return ends;
+}
 }  // namespace
 
 FaultRecording makeFaultRecording(LidarKind kind)
@@ -44,20 +52,13 @@ FaultRecording makeFaultRecording(LidarKind kind)
   FaultRecording recording;
   recording.ground_truth = groundTruthText(simulation);
   recording.config = toYaml(matchingParameters(settings), "");
+  const std::vector<std::int64_t> ends = endsOfScans(simulation);
   std::size_t scan = 0;
-  const auto addScansUntil = [&](std::int64_t stamp_ns)
-  {
-    for (; scan < simulation.scanCount(); ++scan)
-    {
-      const LidarScan points = simulation.scan(scan);
-      if (spanOf(points).end_ns > stamp_ns) break;
-      recording.observations.push_back(toLidarObservation(simulation, scan));
-    }
-  };
   for (const ImuSample& sample : simulation.imu().samples)
   {
     recording.observations.push_back(toImuObservation(sample));
-    addScansUntil(sample.stamp_ns);
+    for (; scan < ends.size() && ends[scan] <= sample.stamp_ns; ++scan)
+      recording.observations.push_back(toLidarObservation(simulation, scan));
   }
   return recording;
 }
