@@ -26,27 +26,48 @@ function(fastlio_precompile TARGET KIND)
   endif()
 endfunction()
 
-# fastlio_add_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...] [TESTS ...])
-# A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) and, when tests are built, one
-# GoogleTest program test_NAME made of the TESTS files.
+# fastlio_unity(TARGET): the sources of TARGET are compiled as few units, which read each header once.
+function(fastlio_unity TARGET)
+  set_target_properties(${TARGET} PROPERTIES
+    UNITY_BUILD ${MRPT_FASTLIO_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+endfunction()
+
+# fastlio_add_module(NAME [PUBLIC ...] [PRIVATE ...] [TEST_LINK ...] [OWN_PROGRAM ...])
+# A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) of all sources in src/ and, when tests
+# are built, one GoogleTest program test_NAME of all sources in tests/ but those named by OWN_PROGRAM.
 function(fastlio_add_module NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;TESTS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;TEST_LINK;OWN_PROGRAM" ${ARGN})
   set(target mrpt_fastlio_${NAME})
-  add_library(${target} SHARED ${ARG_SOURCES})
+  file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS include/fastlio/${NAME}/*.h)
+  if(sources)
+    add_library(${target} SHARED ${sources} ${headers})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:fastlio_compiler_options>)
+    fastlio_precompile(${target} library)
+    fastlio_unity(${target})
+    set_target_properties(${target} PROPERTIES
+      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
   add_library(mrpt_fastlio::${NAME} ALIAS ${target})
-  target_include_directories(${target} PUBLIC
+  target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE}
-    $<BUILD_INTERFACE:fastlio_compiler_options>)
-  target_compile_features(${target} PUBLIC cxx_std_17)
-  fastlio_precompile(${target} library)
-  set_target_properties(${target} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-    EXPORT_NAME ${NAME})
+  target_link_libraries(${target} ${scope} ${ARG_PUBLIC})
+  target_compile_features(${target} ${scope} cxx_std_17)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
   fastlio_install_module(${target})
-  if(BUILD_TESTING AND ARG_TESTS)
-    fastlio_add_test(test_${NAME} SOURCES ${ARG_TESTS} LINK mrpt_fastlio::${NAME})
+  file(GLOB tests CONFIGURE_DEPENDS tests/*.cpp)
+  foreach(own ${ARG_OWN_PROGRAM})
+    list(REMOVE_ITEM tests ${CMAKE_CURRENT_SOURCE_DIR}/tests/${own})
+  endforeach()
+  if(BUILD_TESTING AND tests)
+    fastlio_add_test(test_${NAME} SOURCES ${tests} LINK mrpt_fastlio::${NAME} ${ARG_TEST_LINK})
+    # Tests see what is not public, too.
+    target_include_directories(test_${NAME} PRIVATE src)
   endif()
 endfunction()
 
@@ -64,6 +85,7 @@ function(fastlio_add_test NAME)
   add_executable(${NAME} ${ARG_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${ARG_LINK} fastlio_compiler_options GTest::gtest
     GTest::gtest_main)
+  target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_options(${NAME} PRIVATE ${FASTLIO_TEST_OPTIONS})
   fastlio_precompile(${NAME} test)
   gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${FASTLIO_TEST_TIMEOUT})

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "info_report.h"
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,8 +14,6 @@ namespace fastlio
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegreesPerRadian = 57.29577951308232;
 
 Json json(const Vec3& v)
 {
@@ -26,8 +26,7 @@ Json json(const Pose& T)
   return {
       {"position_m", {pose.x(), pose.y(), pose.z()}},
       {"yaw_pitch_roll_deg",
-       {pose.yaw() * kDegreesPerRadian, pose.pitch() * kDegreesPerRadian,
-        pose.roll() * kDegreesPerRadian}}};
+       {pose.yaw() * kDegPerRad, pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad}}};
 }
 
 Json json(const ReadProblem& problem)
@@ -123,7 +122,7 @@ Json imuJson(const RecordingSurvey& survey)
   if (!imu.rests) return all;
   all.update(
       {{"rest_s", imu.rest_seconds},
-       {"rest_begins_s", static_cast<double>(imu.rest_begin_ns - sensor.stamps.first_ns) * 1e-9},
+       {"rest_begins_s", toSeconds(imu.rest_begin_ns - sensor.stamps.first_ns)},
        {"gravity", imu.accel_norm},
        {"acceleration_unit", imu.accel_unit},
        {"up", json(imu.up)},
@@ -144,7 +143,7 @@ Json motionJson(const RecordingSurvey& survey)
   all["time_offset_s"] = motion.time_offset;
   all["time_offset_std_s"] = motion.time_offset_std;
   all["imu_rate_over_lidar_rate"] = motion.scale;
-  if (motion.rotation_known) all["mounting_error_deg"] = kDegreesPerRadian * survey.rotation_error;
+  if (motion.rotation_known) all["mounting_error_deg"] = kDegPerRad * survey.rotation_error;
   return all;
 }
 }  // namespace

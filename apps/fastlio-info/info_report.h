@@ -4,7 +4,7 @@
 /** \file info_report.h A surveyed recording for people and for programs. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/survey/recording_survey.h>
+#include <fastlio/survey/recording_survey.h>
 
 #include <string>
 

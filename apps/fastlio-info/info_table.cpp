@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "info_report.h"
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
 
@@ -14,8 +16,6 @@ namespace fastlio
 namespace
 {
 using mrpt::format;
-
-constexpr double kDegreesPerRadian = 57.29577951308232;
 
 std::string line(const char* label, const std::string& text)
 {
@@ -40,8 +40,8 @@ std::string rhythmText(const StampReport& stamps)
 {
   std::string text = format(
       "%zu observations in %.2f s, %.2f Hz, jitter %.2f ms, longest interval %.3f s", stamps.count,
-      static_cast<double>(stamps.last_ns - stamps.first_ns) * 1e-9, stamps.rate(),
-      1e3 * stamps.jitter, stamps.longest_gap);
+      toSeconds(stamps.last_ns - stamps.first_ns), stamps.rate(), 1e3 * stamps.jitter,
+      stamps.longest_gap);
   if (stamps.gaps > 0) text += format(", %zu gaps", stamps.gaps);
   if (stamps.backwards > 0) text += format(", %zu stamps out of order", stamps.backwards);
   if (stamps.duplicates > 0) text += format(", %zu stamps twice", stamps.duplicates);
@@ -53,8 +53,7 @@ std::string poseText(const Pose& T)
   const auto pose = toMrptPose(T);
   return format(
       "x %.3f y %.3f z %.3f m, yaw %.2f pitch %.2f roll %.2f deg", pose.x(), pose.y(), pose.z(),
-      pose.yaw() * kDegreesPerRadian, pose.pitch() * kDegreesPerRadian,
-      pose.roll() * kDegreesPerRadian);
+      pose.yaw() * kDegPerRad, pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad);
 }
 
 std::string sensorText(const SurveyedSensor& sensor)
@@ -106,7 +105,7 @@ std::string imuText(const RecordingSurvey& survey)
   text += line(
       "rest", format(
                   "%.2f s, beginning %.2f s after the start", imu.rest_seconds,
-                  static_cast<double>(imu.rest_begin_ns - stamps.first_ns) * 1e-9));
+                  toSeconds(imu.rest_begin_ns - stamps.first_ns)));
   text += line(
       "gravity", format("%.4f there: ", imu.accel_norm) +
                      (imu.accel_unit.empty() ? "unit unclear" : imu.accel_unit) +
@@ -155,7 +154,7 @@ std::string motionText(const RecordingSurvey& survey)
                         ? format(
                               "the given rotation is within %.1f deg of the one that both motions "
                               "show",
-                              kDegreesPerRadian * survey.rotation_error)
+                              kDegPerRad * survey.rotation_error)
                         : std::string("the motion turns about one axis only: not to be told"));
 }
 

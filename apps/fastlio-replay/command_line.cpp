@@ -3,8 +3,8 @@
 
 #include "command_line.h"
 
-#include <fastlio/mrpt_bridge/output/run_summary.h>
-#include <fastlio/mrpt_bridge/output/standard_exporters.h>
+#include <fastlio/exporters/run_summary.h>
+#include <fastlio/exporters/standard_exporters.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>

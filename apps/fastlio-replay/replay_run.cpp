@@ -5,9 +5,9 @@
 
 #include "interruption.h"
 #include "run_counts.h"
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/mrpt_bridge/output/number_text.h>
-#include <fastlio/mrpt_bridge/output/standard_exporters.h>
 
 #include <mrpt/system/CTicTac.h>
 
@@ -65,7 +65,7 @@ std::vector<std::string> sensorTexts(const RunSetup& setup)
 OutputMapOptions outputMapOptions(const RunSetup& setup)
 {
   constexpr double kPointsPerMillion = 1e6;
-  const OutputParameters& output = setup.parameters.output;
+  const ExportOptions& output = setup.parameters.output;
   OutputMapOptions options;
   options.spacing = setup.parameters.map.output_spacing;
   options.tile_size = output.tile_size;
@@ -82,7 +82,7 @@ OutputPoints withoutFields(const WorldPoints& points)
       {std::vector<float>(points.size(), 0.0F), std::vector<std::int64_t>(points.size(), 0)});
 }
 
-OutputOptions outputOptions(const RunSetup& setup)
+ExportTarget outputOptions(const RunSetup& setup)
 {
   return {
       setup.arguments.output_directory,
@@ -206,12 +206,12 @@ void ReplayRun::reportChange(const ScanResult& result)
 
 void ReplayRun::reportRemarks()
 {
-  const std::vector<Remark>& remarks = odometry_.remarks();
-  for (; remarks_told_ < remarks.size(); ++remarks_told_)
+  const std::vector<Diagnostic>& diagnostics = odometry_.diagnostics();
+  for (; diagnostics_reported_ < diagnostics.size(); ++diagnostics_reported_)
   {
     progress_.clear();
-    const Remark& remark = remarks[remarks_told_];
-    logger_.logStr(LVL_WARN, "at " + secondsText(remark.stamp_ns) + ": " + remark.text);
+    const Diagnostic& diagnostic = diagnostics[diagnostics_reported_];
+    logger_.logStr(LVL_WARN, "at " + secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
   }
 }
 
@@ -239,7 +239,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
       {"scans_skipped", std::min(scans_seen_, setup_.arguments.skip_first_n)});
   summary.statistics = statistics_;
   summary.imu = odometry_.imuReport();
-  summary.remarks = odometry_.remarks();
+  summary.diagnostics = odometry_.diagnostics();
   summary.interrupted = interrupted();
   summary.input_problems = sentences(source.problems());
   summary.failure = failure_;

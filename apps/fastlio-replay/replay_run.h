@@ -6,9 +6,9 @@
 
 #include "progress_meter.h"
 #include "run_setup.h"
-#include <fastlio/mrpt_bridge/decode_ahead_source.h>
-#include <fastlio/mrpt_bridge/output/exporter.h>
+#include <fastlio/exporters/exporter.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/rawlog/decode_ahead_source.h>
 
 #include <mrpt/system/COutputLogger.h>
 
@@ -53,7 +53,7 @@ class ReplayRun
   std::size_t scans_seen_ = 0;
   std::optional<ScanStatus> last_status_;
   std::size_t exporter_problems_told_ = 0;
-  std::size_t remarks_told_ = 0;
+  std::size_t diagnostics_reported_ = 0;
   std::string failure_;  //!< an exception that ended the loop
 };
 

@@ -4,9 +4,9 @@
 /** \file run_counts.h Everything that was read or dropped, as named numbers. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/observation_bridge.h>
-#include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/exporters/run_summary.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/sensors/observation_bridge.h>
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "run_report.h"
 
 #include "run_counts.h"
-#include <fastlio/mrpt_bridge/output/number_text.h>
+#include <fastlio/exporters/number_text.h>
 
 #include <algorithm>
 
@@ -166,8 +166,8 @@ std::string reportText(const RunSummary& summary)
     text += line("Open", openText(statistics.openDirections()));
   text += line("IMU", imuText(summary.imu));
   text += line("Health", healthText(statistics.health()));
-  for (const Remark& remark : summary.remarks)
-    text += line("Remark", secondsText(remark.stamp_ns) + ": " + remark.text);
+  for (const Diagnostic& diagnostic : summary.diagnostics)
+    text += line("Diagnostic", secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
   text += filesText(summary.outputs);
   return text + line(
                     "Status", std::string(toString(status)) + " (exit status " +

@@ -4,7 +4,7 @@
 /** \file run_report.h The end of a run, for people. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/output/run_summary.h>
+#include <fastlio/exporters/run_summary.h>
 
 #include <string>
 

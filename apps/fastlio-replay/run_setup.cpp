@@ -4,9 +4,11 @@
 #include "run_setup.h"
 
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/saved_map_file.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <filesystem>
 #include <fstream>
@@ -45,7 +47,7 @@ Parameters loadConfiguration(const ReplayArguments& arguments)
   }
   if (arguments.threads) parameters.threads = *arguments.threads;
   if (arguments.no_map_update) parameters.map.update = false;
-  OutputParameters& output = parameters.output;
+  ExportOptions& output = parameters.output;
   if (!arguments.exporters.empty()) output.exporters = joined(arguments.exporters);
   if (arguments.imu_rate || names(output.exporters, "imu_rate")) output.imu_rate = true;
   auto& input = parameters.input;
@@ -119,7 +121,6 @@ auto checked(Step step)
 /** The pose of the body that is written about, as the user gives it. */
 Pose poseOf(const std::vector<double>& numbers)
 {
-  constexpr double kRadPerDeg = 0.017453292519943295;
   if (numbers.empty()) return {};
   return toPose(mrpt::poses::CPose3D(
       numbers[0], numbers[1], numbers[2], kRadPerDeg * numbers[3], kRadPerDeg * numbers[4],
@@ -143,7 +144,7 @@ std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const Outpu
 }
 
 OutputFrame outputFrameOf(
-    const std::string& name, const InputParameters& input, const SensorSelection& selection)
+    const std::string& name, const SensorOptions& input, const SensorSelection& selection)
 {
   if (name == "imu") return {name, Pose{}};
   const Pose T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
@@ -158,7 +159,7 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   setup.parameters = loadConfiguration(arguments);
   prepareOutputs(setup.arguments);
   requireReadable(arguments.input_files);
-  const InputParameters& input = setup.parameters.input;
+  const SensorOptions& input = setup.parameters.input;
   const SensorPatterns patterns = patternsOf(setup.parameters);
   setup.selection = checked(
       [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });

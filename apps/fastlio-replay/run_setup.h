@@ -5,12 +5,12 @@
 #pragma once
 
 #include "command_line.h"
-#include <fastlio/mrpt_bridge/input_plan.h>
-#include <fastlio/mrpt_bridge/output/pose_output.h>
-#include <fastlio/mrpt_bridge/output/run_summary.h>
-#include <fastlio/mrpt_bridge/sensor_selection.h>
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/exporters/run_summary.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/saved_map.h>
+#include <fastlio/survey/input_plan.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <optional>
 #include <stdexcept>

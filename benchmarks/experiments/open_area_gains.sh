@@ -4,12 +4,12 @@
 #
 # Usage: benchmarks/experiments/open_area_gains.sh BUILD_DIR OUTPUT_DIR
 # The gain of eq. 18 can afford about 147 points, that of eq. 20 about 784: the targets of the
-# reduction are such that about as many match.
+# downsampling are such that about as many match.
 . "$(dirname "$0")/library.sh"
 
-few="map.type=knn reduction.target_points=175 reduction.wide_points=0"
-many="map.type=knn reduction.target_points=920 reduction.wide_points=0"
-planes="reduction.target_points=2050 reduction.wide_points=0"
+few="map.type=knn downsampling.target_points=175 downsampling.wide_points=0"
+many="map.type=knn downsampling.target_points=920 downsampling.wide_points=0"
+planes="downsampling.target_points=2050 downsampling.wide_points=0"
 
 header "open area"
 # shellcheck disable=SC2086  # several parameters

@@ -3,10 +3,11 @@
 
 #include "inputs.h"
 
-#include <fastlio/mrpt_bridge/observation_bridge.h>
-#include <fastlio/mrpt_bridge/rawlog_source.h>
+#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/simulation.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <algorithm>
 #include <filesystem>

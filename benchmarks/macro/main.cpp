@@ -31,7 +31,8 @@ struct Arguments
 void printHeader()
 {
   std::puts(
-      "| recording | scans | threads | median | p99 | p99 disturbed | reduce | deskew | propagate "
+      "| recording | scans | threads | median | p99 | p99 disturbed | downsample | deskew | "
+      "propagate "
       "| "
       "match | update | insert | points | speed-up | x real time | memory MB | digest |");
   std::puts("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
@@ -70,7 +71,7 @@ void printRow(
   std::printf("| %.3f | %.3f ", medianOf(run, total), medianOf(run, total, 0.99));
   std::printf("| %.3f ", disturbedPercentile(run, 0.99));
   for (auto stage :
-       {&StageTimings::reduce, &StageTimings::deskew, &StageTimings::propagate,
+       {&StageTimings::downsample, &StageTimings::deskew, &StageTimings::propagate,
         &StageTimings::associate, &StageTimings::update, &StageTimings::insert})
     std::printf("| %.3f ", medianOf(run, stage));
   std::printf(

@@ -42,7 +42,7 @@ class Digest
 void keepLeast(StageTimings& least, const StageTimings& t)
 {
   for (auto stage :
-       {&StageTimings::propagate, &StageTimings::deskew, &StageTimings::reduce,
+       {&StageTimings::propagate, &StageTimings::deskew, &StageTimings::downsample,
         &StageTimings::associate, &StageTimings::update, &StageTimings::insert,
         &StageTimings::total})
     least.*stage = std::min(least.*stage, t.*stage);

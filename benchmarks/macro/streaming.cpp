@@ -3,8 +3,10 @@
 
 #include "streaming.h"
 
-#include <fastlio/mrpt_bridge/decode_ahead_source.h>
+#include <fastlio/math/time.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/rawlog/decode_ahead_source.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <algorithm>
 #include <chrono>
@@ -65,7 +67,7 @@ StreamingResult stream(const std::string& rawlog, const Parameters& parameters)
     span.add(*result);
   const auto end = std::chrono::steady_clock::now();
   outcome.wall_seconds = std::chrono::duration<double>(end - start).count();
-  outcome.recording_seconds = static_cast<double>(span.end_ns - span.begin_ns) * 1e-9;
+  outcome.recording_seconds = toSeconds(span.end_ns - span.begin_ns);
   outcome.memory_over_start_mb = statusMegabytes("VmHWM") - before;
   return outcome;
 }

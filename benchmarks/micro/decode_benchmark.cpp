@@ -4,7 +4,7 @@
 // Cost of understanding a sweep of Velodyne packets.
 
 #include "velodyne_packets.h"
-#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+#include <fastlio/sensors/velodyne_decoder.h>
 
 #include <benchmark/benchmark.h>
 
@@ -14,12 +14,12 @@ namespace
 {
 void decodeVlp16(benchmark::State& state)
 {
-  std::vector<fastlio_test::Packet> packets;
+  std::vector<fastlio::testing::Packet> packets;
   for (int i = 0; i < 76; ++i)
-    packets.push_back(fastlio_test::makePacket(
+    packets.push_back(fastlio::testing::makePacket(
         static_cast<std::uint16_t>(i * 12 * 39 % 36000), 39, static_cast<std::uint32_t>(1327 * i),
         5000));
-  const auto scan = fastlio_test::makeVlp16Scan(packets);
+  const auto scan = fastlio::testing::makeVlp16Scan(packets);
   std::int64_t points = 0;
   for (auto _ : state)
     points = static_cast<std::int64_t>(decodeVelodyne(*scan).points.size());

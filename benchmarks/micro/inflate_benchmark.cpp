@@ -3,7 +3,7 @@
 
 // Cost of decompressing what a LiDAR measures.
 
-#include "../../modules/mrpt_bridge/src/gzip_inflater.h"
+#include "gzip_inflater.h"
 #include "test_files.h"
 
 #include <benchmark/benchmark.h>
@@ -43,7 +43,7 @@ void inflate(benchmark::State& state, std::unique_ptr<GzipInflater> (*make)())
     state.SkipWithError("not built in");
     return;
   }
-  const std::string bytes = returns(300000), file = fastlio_test::gzip(bytes);
+  const std::string bytes = returns(300000), file = fastlio::testing::gzip(bytes);
   const auto* input = reinterpret_cast<const unsigned char*>(file.data());
   std::vector<unsigned char> out(1U << 15U);
   for (auto _ : state)

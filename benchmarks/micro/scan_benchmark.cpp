@@ -5,8 +5,8 @@
 
 #include "street.h"
 #include <fastlio/filter/backward_propagation.h>
-#include <fastlio/lidar/scan_reduction.h>
-#include <fastlio/odometry/deskew.h>
+#include <fastlio/lidar/deskew.h>
+#include <fastlio/lidar/downsampling.h>
 
 #include <benchmark/benchmark.h>
 
@@ -16,13 +16,13 @@ namespace fastlio::benchmarks
 {
 namespace
 {
-void reduce(benchmark::State& state)
+void downsample(benchmark::State& state)
 {
   const LidarScan scan = boxScan(static_cast<std::size_t>(state.range(0)));
-  ScanReducer reducer;
+  Downsampler downsampler;
   ScanSelection selection;
   for (auto _ : state)
-    reducer.select(scan.points, {0.5F, 100.0F, 1500}, selection);
+    downsampler.select(scan.points, {0.5F, 100.0F, 1500}, selection);
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
@@ -58,7 +58,7 @@ void spanOfScan(benchmark::State& state)
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-BENCHMARK(reduce)->RangeMultiplier(10)->Range(1000, 1000000);
+BENCHMARK(downsample)->RangeMultiplier(10)->Range(1000, 1000000);
 BENCHMARK(deskew)->RangeMultiplier(10)->Range(1000, 1000000);
 BENCHMARK(spanOfScan)->RangeMultiplier(10)->Range(1000, 1000000);
 }  // namespace

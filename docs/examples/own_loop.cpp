@@ -1,11 +1,11 @@
 // mrpt_fastlio: the odometry in a loop of your own, on the observations of a rawlog.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/mrpt_bridge/observation_bridge.h>
-#include <fastlio/mrpt_bridge/rawlog_source.h>
-#include <fastlio/mrpt_bridge/sensor_selection.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <cstdlib>
 #include <exception>

@@ -3,8 +3,8 @@
 
 #include "MolaLidarInertialOdometry.h"
 
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/mrpt_poses.h>
+#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/initializer.h>
 

@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
-std::vector<fastlio::test::TypeLayout> fastlio::test::baselineLayouts()
+std::vector<fastlio::testing::TypeLayout> fastlio::testing::baselineLayouts()
 {
   return FASTLIO_PUBLIC_LAYOUTS;
 }
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 namespace
 {
@@ -59,4 +59,4 @@ TEST(BaselineConsumer, OwnsMapsAndTheirContents)
     EXPECT_NEAR(std::abs(plane.nz), 1.0F, 1e-4F);
 }
 }  // namespace
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

@@ -5,7 +5,7 @@
 
 #include "public_types.h"
 
-std::vector<fastlio::test::TypeLayout> fastlio::test::nativeLayouts()
+std::vector<fastlio::testing::TypeLayout> fastlio::testing::nativeLayouts()
 {
   return FASTLIO_PUBLIC_LAYOUTS;
 }

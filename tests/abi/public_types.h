@@ -7,7 +7,7 @@
 
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/update.h>
-#include <fastlio/lidar/scan_reduction.h>
+#include <fastlio/lidar/downsampling.h>
 #include <fastlio/map/knn_surface_map.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/map/plane_fit.h>
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 struct TypeLayout
 {
@@ -37,14 +37,14 @@ TypeLayout layoutOf(const char* name)
 std::vector<TypeLayout> nativeLayouts();
 /** Of a file compiled for the baseline, as a user's program may be. */
 std::vector<TypeLayout> baselineLayouts();
-}  // namespace fastlio::test
+}  // namespace fastlio::testing
 
 // Macros, since a function of the same name in two files would be taken from one of them.
 // clang-format off
 #define FASTLIO_PUBLIC_TYPES(X)                                                                   \
   X(NavState) X(FilterState) X(Pose) X(ImuSample) X(MotionKnot) X(InformationSums)                \
   X(MeasurementEvaluation) X(UpdateResult) X(UpdateStep) X(LidarScan) X(PointColumns)             \
-  X(ScanReducer) X(ScanSelection) X(PlaneVoxel) X(VoxelPlane) X(PlaneMatch) X(VoxelPlaneMap)      \
+  X(Downsampler) X(ScanSelection) X(PlaneVoxel) X(VoxelPlane) X(PlaneMatch) X(VoxelPlaneMap)      \
   X(KnnSurfaceMap) X(CIncrementalPointsMap) X(CVoxelPlanesMap) X(PlaneFit) X(LineFit)             \
   X(MotionStep) X(Deskewer) X(PlaneMeasurement) X(Parameters) X(ScanStatistics) X(ScanResult)     \
   X(InputStatistics) X(Odometry)

@@ -69,7 +69,7 @@ TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
   const auto share = [](const JudgedScan& scan)
   {
     const ScanStatistics& s = scan.result.statistics;
-    return static_cast<double>(s.points_effective) / static_cast<double>(s.points_reduced);
+    return static_cast<double>(s.points_effective) / static_cast<double>(s.points_downsampled);
   };
   const auto first = std::find_if(run.scans.begin(), run.scans.end(), estimated);
   ASSERT_NE(first, run.scans.end());
@@ -193,7 +193,7 @@ TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
     return std::sqrt(P.diagonal().maxCoeff());
   };
   std::size_t open = 0, open_when_off = 0;
-  const double told = sigmaAlong(MeasurementParameters{}.min_signal_to_noise, open);
+  const double told = sigmaAlong(MeasurementOptions{}.min_signal_to_noise, open);
   const double fooled = sigmaAlong(0.0, open_when_off);
   EXPECT_GT(open, 50U);
   EXPECT_EQ(open_when_off, 0U);

@@ -9,6 +9,7 @@
 
 #include "repeats.h"
 #include "simulated_run.h"
+#include <fastlio/math/time.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -79,7 +80,7 @@ SimulationSettings settingsOf(const ConsistencyCase& c, std::uint64_t seed)
   settings.seed = seed;
   settings.path_start = pathStart(c, seed);
   std::mt19937_64 random(seed);
-  const InitializationParameters prior;
+  const InitializationOptions prior;
   settings.gravity = std::normal_distribution<double>(prior.gravity, prior.gravity_std)(random);
   return settings;
 }
@@ -87,7 +88,7 @@ SimulationSettings settingsOf(const ConsistencyCase& c, std::uint64_t seed)
 Parameters parametersOf(const SimulationSettings& settings)
 {
   Parameters parameters = matchingParameters(settings);
-  parameters.initialization.gravity = InitializationParameters{}.gravity;
+  parameters.initialization.gravity = InitializationOptions{}.gravity;
   parameters.threads = 1;
   return parameters;
 }
@@ -95,7 +96,7 @@ Parameters parametersOf(const SimulationSettings& settings)
 /** The last estimate up to an instant [s after the start]. */
 const JudgedScan& estimateAt(const SimulatedRun& run, std::int64_t start_ns, double instant)
 {
-  const auto limit = start_ns + static_cast<std::int64_t>(instant * 1e9);
+  const auto limit = start_ns + toNanoseconds(instant);
   const JudgedScan* last = &run.scans.front();
   for (const JudgedScan& scan : run.scans)
     if (scan.result.stamp_ns <= limit) last = &scan;

@@ -3,7 +3,7 @@
 
 #include "fault_recording.h"
 
-#include <fastlio/mrpt_bridge/register_classes.h>
+#include <fastlio/compat/register_classes.h>
 #include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>

@@ -89,7 +89,7 @@ FaultOutcome replayBytes(
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (json.is_discarded()) return outcome;
   outcome.poses = json["scans"]["with_pose"];
-  outcome.told = result.exit_status != 0 || !json["remarks"].empty() ||
+  outcome.told = result.exit_status != 0 || !json["diagnostics"].empty() ||
                  json["health"]["troubled"] > 0 || json["imu"]["gaps"] > 0 ||
                  json["imu"]["saturated"] > 0 || result.output.find("Dropped") != std::string::npos;
   if (judge_position && outcome.poses > 0)

@@ -20,7 +20,7 @@ struct FaultOutcome
   bool finite = false;            //!< every number of trajectory and states is finite
   std::size_t poses = 0;
   double worst_position = 0.0;  //!< largest position error after alignment [m]
-  bool told = false;            //!< a report of trouble, drops, remarks or an exit status
+  bool told = false;            //!< a report of trouble, drops, diagnostics or an exit status
   std::string log;
 };
 

@@ -78,7 +78,7 @@ TEST(FeatureModes, EdgesAloneHoldThePose)
   const SimulationSettings settings = shortRun("office", 10.0);
   const Simulation simulation(settings);
   Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
-  parameters.reduction.target_points = 1;  // next to nothing for planes
+  parameters.downsampling.target_points = 1;  // next to nothing for planes
   parameters.features.target_edges = 0;
   parameters.features.half_width = 0.5;  // clear edges only: nothing else is left to tell
   const SimulatedRun with_edges = runOdometry(simulation, parameters);
@@ -96,14 +96,14 @@ TEST(FeatureModes, PlanarLeavesOutWhatIsNotSmooth)
   const SimulationSettings settings = shortRun("office", 4.0);
   const Simulation simulation(settings);
   Parameters parameters = withFeatures(settings, FeatureMode::None);
-  parameters.reduction.target_points = 0;
+  parameters.downsampling.target_points = 0;
   const SimulatedRun direct = runOdometry(simulation, parameters);
   parameters.features.mode = FeatureMode::Planar;
   const SimulatedRun planar = runOdometry(simulation, parameters);
   const ScanStatistics& all = direct.scans.back().result.statistics;
   const ScanStatistics& smooth = planar.scans.back().result.statistics;
-  EXPECT_LT(smooth.points_reduced, all.points_reduced * 9 / 10);
-  EXPECT_GT(smooth.points_reduced, all.points_reduced / 4);
+  EXPECT_LT(smooth.points_downsampled, all.points_downsampled * 9 / 10);
+  EXPECT_GT(smooth.points_downsampled, all.points_downsampled / 4);
   EXPECT_EQ(smooth.dropped_near, all.dropped_near);
   EXPECT_EQ(smooth.dropped_far, all.dropped_far);
   EXPECT_EQ(smooth.dropped_invalid, all.dropped_invalid);
@@ -114,7 +114,7 @@ TEST(FeatureModes, BothGainsAgree)
   const SimulationSettings settings = shortRun("office", 5.0);
   const Simulation simulation(settings);
   Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
-  parameters.reduction.target_points = 200;
+  parameters.downsampling.target_points = 200;
   parameters.features.target_edges = 50;
   const SimulatedRun information = runOdometry(simulation, parameters);
   parameters.gain = GainForm::Standard;

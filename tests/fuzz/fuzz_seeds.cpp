@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "fuzz_targets.h"
-#include <fastlio/mrpt_bridge/CPointsMapXYZIRT.h>
-#include <fastlio/mrpt_bridge/register_classes.h>
+#include <fastlio/compat/CPointsMapXYZIRT.h>
+#include <fastlio/compat/register_classes.h>
 #include <fastlio/odometry/parameter_yaml.h>
 
 #include <mrpt/io/CMemoryStream.h>

@@ -3,13 +3,14 @@
 
 #include "fuzz_targets.h"
 
-#include <fastlio/mrpt_bridge/observation_bridge.h>
-#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
-#include <fastlio/mrpt_bridge/rawlog_source.h>
-#include <fastlio/mrpt_bridge/register_classes.h>
-#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+#include <fastlio/compat/register_classes.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/sensors/point_cloud_conversion.h>
+#include <fastlio/sensors/velodyne_decoder.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>

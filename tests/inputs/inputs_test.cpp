@@ -8,7 +8,7 @@
 #include "temporary_folder.h"
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
-#include <fastlio/mrpt_bridge/rawlog_source.h>
+#include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/settings_table.h>
 

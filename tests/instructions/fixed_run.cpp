@@ -10,12 +10,13 @@
 
 int main()
 {
-  fastlio::test::RoomSettings settings;
+  fastlio::testing::RoomSettings settings;
   settings.duration = 4.0;
   settings.columns = 900;  // 14400 points per scan
-  fastlio::Parameters parameters = fastlio::test::roomParameters(settings);
-  parameters.reduction.target_points = 1500;
-  const auto results = fastlio::test::runInOrder(parameters, fastlio::test::recordRoom(settings));
+  fastlio::Parameters parameters = fastlio::testing::roomParameters(settings);
+  parameters.downsampling.target_points = 1500;
+  const auto results =
+      fastlio::testing::runInOrder(parameters, fastlio::testing::recordRoom(settings));
   std::size_t tracked = 0;
   for (const auto& result : results)
     tracked += result.status == fastlio::ScanStatus::Tracking ? 1 : 0;

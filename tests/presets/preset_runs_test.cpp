@@ -8,6 +8,7 @@
 #include "temporary_folder.h"
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/odometry/presets.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/scenario.h>
@@ -29,7 +30,6 @@ namespace fastlio::testing
 {
 namespace
 {
-constexpr double kRadPerDeg = M_PI / 180.0;
 constexpr int kLines = 32;  // of a sensor that exists with several numbers of them
 
 bool isOf(const Preset& preset, std::string_view maker)

@@ -5,6 +5,7 @@
 
 #include "repeats.h"
 #include "simulated_run.h"
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -36,8 +37,7 @@ bool moves(const JudgedScan& scan)
 /** The first scan that ends \a t seconds or more after the start. */
 const JudgedScan& scanAt(const SimulatedRun& run, double t)
 {
-  const std::int64_t stamp_ns =
-      run.scans.front().result.stamp_ns + static_cast<std::int64_t>(t * 1e9);
+  const std::int64_t stamp_ns = run.scans.front().result.stamp_ns + toNanoseconds(t);
   const auto scan = std::find_if(
       run.scans.begin(), run.scans.end(),
       [&](const JudgedScan& s) { return s.result.stamp_ns >= stamp_ns; });

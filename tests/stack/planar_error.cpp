@@ -3,9 +3,9 @@
 
 #include "planar_error.h"
 
-#include <fastlio/map/mrpt_compat.h>
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/mrpt_poses.h>
+#include <fastlio/compat/mrpt_compat.h>
+#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 

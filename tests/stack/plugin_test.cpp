@@ -113,7 +113,7 @@ TEST_F(Plugin, LetsIcpSlamBuildOurMaps)
           "smallestThresholdDist=0.05\nICP_algorithm=icpClassic\n");
   const auto scans =
       run("rawlog-edit",
-          {"--keep-label", "levelled_scan,odometry_2d", "--overwrite", "-i",
+          {"--keep-label", "pseudo_2d_scan,odometry_2d", "--overwrite", "-i",
            stack().output("observations", "odometry.rawlog"), "-o", file("scans.rawlog")});
   ASSERT_EQ(scans.exit_status, 0) << scans.output;
   const auto result = run("icp-slam", {config}, ableToLoadThePlugin(kPlugin));

@@ -14,7 +14,7 @@ namespace fastlio::testing
 namespace
 {
 using mrpt::serialization::CSerializable;
-const std::string kPlanar = "levelled_scan";
+const std::string kPlanar = "pseudo_2d_scan";
 }  // namespace
 
 void rewriteRawlog(

@@ -5,8 +5,8 @@
 #include "rewrite.h"
 #include "stack_run.h"
 #include "surface_distance.h"
-#include <fastlio/map/mrpt_compat.h>
-#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/compat/mrpt_compat.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -61,7 +61,7 @@ TEST_F(RawlogEdit, ListsTheOdometryOfEveryScan)
       run("rawlog-edit", {"--info", "-i", stack().output("observations", "odometry.rawlog")});
   EXPECT_EQ(result.exit_status, 0) << result.output;
   const std::string scans = std::to_string(stack().simulation().scanCount());
-  for (const auto* label : {"imu", "lidar", "levelled_scan", "odometry", "odometry_2d"})
+  for (const auto* label : {"imu", "lidar", "pseudo_2d_scan", "odometry", "odometry_2d"})
     EXPECT_NE(result.output.find(std::string(" ") + label + " /"), std::string::npos)
         << label << "\n"
         << result.output;
@@ -122,7 +122,7 @@ TEST_F(ObservationsToMap, BuildsTheRoomsFromTheKeyFrames)
     built.getPoint(i, x, y, z);
     const Vec3 point =
         T_sim_est * Vec3(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
-    distances.push_back(test::surfaceDistance(stack().simulation().world(), point, 0.0));
+    distances.push_back(testing::surfaceDistance(stack().simulation().world(), point, 0.0));
   }
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());

@@ -3,7 +3,8 @@
 
 #include "simulated_run.h"
 
-#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/math/time.h>
 #include <fastlio/odometry/static_initializer.h>
 
 #include <algorithm>
@@ -14,14 +15,14 @@ namespace fastlio::testing
 namespace
 {
 /** The pose that the filter gives the resting platform: the start of its world frame. */
-Pose startPose(const Simulation& simulation, const InitializationParameters& parameters)
+Pose startPose(const Simulation& simulation, const InitializationOptions& parameters)
 {
   ImuBuffer buffer;
   for (const ImuSample& sample : simulation.imu().samples)
     if (buffer.add(sample) != ImuBuffer::Verdict::Accepted)
       throw std::runtime_error("a simulated inertial sample is out of order");
   const std::int64_t begin_ns = buffer.oldestStamp();
-  const std::int64_t end_ns = begin_ns + static_cast<std::int64_t>(parameters.duration * 1e9);
+  const std::int64_t end_ns = begin_ns + toNanoseconds(parameters.duration);
   return initialState(restStatistics(buffer.samplesBetween(begin_ns, end_ns)), parameters).x.pose();
 }
 
@@ -68,8 +69,7 @@ SimulatedRun runOdometryFrom(
 {
   SimulatedRun run;
   run.gravity = {0.0, 0.0, -simulation.settings().gravity};
-  const std::int64_t begin_ns =
-      simulation.settings().start_ns + static_cast<std::int64_t>(begin * 1e9);
+  const std::int64_t begin_ns = simulation.settings().start_ns + toNanoseconds(begin);
   Odometry odometry(parameters);
   for (const ImuSample& sample : simulation.imu().samples)
     if (sample.stamp_ns >= begin_ns) odometry.addImu(sample);

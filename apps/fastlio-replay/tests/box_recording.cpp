@@ -3,9 +3,11 @@
 
 #include "box_recording.h"
 
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/register_classes.h>
-#include <fastlio/mrpt_bridge/xyzirt_access.h>
+#include <fastlio/compat/register_classes.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -23,13 +25,12 @@ namespace
 {
 constexpr std::int64_t kEpochNs = 1'700'000'000'000'000'000;
 constexpr double kImuHeight = 0.1;  // above the vehicle's origin [m]
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kLines = 16, kColumns = 120;
 constexpr double kScanSeconds = 0.1;
 
 std::int64_t stampNs(double seconds)
 {
-  return kEpochNs + static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  return kEpochNs + toNanoseconds(seconds);
 }
 
 /** A repeatable number in [-1, 1] that looks random. */

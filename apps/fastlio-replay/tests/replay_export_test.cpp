@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "replay_test_support.h"
-#include <fastlio/mrpt_bridge/output/standard_exporters.h>
+#include <fastlio/exporters/standard_exporters.h>
 
 #include <set>
 

@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 using fastlio::testing::ProcessResult;
 
 /** Runs the program in a directory of its own. */
-class FastlioSim : public testing::Test
+class FastlioSim : public ::testing::Test
 {
  protected:
   void SetUp() override
   {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     directory_ = fs::temp_directory_path() /
                  ("fastlio_sim_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
     fs::create_directories(directory_);

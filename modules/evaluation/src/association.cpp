@@ -3,6 +3,7 @@
 
 #include "text_numbers.h"
 #include <fastlio/evaluation/association.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,7 @@ namespace
 {
 std::int64_t toNs(double seconds)
 {
-  return std::llround(seconds * 1e9);
+  return toNanoseconds(seconds);
 }
 
 enum class Match

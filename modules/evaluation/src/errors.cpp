@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/evaluation/errors.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +54,7 @@ std::vector<double> elapsed(const std::vector<StampedPose>& poses)
   std::vector<double> seconds;
   seconds.reserve(poses.size());
   for (const StampedPose& pose : poses)
-    seconds.push_back(1e-9 * static_cast<double>(pose.stamp_ns - poses.front().stamp_ns));
+    seconds.push_back(toSeconds(pose.stamp_ns - poses.front().stamp_ns));
   return seconds;
 }
 

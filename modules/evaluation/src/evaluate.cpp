@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/evaluation/evaluate.h>
+#include <fastlio/math/time.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -47,8 +48,7 @@ EvaluationReport evaluate(
   r.alignment = align(associated, options.alignment);
   r.aligned = applyAlignment(associated, r.alignment);
   r.duration =
-      1e-9 * static_cast<double>(
-                 associated.reference.back().stamp_ns - associated.reference.front().stamp_ns);
+      toSeconds(associated.reference.back().stamp_ns - associated.reference.front().stamp_ns);
   r.errors = absoluteErrors(r.aligned);
   r.ape = summarize(r.errors);
   r.rpe_second = summarize(relativeErrorsPerSecond(r.aligned, options.rpe_seconds));

@@ -4,6 +4,7 @@
 #include "svg_plot.h"
 #include "units.h"
 #include <fastlio/evaluation/report.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 
@@ -46,8 +47,7 @@ PlotSeries errorOverTime(const EvaluationReport& r, double PoseError::*member, d
     const auto largest = std::max_element(begin, end, smaller);
     const auto& poses = r.aligned.estimate;
     const auto index = static_cast<std::size_t>(largest - r.errors.begin());
-    const double seconds =
-        1e-9 * static_cast<double>(poses[index].stamp_ns - poses.front().stamp_ns);
+    const double seconds = toSeconds(poses[index].stamp_ns - poses.front().stamp_ns);
     series.points.push_back({seconds, (*largest).*member * factor});
   }
   return series;

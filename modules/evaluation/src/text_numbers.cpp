@@ -16,7 +16,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::int64_t kNsPerSecondExact = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9'223'372'035;  // of an int64_t in nanoseconds
 constexpr std::string_view kBlanks = " \t\r";
 
@@ -53,7 +53,7 @@ std::int64_t parseScientificSeconds(std::string_view text, const TextPlace& plac
   if (error != std::errc{} || end != text.data() + text.size())
     failAt(place, "expected a time in seconds, saw " + quoted(text));
   if (std::abs(value) > static_cast<long double>(kMaxSeconds)) failTooLarge(text, place);
-  return std::llround(value * static_cast<long double>(kNsPerSecond));
+  return std::llround(value * static_cast<long double>(kNsPerSecondExact));
 }
 
 /** Nanoseconds of the digits behind the decimal point, rounded at the tenth. */
@@ -78,7 +78,7 @@ std::int64_t parseDecimalSeconds(std::string_view text, const TextPlace& place)
   std::int64_t seconds = 0;
   const auto parsed = std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
   if (parsed.ec != std::errc{} || seconds > kMaxSeconds) failTooLarge(text, place);
-  const std::int64_t ns = seconds * kNsPerSecond + fractionNs(fraction);
+  const std::int64_t ns = seconds * kNsPerSecondExact + fractionNs(fraction);
   return negative ? -ns : ns;
 }
 
@@ -165,7 +165,7 @@ std::string formatSeconds(std::int64_t stamp_ns)
 {
   const auto magnitude = stamp_ns < 0 ? 0 - static_cast<std::uint64_t>(stamp_ns)
                                       : static_cast<std::uint64_t>(stamp_ns);
-  constexpr auto kNs = static_cast<std::uint64_t>(kNsPerSecond);
+  constexpr auto kNs = static_cast<std::uint64_t>(kNsPerSecondExact);
   std::array<char, 40> text{};
   std::snprintf(
       text.data(), text.size(), "%s%llu.%09llu", stamp_ns < 0 ? "-" : "",

@@ -13,13 +13,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kRotationTolerance = 1e-3;
-
-bool isRotation(const Mat3& R)
-{
-  return (R.transpose() * R).isIdentity(kRotationTolerance) && R.determinant() > 0.0;
-}
-
 /** What is wrong with pose i; empty when nothing. */
 std::string complaint(const Trajectory& t, std::size_t i)
 {

@@ -8,8 +8,8 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kTumColumns = 8;
-constexpr std::size_t kKittiColumns = 12;
+constexpr std::size_t kColumnsOfTum = 8;
+constexpr std::size_t kColumnsOfKitti = 12;
 
 bool isCsv(std::string_view line)
 {
@@ -25,8 +25,8 @@ Trajectory readTrajectory(const std::filesystem::path& file, const KittiTiming& 
     return first.text.find("c_rx_rx") == std::string::npos ? readStatesCsv(file)
                                                            : readCovarianceCsv(file);
   const std::size_t columns = splitAtBlanks(first.text).size();
-  if (columns == kTumColumns) return readTum(file);
-  if (columns == kKittiColumns) return readKitti(file, timing);
+  if (columns == kColumnsOfTum) return readTum(file);
+  if (columns == kColumnsOfKitti) return readKitti(file, timing);
   failAt(
       {file, first.number},
       "the format is not known: saw " + std::to_string(columns) +

@@ -13,13 +13,12 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kColumns = 12;
-constexpr double kRotationTolerance = 1e-3;
+constexpr std::size_t kKittiColumns = 12;
 
 Pose parsePoseMatrix(const DataLine& line, const TextPlace& place)
 {
   const std::vector<std::string_view> columns = splitAtBlanks(line.text);
-  if (columns.size() != kColumns)
+  if (columns.size() != kKittiColumns)
     failAt(
         place, "expected the 12 numbers of a 3x4 matrix, row by row, saw " +
                    std::to_string(columns.size()) + " columns");
@@ -27,8 +26,7 @@ Pose parsePoseMatrix(const DataLine& line, const TextPlace& place)
   for (int i = 0; i < 12; ++i)
     Rp(i / 4, i % 4) = parseNumber(columns[static_cast<std::size_t>(i)], place);
   const Mat3 R = Rp.leftCols<3>();
-  if (!(R.transpose() * R).isIdentity(kRotationTolerance) || R.determinant() < 0.0)
-    failAt(place, "the left 3x3 block is not a rotation matrix within 0.001");
+  if (!isRotation(R)) failAt(place, "the left 3x3 block is not a rotation matrix within 0.001");
   return {normalizeRotation(R), Rp.col(3)};
 }
 

@@ -8,7 +8,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kColumns = 8;
+constexpr std::size_t kTumColumns = 8;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ Trajectory readTum(const std::filesystem::path& file)
   {
     const TextPlace place{file, line.number};
     std::vector<std::string_view> columns = splitAtBlanks(line.text);
-    if (columns.size() != kColumns)
+    if (columns.size() != kTumColumns)
       failAt(
           place, "expected 8 columns (time x y z qx qy qz qw) separated by blanks, saw " +
                      std::to_string(columns.size()));

@@ -3,6 +3,7 @@
 
 #include "sample_trajectories.h"
 #include <fastlio/evaluation/association.h>
+#include <fastlio/math/time.h>
 
 #include <limits>
 
@@ -23,7 +24,7 @@ TEST(Association, InterpolationFollowsAScrewExactly)
   const StampedPose b{kStart + 1'000'000'000, screw(1.0)};
   for (const double s : {0.0, 0.1, 0.5, 0.999, 1.0})
   {
-    const Pose at = interpolate(a, b, kStart + std::llround(s * 1e9));
+    const Pose at = interpolate(a, b, kStart + toNanoseconds(s));
     EXPECT_TRUE(at.R.isApprox(screw(s).R, 1e-12)) << s;
     EXPECT_TRUE(at.p.isApprox(screw(s).p, 1e-12)) << s;
   }

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "../src/svg_plot.h"
 #include "sample_trajectories.h"
+#include "svg_plot.h"
 #include <fastlio/evaluation/report.h>
 
 #include <nlohmann/json.hpp>

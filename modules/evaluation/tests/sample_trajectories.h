@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/evaluation/trajectory.h>
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ inline Trajectory curve(std::size_t poses = 200, std::int64_t step_ns = kTenHz)
   for (std::size_t i = 0; i < poses; ++i)
   {
     const std::int64_t offset_ns = static_cast<std::int64_t>(i) * step_ns;
-    const double s = 1e-9 * static_cast<double>(offset_ns);
+    const double s = toSeconds(offset_ns);
     const Vec3 p(3.0 * std::sin(0.7 * s), 2.0 * s, 0.8 * std::cos(1.1 * s));
     t.poses.push_back({kStart + offset_ns, {expSO3({0.2 * std::sin(s), 0.1 * s, 0.3 * s}), p}});
   }

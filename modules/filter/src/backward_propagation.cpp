@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/filter/backward_propagation.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -13,7 +14,7 @@ namespace
 {
 double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
 {
-  return static_cast<double>(to_ns - from_ns) * 1e-9;
+  return toSeconds(to_ns - from_ns);
 }
 
 /** Number of samples that hold for a time before end_ns. */

@@ -4,6 +4,7 @@
 #include "random_problems.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ double periodOf(const Scan& scan, std::size_t i)
 {
   const std::int64_t next =
       i + 1 < scan.samples.size() ? scan.samples[i + 1].stamp_ns : scan.end_ns;
-  return static_cast<double>(next - scan.samples[i].stamp_ns) * 1e-9;
+  return toSeconds(next - scan.samples[i].stamp_ns);
 }
 
 void propagateForward(Scan& scan, const NavState& start)
@@ -46,7 +47,7 @@ void propagateForward(Scan& scan, const NavState& start)
 }
 
 /** Random inputs at uneven stamps. */
-Scan randomScan(test::Random& random, int samples, double rate)
+Scan randomScan(testing::Random& random, int samples, double rate)
 {
   Scan scan;
   std::int64_t stamp = kStart;
@@ -87,7 +88,7 @@ NavState exactMotion(const Vec3& w, const Vec3& a, double t)
 
 TEST(BackwardPropagation, knotsMeetTheForwardStates)
 {
-  test::Random random(21);
+  testing::Random random(21);
   for (const double rate : {0.0, 0.1, 3.0, 20.0})
   {
     for (int n : {1, 2, 20, 40})
@@ -109,7 +110,7 @@ TEST(BackwardPropagation, knotsMeetTheForwardStates)
 
 TEST(BackwardPropagation, knotsCarryStampsAndInputs)
 {
-  test::Random random(22);
+  testing::Random random(22);
   const Scan scan = randomScan(random, 20, 1.0);
   const std::vector<MotionKnot> knots = knotsOf(scan);
   const NavState& end = scan.states.back();
@@ -190,7 +191,7 @@ double errorAgainstExactMotion(int n)
   for (const double t : {0.0, 0.0213, 0.05, 0.0777, 0.1})
   {
     const Pose expected = end.pose().inverse() * exactMotion(w, a, t).pose();
-    const Pose pose = bodyPoseAt(knots, kStart + static_cast<std::int64_t>(t * 1e9));
+    const Pose pose = bodyPoseAt(knots, kStart + toNanoseconds(t));
     EXPECT_LT((pose.R - expected.R).norm(), 1e-6);
     error = std::max(error, (pose.p - expected.p).norm());
   }
@@ -208,7 +209,7 @@ TEST(BackwardPropagation, convergesToTheExactMotionWithTheSampleRate)
 TEST(BodyPoseAt, isExactForConstantVelocityAndRate)
 {
   // Without acceleration the zero-order hold is no approximation: every instant is exact.
-  test::Random random(23);
+  testing::Random random(23);
   NavState end = random.state();
   const Vec3 w = random.vector(2.0);
   std::vector<ImuSample> samples;
@@ -235,7 +236,7 @@ TEST(BodyPoseAt, isExactForConstantVelocityAndRate)
 
 TEST(BodyPoseAt, isContinuousAtTheKnots)
 {
-  test::Random random(24);
+  testing::Random random(24);
   const Scan scan = randomScan(random, 20, 5.0);
   const std::vector<MotionKnot> knots = knotsOf(scan);
   for (std::size_t i = 1; i < knots.size(); ++i)
@@ -251,7 +252,7 @@ TEST(BodyPoseAt, isContinuousAtTheKnots)
 
 TEST(BackwardPropagation, withoutSamplesTheVelocityCarriesOn)
 {
-  test::Random random(25);
+  testing::Random random(25);
   const NavState end = random.state();
   std::vector<MotionKnot> knots(7);
   backwardPropagate(end, kStart, {}, knots);
@@ -263,7 +264,7 @@ TEST(BackwardPropagation, withoutSamplesTheVelocityCarriesOn)
 
 TEST(BackwardPropagation, samplesAtOrAfterTheEndTakeNoPart)
 {
-  test::Random random(26);
+  testing::Random random(26);
   const Scan scan = randomScan(random, 10, 1.0);
   const std::vector<MotionKnot> expected = knotsOf(scan);
   Scan longer = scan;

@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-using test::Random;
+using testing::Random;
 
 /** A B as of a moving sensor: regular pose columns, all others filled. */
 ScanPoseJacobian randomJacobian(Random& random)
@@ -30,9 +30,9 @@ TEST(CalibrationUpdate, bothGainsAgreeOnAllColumns)
   {
     const FilterState prior{random.state(), random.covariance(0.1, 100.0)};
     const NavState iterate = boxplus(prior.x, random.stateVector(0.05));
-    const auto measurements = test::randomMeasurements(random, count, 0.02);
+    const auto measurements = testing::randomMeasurements(random, count, 0.02);
     const ScanPoseJacobian B = randomJacobian(random);
-    const UpdateStep a = informationStep(prior, iterate, test::sumsOf(measurements), B);
+    const UpdateStep a = informationStep(prior, iterate, testing::sumsOf(measurements), B);
     const UpdateStep b = standardStep(prior, iterate, measurements, B);
     EXPECT_LT((a.dx - b.dx).norm(), 1e-7 * (1e-3 + b.dx.norm())) << count;
     EXPECT_LT((a.P - b.P).norm(), 1e-7 * b.P.norm()) << count;
@@ -46,7 +46,7 @@ TEST(CalibrationUpdate, aKnownCalibrationStaysAsItIs)
   FilterState prior{random.state(), random.covariance(0.1, 10.0)};
   prior.P.bottomRows<kCalibrationDim>().setZero();
   prior.P.rightCols<kCalibrationDim>().setZero();
-  const auto sums = test::sumsOf(test::randomMeasurements(random, 50, 0.02));
+  const auto sums = testing::sumsOf(testing::randomMeasurements(random, 50, 0.02));
   const UpdateStep step = informationStep(prior, prior.x, sums, randomJacobian(random));
   EXPECT_EQ(step.dx.tail<kCalibrationDim>().norm(), 0.0);
   EXPECT_EQ(step.P.bottomRows<kCalibrationDim>().norm(), 0.0);
@@ -57,7 +57,7 @@ TEST(CalibrationUpdate, aKnownCalibrationStaysAsItIs)
  */
 struct MiscalibratedScan
 {
-  std::vector<test::PlaneMatch> matches;  //!< points compensated with the calibration assumed
+  std::vector<testing::PlaneMatch> matches;  //!< points compensated with the calibration assumed
   CompensatedWith compensation;
 
   MeasurementEvaluation operator()(const NavState& iterate, int) const
@@ -66,9 +66,9 @@ struct MiscalibratedScan
     NavState at = iterate;
     at.R = T.R;
     at.p = T.p;
-    StackedMeasurements m = test::residualsOf(matches, at, test::kSigma);
+    StackedMeasurements m = testing::residualsOf(matches, at, testing::kSigma);
     MeasurementEvaluation e;
-    e.sums = test::sumsOf(m);
+    e.sums = testing::sumsOf(m);
     e.stacked = std::move(m);
     e.by_state = scanPoseJacobian(iterate, compensation);
     return e;
@@ -81,7 +81,7 @@ MiscalibratedScan scanOf(Random& random, const NavState& truth, const NavState& 
   scan.compensation.extrinsic_correction = assumed.extrinsic_correction;
   scan.compensation.time_offset = assumed.time_offset;
   scan.compensation.angular_rate = random.vector(2.0);
-  scan.matches = test::planesSeenFrom(random, scanPose(truth, scan.compensation), 200, 0.0);
+  scan.matches = testing::planesSeenFrom(random, scanPose(truth, scan.compensation), 200, 0.0);
   return scan;
 }
 
@@ -107,7 +107,7 @@ TEST(CalibrationUpdate, motionRevealsExtrinsicAndTimeOffset)
     estimate.P.topRightCorner<kNavigationDim, kCalibrationDim>().setZero();
     estimate.P.bottomLeftCorner<kCalibrationDim, kNavigationDim>().setZero();
     const auto result = iteratedUpdate(
-        estimate, scanOf(random, truth, assumed), test::tightLimits(), GainForm::Information);
+        estimate, scanOf(random, truth, assumed), testing::tightLimits(), GainForm::Information);
     ASSERT_TRUE(result.updated);
     estimate = result.posterior;
   }
@@ -128,7 +128,7 @@ TEST(CalibrationUpdate, whatMotionDoesNotShowKeepsItsPrior)
   prior.P.middleCols<3>(kVelocity).setZero();
   MiscalibratedScan scan = scanOf(random, prior.x, prior.x);
   scan.compensation.angular_rate.setZero();
-  const auto result = iteratedUpdate(prior, scan, test::tightLimits(), GainForm::Information);
+  const auto result = iteratedUpdate(prior, scan, testing::tightLimits(), GainForm::Information);
   EXPECT_EQ(result.posterior.x.time_offset, prior.x.time_offset);
   EXPECT_NEAR(result.posterior.P(kTimeOffset, kTimeOffset), 1e-4, 1e-15);
 }

@@ -10,12 +10,12 @@ namespace fastlio
 {
 namespace
 {
-using test::Random;
+using testing::Random;
 
 MeasurementEvaluation evaluationOf(const StackedMeasurements& m)
 {
   MeasurementEvaluation e;
-  e.sums = test::sumsOf(m);
+  e.sums = testing::sumsOf(m);
   return e;
 }
 
@@ -24,7 +24,7 @@ TEST(ConsideringStep, isTheFullStepWhenAllDirectionsAreConstrained)
   Random random(71);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
   const NavState iterate = boxplus(prior.x, random.stateVector(0.05));
-  const auto evaluation = evaluationOf(test::randomMeasurements(random, 50, 0.02));
+  const auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   const UpdateStep full = informationStep(prior, iterate, evaluation.sums);
   const UpdateStep same = consideringStep(prior, iterate, full, evaluation);
   EXPECT_LT((same.dx - full.dx).norm(), 1e-12);
@@ -35,7 +35,7 @@ TEST(ConsideringStep, leavesTheDirectionAloneInAllBlocks)
 {
   Random random(72);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
-  auto evaluation = evaluationOf(test::randomMeasurements(random, 50, 0.02));
+  auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   const Vec3 u = random.axis();
   evaluation.unconstrained = {{false, u}};
   const UpdateStep full = informationStep(prior, prior.x, evaluation.sums);
@@ -52,7 +52,7 @@ TEST(ConsideringStep, leavesTheDirectionAloneInAllBlocks)
   }
   EXPECT_GT(step.dx.segment<3>(kPosition).norm(), 1e-4) << "across the direction it moves";
   EXPECT_LT(step.P.trace(), prior.P.trace());
-  EXPECT_GT(test::eigenvaluesOf(step.P).minCoeff(), 0.0);
+  EXPECT_GT(testing::eigenvaluesOf(step.P).minCoeff(), 0.0);
 }
 
 // The scan pose is known well, the calibration hardly: the gain of body pose and calibration each
@@ -65,7 +65,7 @@ TEST(ConsideringStep, leavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
   prior.P.block<3, 3>(kPosition, kPosition) += 0.04 * Mat3::Identity();
   prior.P.block<3, 3>(kPosition, kExtrinsicTranslation) -= 0.04 * prior.x.R;
   prior.P.block<3, 3>(kExtrinsicTranslation, kPosition) -= 0.04 * prior.x.R.transpose();
-  auto evaluation = evaluationOf(test::randomMeasurements(random, 50, 0.02));
+  auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   evaluation.by_state = scanPoseJacobian(
       prior.x, {prior.x.extrinsic_correction, prior.x.time_offset, random.vector(1.0)});
   evaluation.unconstrained = {{true, random.axis()}};
@@ -87,7 +87,7 @@ TEST(ConsideringStep, leavesARotationAlone)
 {
   Random random(73);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
-  auto evaluation = evaluationOf(test::randomMeasurements(random, 50, 0.02));
+  auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   evaluation.unconstrained = {{true, Vec3::UnitZ()}};
   const UpdateStep full = informationStep(prior, prior.x, evaluation.sums);
   const UpdateStep step = consideringStep(prior, prior.x, full, evaluation);

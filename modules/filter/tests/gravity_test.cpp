@@ -12,7 +12,7 @@ namespace
 {
 TEST(GravityOnSphere, keepsTheDirectionAndSetsTheLength)
 {
-  test::Random random(61);
+  testing::Random random(61);
   const FilterState s{random.state(), random.covariance(0.1, 10.0)};
   const FilterState on_sphere = withGravityOnSphere(s, 9.79);
   EXPECT_NEAR(on_sphere.x.g.norm(), 9.79, 1e-12);
@@ -21,7 +21,7 @@ TEST(GravityOnSphere, keepsTheDirectionAndSetsTheLength)
 
 TEST(GravityOnSphere, isSureOfTheLengthAndOfNothingElse)
 {
-  test::Random random(62);
+  testing::Random random(62);
   const FilterState s{random.state(), random.covariance(0.1, 10.0)};
   const FilterState on_sphere = withGravityOnSphere(s, 9.81);
   const Vec3 along = s.x.g.normalized();

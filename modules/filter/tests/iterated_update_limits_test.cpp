@@ -14,11 +14,11 @@ namespace fastlio
 {
 namespace
 {
-using test::kSigma;
-using test::Problem;
-using test::problemOff;
-using test::Random;
-using test::tightLimits;
+using testing::kSigma;
+using testing::Problem;
+using testing::problemOff;
+using testing::Random;
+using testing::tightLimits;
 
 /** A measurement that pulls the position along x by a fixed amount in every iteration. */
 MeasurementModel pull(double amount)
@@ -30,7 +30,7 @@ MeasurementModel pull(double amount)
     m.z.push_back(-amount);
     m.variance.push_back(1e-12);
     MeasurementEvaluation e;
-    e.sums = test::sumsOf(m);
+    e.sums = testing::sumsOf(m);
     e.stacked = m;
     return e;
   };
@@ -110,7 +110,7 @@ TEST(IteratedUpdateLimits, matchesLostOnTheWayLeaveThePrior)
   Random random(50);
   const Problem p = problemOff(random, 0.2);
   const auto planes =
-      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
   const MeasurementModel model = [&planes](const NavState& x, int iteration)
   { return iteration == 0 ? planes(x, 0) : MeasurementEvaluation{}; };
   const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
@@ -123,7 +123,7 @@ TEST(IteratedUpdateLimits, nonFiniteNumbersNeverEnterTheState)
   Random random(51);
   const Problem p = problemOff(random, 0.2);
   const auto planes =
-      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
   {
@@ -134,7 +134,7 @@ TEST(IteratedUpdateLimits, nonFiniteNumbersNeverEnterTheState)
         MeasurementEvaluation e = planes(x, iteration);
         if (iteration != when) return e;
         e.stacked.z[3] = bad;
-        e.sums = test::sumsOf(e.stacked);
+        e.sums = testing::sumsOf(e.stacked);
         return e;
       };
       for (const GainForm gain : {GainForm::Information, GainForm::Standard})
@@ -153,7 +153,7 @@ TEST(IteratedUpdateLimits, aNonFiniteStepFromFiniteSumsIsNotTaken)
   Problem p = problemOff(random, 0.1);
   p.prior.P(kVelocity, kVelocity) = std::numeric_limits<double>::infinity();
   const auto model =
-      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 50, kSigma), kSigma);
   for (const GainForm gain : {GainForm::Information, GainForm::Standard})
   {
     expectUntouched(iteratedUpdate(p.prior, model, IterationLimits{}, gain), p.prior);

@@ -13,11 +13,11 @@ namespace fastlio
 {
 namespace
 {
-using test::kSigma;
-using test::Problem;
-using test::problemOff;
-using test::Random;
-using test::tightLimits;
+using testing::kSigma;
+using testing::Problem;
+using testing::problemOff;
+using testing::Random;
+using testing::tightLimits;
 
 TEST(IteratedUpdate, exactPlanesRecoverThePose)
 {
@@ -27,7 +27,7 @@ TEST(IteratedUpdate, exactPlanesRecoverThePose)
     Problem p = problemOff(random, 0.2);
     p.prior.P = StateMatrix::Identity();
     const auto model =
-        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
+        testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
     const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
     EXPECT_TRUE(r.updated);
     EXPECT_TRUE(r.converged);
@@ -42,7 +42,8 @@ TEST(IteratedUpdate, iteratingIsWhatRemovesTheNonlinearity)
   Random random(42);
   Problem p = problemOff(random, 0.2);
   p.prior.P = StateMatrix::Identity();
-  const auto model = test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
+  const auto model =
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 200, 0.0), 1e-5);
   const auto error = [&](int iterations)
   {
     const auto limits = tightLimits(iterations);
@@ -61,7 +62,7 @@ TEST(IteratedUpdate, bothGainsEndAtTheSamePosterior)
   {
     const Problem p = problemOff(random, 0.1);
     const auto model =
-        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), count, kSigma), kSigma);
+        testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), count, kSigma), kSigma);
     const UpdateResult a = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
     const UpdateResult b = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Standard);
     EXPECT_EQ(a.iterations, b.iterations);
@@ -71,11 +72,12 @@ TEST(IteratedUpdate, bothGainsEndAtTheSamePosterior)
 }
 
 /** Eq. 17: |x [-] x_hat|^2 weighted by P_hat^-1 plus the sum of z^2 / r. */
-double mapCost(const FilterState& prior, const NavState& x, const std::vector<test::PlaneMatch>& m)
+double mapCost(
+    const FilterState& prior, const NavState& x, const std::vector<testing::PlaneMatch>& m)
 {
   const StateVector d = boxminus(x, prior.x);
   return d.dot(prior.P.inverse() * d) +
-         test::sumsOf(test::residualsOf(m, x, kSigma)).weighted_squares;
+         testing::sumsOf(testing::residualsOf(m, x, kSigma)).weighted_squares;
 }
 
 TEST(IteratedUpdate, endsAtTheMaximumAPosteriori)
@@ -85,9 +87,9 @@ TEST(IteratedUpdate, endsAtTheMaximumAPosteriori)
   for (int i = 0; i < 10; ++i)
   {
     const Problem p = problemOff(random, 0.3);
-    const auto matches = test::planesSeenFrom(random, p.truth.pose(), 40, kSigma);
+    const auto matches = testing::planesSeenFrom(random, p.truth.pose(), 40, kSigma);
     const UpdateResult r = iteratedUpdate(
-        p.prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+        p.prior, testing::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
     ASSERT_TRUE(r.converged);
     StateVector gradient;
     for (int c = 0; c < kStateDim; ++c)
@@ -113,9 +115,9 @@ TEST(IteratedUpdate, posteriorCovarianceIsThatOfTheErrors)
     Problem p = problemOff(random, 0.03);
     const StateMatrix L = p.prior.P.llt().matrixL();
     p.truth = boxplus(p.prior.x, L * random.stateVector(1.0));
-    const auto matches = test::planesSeenFrom(random, p.truth.pose(), 30, kSigma);
+    const auto matches = testing::planesSeenFrom(random, p.truth.pose(), 30, kSigma);
     const UpdateResult r = iteratedUpdate(
-        p.prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+        p.prior, testing::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
     const StateVector e = boxminus(p.truth, r.posterior.x);
     nees += e.dot(r.posterior.P.inverse() * e) / kRuns;
   }
@@ -130,10 +132,10 @@ TEST(IteratedUpdate, posteriorCovarianceIsSymmetricPositiveAndSmaller)
   {
     const Problem p = problemOff(random, 0.1);
     const auto model =
-        test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 500, kSigma), kSigma);
+        testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 500, kSigma), kSigma);
     const UpdateResult r = iteratedUpdate(p.prior, model, IterationLimits{}, GainForm::Information);
     EXPECT_EQ((r.posterior.P - r.posterior.P.transpose()).norm(), 0.0);
-    EXPECT_GT(test::eigenvaluesOf(r.posterior.P).minCoeff(), 0.0);
+    EXPECT_GT(testing::eigenvaluesOf(r.posterior.P).minCoeff(), 0.0);
     EXPECT_LT(r.posterior.P.trace(), p.prior.P.trace());
     EXPECT_LT((r.posterior.x.R * r.posterior.x.R.transpose() - Mat3::Identity()).norm(), 1e-14);
   }
@@ -145,7 +147,7 @@ TEST(IteratedUpdate, covarianceRefersToThePosteriorsTangentSpace)
   Random random(47);
   const Problem p = problemOff(random, 0.3);
   const auto model =
-      test::planeModel(test::planesSeenFrom(random, p.truth.pose(), 5, kSigma), kSigma);
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 5, kSigma), kSigma);
   const UpdateResult r = iteratedUpdate(p.prior, model, tightLimits(1), GainForm::Information);
   const UpdateStep step = informationStep(p.prior, p.prior.x, model(p.prior.x, 0).sums);
   const StateMatrix J_inv = priorJacobianInverse(r.posterior.x, p.prior.x);
@@ -162,9 +164,9 @@ TEST(IteratedUpdate, aCorridorLeavesItsAxisToThePrior)
   NavState truth;
   truth.p = Vec3(0.5, 0.05, -0.04);
   const auto matches =
-      test::planesSeenFrom(random, truth.pose(), 300, 0.0, {Vec3::UnitY(), Vec3::UnitZ()});
+      testing::planesSeenFrom(random, truth.pose(), 300, 0.0, {Vec3::UnitY(), Vec3::UnitZ()});
   const UpdateResult r = iteratedUpdate(
-      prior, test::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
+      prior, testing::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
   EXPECT_TRUE(r.converged);
   EXPECT_NEAR(r.posterior.x.p.x(), 0.0, 1e-4);
   EXPECT_NEAR(r.posterior.P(kPosition, kPosition), 1e-2, 1e-5);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 /** Rows of H, residuals and unequal variances around sigma^2, without any geometry behind them. */
 inline StackedMeasurements randomMeasurements(Random& random, int count, double sigma)
@@ -120,4 +120,4 @@ inline IterationLimits tightLimits(int max_iterations = 30)
 {
   return {max_iterations, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10, 1e-10};
 }
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

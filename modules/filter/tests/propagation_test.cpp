@@ -28,7 +28,7 @@ struct Case
 /** Rates from rest to far above those of any sensor, periods from 1 kHz to 10 Hz. */
 std::vector<Case> cases(unsigned seed)
 {
-  test::Random random(seed);
+  testing::Random random(seed);
   std::vector<Case> all;
   for (const double rate : {0.0, 1e-6, 1e-2, 1.0, 20.0})
   {
@@ -78,7 +78,7 @@ TEST(Propagation, meanFollowsTheProcessModel)
 
 TEST(Propagation, restingSensorStaysAtRest)
 {
-  test::Random random(11);
+  testing::Random random(11);
   NavState x = random.state();
   x.v.setZero();
   const Vec3 accel = x.accel_bias - x.R.transpose() * x.g;
@@ -156,7 +156,7 @@ TEST(Propagation, FwIsTheDerivativeByTheNoise)
 
 TEST(Propagation, covarianceIsEquation8)
 {
-  test::Random random(14);
+  testing::Random random(14);
   const ImuNoise noise{0.3, 0.7, 0.05, 0.09};
   for (const Case& c : cases(15))
   {
@@ -195,7 +195,7 @@ TEST(Propagation, noiseGrowsWithTimeWhateverTheSampleRate)
 
 TEST(Propagation, covarianceStaysSymmetricAndPositiveWithoutUpdates)
 {
-  test::Random random(16);
+  testing::Random random(16);
   FilterState s{NavState{}, StateMatrix::Zero()};
   for (int i = 0; i < 2000; ++i)
   {
@@ -205,12 +205,12 @@ TEST(Propagation, covarianceStaysSymmetricAndPositiveWithoutUpdates)
   EXPECT_TRUE(isFinite(s.x));
   EXPECT_LT((s.x.R * s.x.R.transpose() - Mat3::Identity()).norm(), 1e-11);
   EXPECT_EQ((s.P - s.P.transpose()).norm(), 0.0);
-  EXPECT_GT(test::eigenvaluesOf(s.P).minCoeff(), -1e-12 * s.P.norm());
+  EXPECT_GT(testing::eigenvaluesOf(s.P).minCoeff(), -1e-12 * s.P.norm());
 }
 
 TEST(Propagation, aStepOfNoLengthChangesNothing)
 {
-  test::Random random(17);
+  testing::Random random(17);
   const FilterState s{random.state(), random.covariance(1.0, 10.0)};
   const FilterState out = propagate(s, random.vector(), random.vector(), 0.0, ImuNoise{});
   EXPECT_EQ(out.P, s.P);

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <random>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 /** Source of random numbers that is the same on every run. */
 class Random
@@ -80,4 +80,4 @@ inline StateVector eigenvaluesOf(const StateMatrix& P)
   using Aligned = Eigen::Matrix<double, kStateDim, kStateDim>;
   return Eigen::SelfAdjointEigenSolver<Aligned>(Aligned(P), Eigen::EigenvaluesOnly).eigenvalues();
 }
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

@@ -12,7 +12,7 @@ namespace fastlio
 {
 namespace
 {
-using test::Random;
+using testing::Random;
 
 /** What the points of a scan were compensated with, at some distance from \a x. */
 CompensatedWith compensationNear(Random& random, const NavState& x, double distance)

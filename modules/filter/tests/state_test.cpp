@@ -16,7 +16,7 @@ namespace fastlio
 namespace
 {
 /** A step whose rotations are less than pi, where boxminus inverts boxplus. */
-StateVector randomStep(test::Random& random)
+StateVector randomStep(testing::Random& random)
 {
   StateVector dx = random.stateVector(1.0);
   for (const StateBlock block : {kAttitude, kExtrinsicRotation})
@@ -26,7 +26,7 @@ StateVector randomStep(test::Random& random)
 
 TEST(State, boxplusOfZeroIsTheSameState)
 {
-  test::Random random(1);
+  testing::Random random(1);
   const NavState x = random.state();
   EXPECT_EQ(boxminus(boxplus(x, StateVector::Zero()), x).segment<15>(kPosition).norm(), 0.0);
   EXPECT_LT(boxminus(x, x).norm(), 1e-15);
@@ -34,7 +34,7 @@ TEST(State, boxplusOfZeroIsTheSameState)
 
 TEST(State, boxminusInvertsBoxplus)
 {
-  test::Random random(2);
+  testing::Random random(2);
   for (int i = 0; i < 500; ++i)
   {
     const NavState x = random.state();
@@ -45,7 +45,7 @@ TEST(State, boxminusInvertsBoxplus)
 
 TEST(State, boxplusInvertsBoxminus)
 {
-  test::Random random(3);
+  testing::Random random(3);
   for (int i = 0; i < 500; ++i)
   {
     const NavState a = random.state();
@@ -59,7 +59,7 @@ TEST(State, boxplusInvertsBoxminus)
 TEST(State, boxminusIsADistance)
 {
   // |a [-] b| is symmetric and obeys the triangle inequality, as the axioms of [+] demand.
-  test::Random random(4);
+  testing::Random random(4);
   for (int i = 0; i < 200; ++i)
   {
     const NavState a = random.state();
@@ -72,7 +72,7 @@ TEST(State, boxminusIsADistance)
 
 TEST(State, attitudeErrorIsInTheBodyFrame)
 {
-  test::Random random(5);
+  testing::Random random(5);
   const NavState x = random.state();
   StateVector dx = StateVector::Zero();
   dx.segment<3>(kAttitude) = Vec3(0.1, -0.2, 0.3);
@@ -125,7 +125,7 @@ TEST(State, nonFiniteNumbersAreSeenInEveryComponent)
 
 TEST(State, poseTransformsCompose)
 {
-  test::Random random(6);
+  testing::Random random(6);
   const Pose a = random.state().pose();
   const Pose b = random.state().pose();
   const Vec3 point = random.vector();

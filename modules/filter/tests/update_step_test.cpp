@@ -14,7 +14,7 @@ namespace fastlio
 {
 namespace
 {
-using test::Random;
+using testing::Random;
 
 /** An iterate that is (not) the prior's mean. */
 NavState iterateNear(Random& random, const FilterState& prior, double distance)
@@ -33,7 +33,7 @@ double difference(const UpdateStep& a, const UpdateStep& b)
 void expectCovariance(const StateMatrix& P)
 {
   EXPECT_EQ((P - P.transpose()).norm(), 0.0);
-  EXPECT_GT(test::eigenvaluesOf(P).minCoeff(), 0.0);
+  EXPECT_GT(testing::eigenvaluesOf(P).minCoeff(), 0.0);
 }
 
 TEST(PriorJacobian, isTheDerivativeOfEquation15)
@@ -69,8 +69,9 @@ TEST(UpdateStep, bothGainsGiveTheSameStepAndCovariance)
       {
         const FilterState prior{random.state(), random.covariance(0.1, spread)};
         const NavState iterate = iterateNear(random, prior, distance);
-        const auto measurements = test::randomMeasurements(random, count, 0.02);
-        const UpdateStep information = informationStep(prior, iterate, test::sumsOf(measurements));
+        const auto measurements = testing::randomMeasurements(random, count, 0.02);
+        const UpdateStep information =
+            informationStep(prior, iterate, testing::sumsOf(measurements));
         const UpdateStep standard = standardStep(prior, iterate, measurements);
         EXPECT_LT(difference(information, standard), 1e-7)
             << count << " measurements, spread " << spread << ", distance " << distance;
@@ -116,9 +117,9 @@ TEST(UpdateStep, informationStepIsEquation20ToTheLetter)
     {
       const FilterState prior{random.state(), random.covariance(0.1, spread)};
       const NavState iterate = iterateNear(random, prior, 0.3);
-      const auto measurements = test::randomMeasurements(random, count, 0.05);
+      const auto measurements = testing::randomMeasurements(random, count, 0.05);
       const UpdateStep expected = equation20(prior, iterate, measurements);
-      const UpdateStep step = informationStep(prior, iterate, test::sumsOf(measurements));
+      const UpdateStep step = informationStep(prior, iterate, testing::sumsOf(measurements));
       EXPECT_LT(difference(step, expected), 1e-7) << count << " measurements, spread " << spread;
     }
   }
@@ -134,8 +135,8 @@ TEST(UpdateStep, whatIsKnownExactlyStaysAsItIs)
     prior.P.middleRows<3>(block).setZero();
     prior.P.middleCols<3>(block).setZero();
   }
-  const auto measurements = test::randomMeasurements(random, 50, 0.05);
-  const UpdateStep step = informationStep(prior, prior.x, test::sumsOf(measurements));
+  const auto measurements = testing::randomMeasurements(random, 50, 0.05);
+  const UpdateStep step = informationStep(prior, prior.x, testing::sumsOf(measurements));
   EXPECT_LT(difference(step, standardStep(prior, prior.x, measurements)), 1e-8);
   for (const int block : {kAttitude, kGyroBias, kGravity})
   {
@@ -149,8 +150,8 @@ TEST(UpdateStep, withoutAnyUncertaintyNothingMoves)
 {
   Random random(35);
   const FilterState prior{random.state(), StateMatrix::Zero()};
-  const auto measurements = test::randomMeasurements(random, 50, 0.05);
-  const UpdateStep step = informationStep(prior, prior.x, test::sumsOf(measurements));
+  const auto measurements = testing::randomMeasurements(random, 50, 0.05);
+  const UpdateStep step = informationStep(prior, prior.x, testing::sumsOf(measurements));
   EXPECT_EQ(step.dx.norm(), 0.0);
   EXPECT_EQ(step.P.norm(), 0.0);
 }
@@ -160,7 +161,7 @@ TEST(UpdateStep, aVeryWeakPriorLeavesWhatTheMeasurementsSay)
   // Twelve orders of magnitude between prior and posterior: the pose's posterior is S^-1.
   Random random(36);
   FilterState prior{random.state(), 1e8 * StateMatrix::Identity()};
-  const auto sums = test::sumsOf(test::randomMeasurements(random, 300, 0.01));
+  const auto sums = testing::sumsOf(testing::randomMeasurements(random, 300, 0.01));
   const UpdateStep step = informationStep(prior, prior.x, sums);
   const Matrix6 expected = sums.HtRinvH.inverse();
   EXPECT_LT((step.P.topLeftCorner<6, 6>() - expected).norm(), 1e-7 * expected.norm());
@@ -195,7 +196,7 @@ TEST(UpdateStep, correlationsCarryTheCorrectionToVelocityAndBiases)
   m.h.push_back(Vector6::Unit(kPosition));
   m.z.push_back(-1.0);  // predicted minus measured
   m.variance.push_back(1.0);
-  const UpdateStep step = informationStep(prior, prior.x, test::sumsOf(m));
+  const UpdateStep step = informationStep(prior, prior.x, testing::sumsOf(m));
   EXPECT_NEAR(step.dx[kPosition], 4.0 / 5.0, 1e-14);
   EXPECT_NEAR(step.dx[kVelocity], 3.0 / 5.0, 1e-14);
   EXPECT_NEAR(step.P(kPosition, kPosition), 4.0 / 5.0, 1e-14);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/feature_lines.h>
+#include <fastlio/math/angles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
 // Shots that follow each other within this angle may belong to one moving beam: cosine of 0.5 deg.
 constexpr double kCosSameBeam = 0.999962;
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/point_time.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kSecondsPerNanosecond = 1e-9;
 
 /** Smallest and largest finite number; points: how many there are. */
 PointTimeSample extremesOf(const std::vector<double>& times)
@@ -74,7 +74,7 @@ void toSecondsAfterStamp(
   if (reading.reference == PointTimeReference::Absolute)
   {
     // The difference of large numbers: taken in the field's own unit, where both are exact.
-    const double stamp = static_cast<double>(stamp_ns) * kSecondsPerNanosecond / unit;
+    const double stamp = toSeconds(stamp_ns) / unit;
     for (double& t : times)
       t = (t - stamp) * unit;
     return;

@@ -3,6 +3,9 @@
 
 #include "point_time_facts.h"
 
+#include <fastlio/math/statistics.h>
+#include <fastlio/math/time.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,17 +15,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kSecondsPerNanosecond = 1e-9;
 constexpr double kUsualPeriod = 0.1;  // [s]
-
-/** Zero of nothing. */
-double median(std::vector<double> values)
-{
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 template <typename Get>
 double medianOf(const std::vector<PointTimeSample>& samples, Get get)
@@ -59,12 +52,10 @@ PointTimeFacts::PointTimeFacts(const std::vector<PointTimeSample>& samples)
   const PointTimeSample& middle = samples_[scans / 2];
   min = middle.min;
   max = middle.max;
-  stamp_s = static_cast<double>(middle.stamp_ns) * kSecondsPerNanosecond;
+  stamp_s = toSeconds(middle.stamp_ns);
   std::vector<double> periods;
   for (std::size_t i = 1; i < scans; ++i)
-    periods.push_back(
-        static_cast<double>(samples_[i].stamp_ns - samples_[i - 1].stamp_ns) *
-        kSecondsPerNanosecond);
+    periods.push_back(toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns));
   measured_period = median(std::move(periods));
 }
 
@@ -85,8 +76,7 @@ double PointTimeFacts::shareOfAdvances(double unit, double tolerance) const
   std::size_t agreeing = 0;
   for (std::size_t i = 1; i < scans; ++i)
   {
-    const double stamps = static_cast<double>(samples_[i].stamp_ns - samples_[i - 1].stamp_ns) *
-                          kSecondsPerNanosecond;
+    const double stamps = toSeconds(samples_[i].stamp_ns - samples_[i - 1].stamp_ns);
     const double ratio = (samples_[i].min - samples_[i - 1].min) * unit / stamps;
     if (std::abs(ratio - 1.0) < tolerance) ++agreeing;
   }
@@ -95,9 +85,7 @@ double PointTimeFacts::shareOfAdvances(double unit, double tolerance) const
 
 double PointTimeFacts::clockOffset(double unit) const
 {
-  return medianOf(
-      samples_, [unit](const auto& s)
-      { return s.min * unit - static_cast<double>(s.stamp_ns) * kSecondsPerNanosecond; });
+  return medianOf(samples_, [unit](const auto& s) { return s.min * unit - toSeconds(s.stamp_ns); });
 }
 
 double PointTimeFacts::secondsAfterStamp(double time, const PointTimeReading& reading) const

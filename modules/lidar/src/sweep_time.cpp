@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/sweep_time.h>
+#include <fastlio/math/angles.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846, kTwoPi = 2.0 * kPi;
 constexpr std::size_t kFewestPoints = 200;
 constexpr std::size_t kSectors = 72;
 // Points of a column stand at slightly different azimuths: a step that counts is larger than that,

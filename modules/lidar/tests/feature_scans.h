@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/math/angles.h>
 
 #include <cmath>
 #include <functional>
@@ -13,7 +14,6 @@
 
 namespace fastlio::testing
 {
-constexpr double kRadPerDeg = M_PI / 180.0;
 
 /** Range along a unit direction from the origin; 0 or infinite: no echo. */
 using RangeOf = std::function<double(const Vec3& direction)>;

@@ -4,6 +4,7 @@
 // What the numbers of time fields are taken for, and what is refused.
 
 #include <fastlio/lidar/point_time.h>
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -48,9 +49,7 @@ struct Driver
       if (single_precision)
         for (double& t : times)
           t = static_cast<double>(static_cast<float>(t));
-      all.push_back(sampleOf(
-          kStart + static_cast<std::int64_t>(std::llround(stamp_s * 1e9)), times,
-          single_precision));
+      all.push_back(sampleOf(kStart + toNanoseconds(stamp_s), times, single_precision));
     }
     return all;
   }

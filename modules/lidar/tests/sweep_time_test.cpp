@@ -4,6 +4,7 @@
 // Times out of azimuths, for clouds in the order of their columns and of their lines.
 
 #include <fastlio/lidar/sweep_time.h>
+#include <fastlio/math/angles.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586477;
 constexpr int kLines = 16, kColumns = 500;
 
 /** One revolution with true times of 0.1 s from the start. \param stagger of the lines [rad] */

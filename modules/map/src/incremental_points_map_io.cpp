@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "point_index.h"
-#include <fastlio/map/bounded_read.h>
+#include <fastlio/compat/bounded_read.h>
 #include <fastlio/map/incremental_points_map.h>
 
 #include <mrpt/config/CConfigFileBase.h>

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/compat/bounded_read.h>
 #include <fastlio/files/gzip_file.h>
-#include <fastlio/map/bounded_read.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 
 #include <mrpt/config/CConfigFileBase.h>

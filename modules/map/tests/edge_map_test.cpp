@@ -12,7 +12,7 @@
 #include <random>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

@@ -13,7 +13,7 @@
 #include <thread>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

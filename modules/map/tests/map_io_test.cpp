@@ -22,7 +22,7 @@
 #include <unistd.h>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 using mrpt::serialization::archiveFrom;
 
 namespace

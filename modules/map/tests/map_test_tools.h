@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 struct Xyz
 {
@@ -191,4 +191,4 @@ inline void expectExactQueries(const CIncrementalPointsMap& map, unsigned seed, 
   }
 }
 
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

@@ -18,7 +18,7 @@
 #include <limits>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

@@ -10,7 +10,7 @@
 
 #include <random>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
@@ -73,4 +73,4 @@ inline double distanceTo(const VoxelPlane& plane, const Vector3d& p)
   return double(plane.nx) * p.x() + double(plane.ny) * p.y() + double(plane.nz) * p.z() +
          double(plane.offset());
 }
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

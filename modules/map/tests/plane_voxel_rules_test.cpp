@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 TEST(PlaneVoxel, HasNoPlaneFromTooFewPoints)
 {

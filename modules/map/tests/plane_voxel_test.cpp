@@ -8,7 +8,7 @@
 #include <cmath>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 TEST(PlaneVoxel, RecoversAnExactPlane)
 {

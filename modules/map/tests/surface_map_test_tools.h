@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 inline WorldPoints worldPoints(const Cloud& cloud)
 {
@@ -41,4 +41,4 @@ inline double residual(const PlaneMatch& m, const Xyz& p)
 {
   return double(m.nx) * p.x + double(m.ny) * p.y + double(m.nz) * p.z + m.d;
 }
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

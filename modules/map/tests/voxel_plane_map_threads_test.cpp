@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

@@ -5,7 +5,7 @@
 
 namespace fastlio
 {
-FilterState withCalibrationPrior(const FilterState& start, const CalibrationParameters& p)
+FilterState withCalibrationPrior(const FilterState& start, const CalibrationOptions& p)
 {
   FilterState s = start;
   if (!p.estimate_extrinsic) return s;

@@ -16,7 +16,7 @@ namespace fastlio
  * extrinsic: attitude and position of the body bear its opposite, and gravity, known in the body
  * frame, turns with the attitude. */
 [[nodiscard]] FilterState withCalibrationPrior(
-    const FilterState& start, const CalibrationParameters& parameters);
+    const FilterState& start, const CalibrationOptions& parameters);
 
 /** A new start with the calibration that was found before, as certain as it was. */
 [[nodiscard]] FilterState withCalibrationOf(const FilterState& before, const FilterState& start);

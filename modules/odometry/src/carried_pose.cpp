@@ -45,7 +45,7 @@ Mat3 worldRotation(const NavState& start, const NavState& carried)
 }  // namespace
 
 CarriedPose carriedOver(
-    const FilterState& last, double unknown_s, const RecoveryParameters& parameters)
+    const FilterState& last, double unknown_s, const RecoveryOptions& parameters)
 {
   CarriedPose carried;
   carried.x = last.x;

@@ -4,8 +4,8 @@
 /** \file edge_stage.h What edge points add to the update of a scan (section III-B of the paper). */
 #pragma once
 
+#include <fastlio/lidar/deskew.h>
 #include <fastlio/map/edge_map.h>
-#include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_line.h>
 

@@ -3,6 +3,9 @@
 
 #include "health_monitor.h"
 
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+
 #include <mrpt/core/format.h>
 
 #include <algorithm>
@@ -13,8 +16,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr double kTrouble = 0.5;
 constexpr double kOpenButKnown = 0.6;  // a direction that is open and left to the inertial data
 constexpr double kPredicted = 0.25;
@@ -47,21 +48,21 @@ void consider(ScanHealth& health, double value, HealthCause cause, const Reason&
   health.reason = value < kTrouble ? reason() : std::string();
 }
 
-void considerShare(const ScanStatistics& s, const HealthParameters& limits, ScanHealth& health)
+void considerShare(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
 {
   consider(
-      health, above(share(s, s.points_reduced), limits.min_share * s.usual_share),
+      health, above(share(s, s.points_downsampled), limits.min_share * s.usual_share),
       HealthCause::FewMatches,
       [&]
       {
         return mrpt::format(
             "%zu of %zu points match the map, less than %g of the share that matched before, %.3f "
             "(health.min_share)",
-            s.points_effective, s.points_reduced, limits.min_share, s.usual_share);
+            s.points_effective, s.points_downsampled, limits.min_share, s.usual_share);
       });
 }
 
-void considerMatches(const ScanStatistics& s, const HealthParameters& limits, ScanHealth& health)
+void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
 {
   consider(
       health, below(s.normalized_innovation, limits.max_innovation), HealthCause::LargeResidual,
@@ -87,16 +88,16 @@ void considerMatches(const ScanStatistics& s, const HealthParameters& limits, Sc
 }
 
 void considerInertialData(
-    double doubtful, const NavState& x, const HealthParameters& limits, ScanHealth& health)
+    double inflated, const NavState& x, const HealthOptions& limits, ScanHealth& health)
 {
   consider(
-      health, below(doubtful, limits.max_doubtful), HealthCause::InertialData,
+      health, below(inflated, limits.max_inflated), HealthCause::InertialData,
       [&]
       {
         return mrpt::format(
             "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
-            "more than %.0f %% (health.max_doubtful)",
-            100.0 * doubtful, 100.0 * limits.max_doubtful);
+            "more than %.0f %% (health.max_inflated)",
+            100.0 * inflated, 100.0 * limits.max_inflated);
       });
   consider(
       health, below(x.gyro_bias.norm(), limits.max_gyro_bias), HealthCause::Bias,
@@ -119,16 +120,16 @@ void considerInertialData(
 }  // namespace
 
 bool evidenceIsGood(
-    const ScanStatistics& statistics, std::size_t points, const HealthParameters& limits)
+    const ScanStatistics& statistics, std::size_t points, const HealthOptions& limits)
 {
   return share(statistics, points) >= limits.min_share * statistics.usual_share;
 }
 
-void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& result)
+void HealthMonitor::judge(const std::vector<NoiseInflation>& inflations, ScanResult& result)
 {
   ScanHealth health;
   const std::int64_t since_ns = last_ns_ == 0 ? result.begin_ns : last_ns_;
-  const double interval_s = kNsToS * static_cast<double>(result.stamp_ns - since_ns);
+  const double interval_s = toSeconds(result.stamp_ns - since_ns);
   last_ns_ = result.stamp_ns;
   const auto message = [&] { return result.message; };
   if (result.status == ScanStatus::Initializing)
@@ -146,7 +147,7 @@ void HealthMonitor::judge(const std::vector<InertialDoubt>& doubts, ScanResult& 
   else if (result.status == ScanStatus::FirstScan)
     young_scans_ = kYoungMapScans;
   considerInertialData(
-      doubtfulShare(doubts, since_ns, result.stamp_ns), result.filter.x, limits_, health);
+      inflatedRatio(inflations, since_ns, result.stamp_ns), result.filter.x, limits_, health);
   consider(
       health, below(interval_s, limits_.max_scan_interval), HealthCause::ScanTiming,
       [&]

@@ -4,6 +4,7 @@
 #include "initialization.h"
 
 #include "motion_initializer.h"
+#include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
@@ -13,7 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 // A window that does not rest moves on by this share of its length.
 constexpr double kWindowStep = 0.1;
 // After a refused start in motion this share of its window is given up.
@@ -26,12 +26,12 @@ constexpr std::int64_t kHoldBeforeNs = 20'000'000;
 
 std::int64_t nanoseconds(double seconds)
 {
-  return static_cast<std::int64_t>(seconds / kNsToS);
+  return toNanoseconds(seconds);
 }
 
 double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
 {
-  return static_cast<double>(to_ns - from_ns) * kNsToS;
+  return toSeconds(to_ns - from_ns);
 }
 
 /** What the inertial samples before the first scan say about rest. */
@@ -43,8 +43,7 @@ struct RestSearch
 };
 
 RestSearch searchRest(
-    const ImuBuffer& imu, const InitializationParameters& parameters,
-    std::int64_t first_scan_begin_ns)
+    const ImuBuffer& imu, const InitializationOptions& parameters, std::int64_t first_scan_begin_ns)
 {
   RestSearch search;
   const std::int64_t duration_ns = nanoseconds(parameters.duration);
@@ -102,7 +101,7 @@ StartDecision startedInMotion(const MotionStart& start, std::int64_t stamp_ns)
 std::string inertialGap(const ScanQueue& scans, const ImuBuffer& imu)
 {
   const double missing_s = secondsBetween(scans.front().span.begin_ns, imu.oldestStamp());
-  if (missing_s <= static_cast<double>(kHoldBeforeNs) * kNsToS) return {};
+  if (missing_s <= toSeconds(kHoldBeforeNs)) return {};
   return mrpt::format(
       "no start in motion: the inertial data begin %.3f s after the scan", missing_s);
 }

@@ -3,6 +3,8 @@
 
 #include "motion_fit.h"
 
+#include <fastlio/math/time.h>
+
 #include <Eigen/Cholesky>
 
 #include <cmath>
@@ -11,7 +13,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 constexpr std::size_t kMinPoses = 4;
 constexpr int kUnknowns = 9;  // position, velocity, gravity
 using Square9 = Eigen::Matrix<double, kUnknowns, kUnknowns>;
@@ -36,7 +37,7 @@ class ForceIntegral
       const ImuSample& u = inputs_[next_];
       const bool last = next_ + 1 == inputs_.size() || inputs_[next_ + 1].stamp_ns > to_ns;
       const std::int64_t stop_ns = last ? to_ns : inputs_[next_ + 1].stamp_ns;
-      step(u, R, static_cast<double>(stop_ns - now_ns) * kNsToS);
+      step(u, R, toSeconds(stop_ns - now_ns));
       now_ns = stop_ns;
       next_ += last ? 0 : 1;
     }
@@ -95,7 +96,7 @@ MotionFit fitMotion(
   for (std::size_t k = 1; k < poses.size(); ++k)
   {
     force.advance(poses[k - 1], poses[k].stamp_ns);
-    const double t = static_cast<double>(poses[k].stamp_ns - poses[0].stamp_ns) * kNsToS;
+    const double t = toSeconds(poses[k].stamp_ns - poses[0].stamp_ns);
     positions.addPosition(
         t, poses[k].T_world_imu.p - force.position(), std::pow(prior.position_std, -2));
   }

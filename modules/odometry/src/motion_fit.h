@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 #include <cstdint>
 #include <vector>

@@ -6,6 +6,8 @@
 #include "motion_fit.h"
 #include "motion_prior.h"
 #include "scan_pipeline.h"
+#include <fastlio/math/statistics.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
@@ -17,7 +19,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 constexpr std::size_t kMinScans = 4;
 constexpr int kPasses = 8;  // at most
 // Normals are known to about so much; what leaks over to a direction that no plane faces is no
@@ -54,14 +55,6 @@ struct Pass
   bool blind = false;               // the scans do not see motion in that direction
   std::string problem;
 };
-
-double median(std::vector<double> values)
-{
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class Window
 {
@@ -114,7 +107,7 @@ class Window
   /** Velocity and gravity at the first scan's end from all poses, then back to its begin. */
   void describeStart(const FilterState& end, const std::vector<TimedPose>& poses, Pass& pass) const
   {
-    const InitializationParameters& p = parameters_.initialization;
+    const InitializationOptions& p = parameters_.initialization;
     const TimedPose& first = poses.front();
     MotionFitPrior prior;
     prior.gyro_bias = end.x.gyro_bias;
@@ -160,7 +153,7 @@ bool agree(const NavState& a, const NavState& b)
 }
 
 /** Between the start of a pass and what the pass made of it. */
-NavState damped(const NavState& from, const NavState& to, const InitializationParameters& p)
+NavState damped(const NavState& from, const NavState& to, const InitializationOptions& p)
 {
   const auto between = [](const Vec3& a, const Vec3& b) -> Vec3 { return a + kDamping * (b - a); };
   const Mat3 from_world = from.R.transpose(), to_world = to.R.transpose();
@@ -169,7 +162,7 @@ NavState damped(const NavState& from, const NavState& to, const InitializationPa
       between(from.gyro_bias, to.gyro_bias), p);
 }
 
-std::string refusal(const Pass& pass, bool agreed, const InitializationParameters& p)
+std::string refusal(const Pass& pass, bool agreed, const InitializationOptions& p)
 {
   if (!pass.problem.empty())
     return "no start in motion: " + pass.problem +
@@ -190,7 +183,7 @@ std::string refusal(const Pass& pass, bool agreed, const InitializationParameter
 
 std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double duration)
 {
-  const auto duration_ns = static_cast<std::int64_t>(duration / kNsToS);
+  const auto duration_ns = toNanoseconds(duration);
   for (std::size_t count = kMinScans; count <= scans.size(); ++count)
   {
     const std::int64_t end_ns = scans[count - 1].span.end_ns;
@@ -203,7 +196,7 @@ std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double du
 MotionStart startInMotion(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters)
 {
-  const InitializationParameters& p = parameters.initialization;
+  const InitializationOptions& p = parameters.initialization;
   const Window window(scans, count, imu, parameters);
   Parameters pass_parameters = parameters;
   pass_parameters.output.imu_rate = false;

@@ -19,7 +19,7 @@
 #include "queued_scan.h"
 #include "young_map.h"
 #include <fastlio/filter/state.h>
-#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/parameters.h>
 
 #include <optional>

@@ -4,6 +4,7 @@
 #include "motion_prior.h"
 
 #include <fastlio/filter/propagation.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -14,7 +15,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 // How far the map that the first scan founds may be off as a whole ...
 constexpr double kFirstMapPositionStd = 0.05;  // [m]
 constexpr double kFirstMapAttitudeStd = 0.01;  // [rad]
@@ -24,7 +24,7 @@ constexpr double kYoungMapAttitudeStd = 0.0015;  // [rad]
 
 /** Where the world is fixed: pose exact, velocity and biases as wide as configured, gravity known
  * by its magnitude only. */
-StateMatrix openPrior(const NavState& x, const PriorWidth& width, const InitializationParameters& p)
+StateMatrix openPrior(const NavState& x, const PriorWidth& width, const InitializationOptions& p)
 {
   StateMatrix P = StateMatrix::Zero();
   P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(std::pow(width.velocity, 2));
@@ -68,7 +68,7 @@ StateMatrix poseVariances(double attitude_std, double position_std)
 double Inputs::duration(std::size_t i) const
 {
   const std::int64_t stop_ns = i + 1 < samples.size() ? samples[i + 1].stamp_ns : end_ns;
-  return static_cast<double>(stop_ns - samples[i].stamp_ns) * kNsToS;
+  return toSeconds(stop_ns - samples[i].stamp_ns);
 }
 
 Inputs inputsOf(const ImuBuffer& imu, std::int64_t begin_ns, std::int64_t end_ns, ImuHold hold)
@@ -80,7 +80,7 @@ Inputs inputsOf(const ImuBuffer& imu, std::int64_t begin_ns, std::int64_t end_ns
 }
 
 NavState startState(
-    const Vec3& g_imu, const Vec3& v_imu, const Vec3& gyro_bias, const InitializationParameters& p)
+    const Vec3& g_imu, const Vec3& v_imu, const Vec3& gyro_bias, const InitializationOptions& p)
 {
   NavState x;
   const Vec3 down = g_imu.normalized();
@@ -92,7 +92,7 @@ NavState startState(
   return x;
 }
 
-NavState firstGuess(const Inputs& inputs, const InitializationParameters& p)
+NavState firstGuess(const Inputs& inputs, const InitializationOptions& p)
 {
   Mat3 R = Mat3::Identity();
   Vec3 sum = Vec3::Zero();
@@ -120,7 +120,7 @@ NavState propagatedBack(NavState x, const Inputs& inputs)
 
 FilterState startPrior(
     const NavState& x0, const PriorWidth& width, const Inputs& first_scan,
-    const InitializationParameters& p)
+    const InitializationOptions& p)
 {
   return {x0, covarianceBefore(openPrior(x0, width, p), x0, first_scan)};
 }

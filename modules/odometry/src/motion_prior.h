@@ -5,7 +5,7 @@
 #pragma once
 
 #include "young_map.h"
-#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/parameters.h>
 
 #include <vector>
@@ -29,11 +29,11 @@ struct Inputs
  * start; position zero; gravity with the configured magnitude. \param g_imu gravity, any length
  * \param v_imu velocity; both in the IMU frame */
 [[nodiscard]] NavState startState(
-    const Vec3& g_imu, const Vec3& v_imu, const Vec3& gyro_bias, const InitializationParameters& p);
+    const Vec3& g_imu, const Vec3& v_imu, const Vec3& gyro_bias, const InitializationOptions& p);
 
 /** Before any scan: the mean specific force, turned to the first frame by the gyro, is gravity but
  * for the change of velocity. */
-[[nodiscard]] NavState firstGuess(const Inputs& inputs, const InitializationParameters& p);
+[[nodiscard]] NavState firstGuess(const Inputs& inputs, const InitializationOptions& p);
 
 /** Eq. 4 backwards, exactly: attitude first, then velocity, then position. */
 [[nodiscard]] NavState propagatedBack(NavState x, const Inputs& inputs);
@@ -50,7 +50,7 @@ struct PriorWidth
  */
 [[nodiscard]] FilterState startPrior(
     const NavState& x0, const PriorWidth& width, const Inputs& first_scan,
-    const InitializationParameters& p);
+    const InitializationOptions& p);
 
 /** For scans that end by until_ns. */
 [[nodiscard]] YoungMap youngMap(int target_points, std::int64_t until_ns);

@@ -70,9 +70,9 @@ ImuReport Odometry::imuReport() const
 {
   return impl_->imuReport();
 }
-const std::vector<Remark>& Odometry::remarks() const
+const std::vector<Diagnostic>& Odometry::diagnostics() const
 {
-  return impl_->remarks_;
+  return impl_->diagnostics_;
 }
 
 }  // namespace fastlio

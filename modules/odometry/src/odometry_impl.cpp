@@ -3,9 +3,9 @@
 
 #include "odometry_impl.h"
 
-#include "plausible_time.h"
-#include "stack_anchor.h"
+#include <fastlio/math/time.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/parallel/stack_anchor.h>
 
 #include <algorithm>
 #include <utility>
@@ -14,8 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
-constexpr double kSToNs = 1e9;
 
 const Parameters& validated(const Parameters& parameters)
 {
@@ -49,8 +47,8 @@ void Odometry::Impl::take(const std::vector<ConditionedSample>& samples)
 {
   for (const ConditionedSample& sample : samples)
     take(sample);
-  for (Remark& found : conditioner_.takeRemarks())
-    remarks_.push_back(std::move(found));
+  for (Diagnostic& found : conditioner_.takeDiagnostics())
+    diagnostics_.push_back(std::move(found));
   intake_.reconsider(conditioner_.clockOffset());
 }
 
@@ -64,7 +62,7 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
   }
   if (conditioned.after_break && !imu_.empty())
     breaks_.push_back({imu_.newestStamp(), sample.stamp_ns, false});
-  if (conditioned.doubt) imu_.addDoubt(*conditioned.doubt);
+  if (conditioned.inflation) imu_.addInflation(*conditioned.inflation);
   switch (imu_.add(sample))
   {
     case ImuBuffer::Verdict::Accepted:
@@ -94,7 +92,7 @@ void Odometry::Impl::addScan(LidarScan scan)
     ++scans_without_time_;
     return;
   }
-  scan.stamp_ns += static_cast<std::int64_t>(parameters_.lidar.time_offset * kSToNs);
+  scan.stamp_ns += toNanoseconds(parameters_.lidar.time_offset);
   const auto inertial_ns =
       imu_.empty() ? std::nullopt : std::optional<std::int64_t>(imu_.newestStamp());
   intake_.add(std::move(scan), conditioner_.clockOffset(), inertial_ns);
@@ -126,7 +124,7 @@ QueuedScan Odometry::Impl::popScan()
 
 bool Odometry::Impl::usable(const ScanSpan& span)
 {
-  const double missing_s = static_cast<double>(span.end_ns - imu_.newestStamp()) * kNsToS;
+  const double missing_s = toSeconds(span.end_ns - imu_.newestStamp());
   if (missing_s > parameters_.imu.max_gap || span.end_ns <= pipeline_.stamp())
   {
     ++(missing_s > 0.0 ? statistics_.scans_without_imu : scans_out_of_order_);
@@ -141,7 +139,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   pipeline_.applyCalibration(queued.scan, queued.span);
   if (!usable(queued.span)) return std::nullopt;
   ScanResult result = pipeline_.process(queued.scan, queued.span, imu_);
-  health_.judge(imu_.doubts(), result);
+  health_.judge(imu_.inflations(), result);
   imu_.forgetBefore(queued.span.end_ns);
   noticeLoss(result);
   return result;

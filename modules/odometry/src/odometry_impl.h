@@ -6,11 +6,11 @@
 
 #include "carried_pose.h"
 #include "health_monitor.h"
-#include "imu_conditioner.h"
 #include "initialization.h"
 #include "scan_intake.h"
 #include "scan_pipeline.h"
-#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/odometry/odometry.h>
 
 #include <deque>
@@ -34,7 +34,7 @@ class Odometry::Impl
 
   const Parameters parameters_;
   ScanPipeline pipeline_;
-  std::vector<Remark> remarks_;
+  std::vector<Diagnostic> diagnostics_;
 
  private:
   /** The run is to be split here. */
@@ -54,7 +54,7 @@ class Odometry::Impl
   void start(const StartDecision& decision);
   void split(const CarriedPose& carried, const std::string& why, std::int64_t stamp_ns);
   void noticeLoss(const ScanResult& result);
-  void remark(std::int64_t stamp_ns, std::string text);
+  void diagnostic(std::int64_t stamp_ns, std::string text);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
   [[nodiscard]] bool usable(const ScanSpan& span);
   [[nodiscard]] QueuedScan popScan();

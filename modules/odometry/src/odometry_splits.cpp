@@ -4,6 +4,7 @@
 // Starts of the odometry: the first one, and those after the run was split.
 
 #include "odometry_impl.h"
+#include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
@@ -15,7 +16,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 // A scan may begin a little before the inertial data do: a sample holds before its stamp, too.
 constexpr std::int64_t kHoldBeforeNs = 20'000'000;
 constexpr double kUpsideDown = -0.5;  // z of the upward direction in the IMU frame
@@ -51,9 +51,9 @@ bool isFinite(const FilterState& state)
 }
 }  // namespace
 
-void Odometry::Impl::remark(std::int64_t stamp_ns, std::string text)
+void Odometry::Impl::diagnostic(std::int64_t stamp_ns, std::string text)
 {
-  if (remarks_.size() < kMostRemarks) remarks_.push_back({stamp_ns, std::move(text)});
+  if (diagnostics_.size() < kMostRemarks) diagnostics_.push_back({stamp_ns, std::move(text)});
 }
 
 void Odometry::Impl::start(const StartDecision& decision)
@@ -63,13 +63,13 @@ void Odometry::Impl::start(const StartDecision& decision)
   {
     pipeline_.restart(*decision.state, decision.stamp_ns, decision.young_map, *carried_);
     carried_.reset();
-    remark(decision.stamp_ns, "started anew, with the pose carried over");
+    diagnostic(decision.stamp_ns, "started anew, with the pose carried over");
     return;
   }
   pipeline_.start(*decision.state, decision.stamp_ns, decision.young_map);
   const Vec3 up = -(x.R.transpose() * x.g).normalized();
   if (up.z() < kUpsideDown)
-    remark(
+    diagnostic(
         decision.stamp_ns,
         mrpt::format(
             "the IMU is mounted upside down (up is [%.2f %.2f %.2f] in its frame), which is fine; "
@@ -92,7 +92,7 @@ std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
 
 bool Odometry::Impl::waitsTooLong(std::int64_t end_ns) const
 {
-  const auto limit_ns = std::llround(parameters_.lidar.max_waiting / kNsToS);
+  const auto limit_ns = toNanoseconds(parameters_.lidar.max_waiting);
   const ScanQueue& scans = intake_.queue();
   // Scans still farther ahead have wrong stamps, as likely as not.
   return std::any_of(
@@ -113,7 +113,7 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
   if (!imu_.empty() && end_ns <= imu_.newestStamp()) return std::nullopt;
   const bool never = at_end && imu_.empty();
   if (!never && !waitsTooLong(end_ns)) return std::nullopt;
-  const double waits_s = static_cast<double>(scans.back().span.end_ns - end_ns) * kNsToS;
+  const double waits_s = toSeconds(scans.back().span.end_ns - end_ns);
   pipeline_.skipScan();
   const bool after_start = pipeline_.started() || carried_;
   ScanResult result = waitingResult(
@@ -130,7 +130,7 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
  * about */
 std::optional<ScanResult> Odometry::Impl::passBreaks()
 {
-  const auto bridged_ns = std::llround(parameters_.imu.max_gap / kNsToS);
+  const auto bridged_ns = toNanoseconds(parameters_.imu.max_gap);
   const std::int64_t time_shift_ns = pipeline_.timeShift();
   while (!breaks_.empty())
   {
@@ -138,7 +138,7 @@ std::optional<ScanResult> Odometry::Impl::passBreaks()
     const ScanSpan span = intake_.queue().front().span;
     const std::int64_t reach_ns = gap.new_map ? 0 : bridged_ns;
     if (span.end_ns + time_shift_ns <= gap.begin_ns + reach_ns) break;
-    const double gap_s = static_cast<double>(gap.end_ns - gap.begin_ns) * kNsToS;
+    const double gap_s = toSeconds(gap.end_ns - gap.begin_ns);
     if (pipeline_.started() && (parameters_.recovery.enabled || gap.new_map))
     {
       const FilterState& last = gap.new_map && last_good_ ? *last_good_ : pipeline_.state();
@@ -179,7 +179,7 @@ void Odometry::Impl::split(
   pipeline_.suspend();
   start_finder_ = StartFinder(startingAnyHow(parameters_));
   lost_since_ns_ = 0;
-  remark(stamp_ns, "the run is split: " + why);
+  diagnostic(stamp_ns, "the run is split: " + why);
 }
 
 /** A pose that is lost although the scans see enough is given up. */
@@ -189,21 +189,22 @@ void Odometry::Impl::noticeLoss(const ScanResult& result)
   const auto needed = static_cast<std::size_t>(parameters_.measurement.min_effective_points);
   if (result.status == ScanStatus::FirstScan ||
       (result.status == ScanStatus::Tracking &&
-       evidenceIsGood(s, s.points_reduced, parameters_.health)))
+       evidenceIsGood(s, s.points_downsampled, parameters_.health)))
   {
     last_good_ = pipeline_.state();
     last_good_ns_ = result.stamp_ns;
   }
-  if (result.status != ScanStatus::Diverged || pipeline_.recovering() || s.points_reduced < needed)
+  if (result.status != ScanStatus::Diverged || pipeline_.recovering() ||
+      s.points_downsampled < needed)
   {
     lost_since_ns_ = 0;
     return;
   }
   if (lost_since_ns_ == 0) lost_since_ns_ = result.stamp_ns;
-  const double lost_s = static_cast<double>(result.stamp_ns - lost_since_ns_) * kNsToS;
+  const double lost_s = toSeconds(result.stamp_ns - lost_since_ns_);
   if (!parameters_.recovery.enabled || lost_s < parameters_.recovery.patience) return;
   const FilterState& now = pipeline_.state();
-  const double unaided_s = static_cast<double>(result.stamp_ns - last_good_ns_) * kNsToS;
+  const double unaided_s = toSeconds(result.stamp_ns - last_good_ns_);
   const CarriedPose carried = isFinite(now) || !last_good_
                                   ? carriedOver(now, 0.0, parameters_.recovery)
                                   : carriedOver(*last_good_, unaided_s, parameters_.recovery);

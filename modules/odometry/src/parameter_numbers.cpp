@@ -3,6 +3,8 @@
 
 #include "parameter_numbers.h"
 
+#include <fastlio/math/angles.h>
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -11,8 +13,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kDegPerRad = 57.29577951308232;
-
 std::array<double, 6> sixNumbers(const Pose& pose)
 {
   const Mat3& R = pose.R;

@@ -4,7 +4,7 @@
 /** \file parameter_numbers.h Numbers and poses as text, independent of the locale (internal). */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 #include <fastlio/odometry/parameter_table.h>
 
 #include <array>

@@ -32,7 +32,7 @@ using ParameterRows = std::vector<ParameterRow>;
 [[nodiscard]] ParameterRows featureRows();
 
 // Defined in parameter_rows_estimation.cpp.
-[[nodiscard]] ParameterRows reductionRows();
+[[nodiscard]] ParameterRows downsamplingRows();
 [[nodiscard]] ParameterRows measurementRows();
 [[nodiscard]] ParameterRows mapRows();
 [[nodiscard]] ParameterRows updateRows();

@@ -5,19 +5,19 @@
 
 namespace fastlio
 {
-ParameterRows reductionRows()
+ParameterRows downsamplingRows()
 {
   return {
-      {"reduction.target_points", "",
-       IntegerValue{[](auto& p) { return &p.reduction.target_points; }, 0, 10000000},
+      {"downsampling.target_points", "",
+       IntegerValue{[](auto& p) { return &p.downsampling.target_points; }, 0, 10000000},
        "about so many points of a scan are used, evenly spread over the surfaces; fewer: faster, "
        "less accurate; 0: all"},
-      {"reduction.wide_range", "m",
-       RealValue{[](auto& p) { return &p.reduction.wide_range; }, 0.1, 1e6},
+      {"downsampling.wide_range", "m",
+       RealValue{[](auto& p) { return &p.downsampling.wide_range; }, 0.1, 1e6},
        "scans with a larger RMS range use more than target_points, in proportion to its square, as "
        "their surfaces are larger"},
-      {"reduction.wide_points", "",
-       IntegerValue{[](auto& p) { return &p.reduction.wide_points; }, 0, 10000000},
+      {"downsampling.wide_points", "",
+       IntegerValue{[](auto& p) { return &p.downsampling.wide_points; }, 0, 10000000},
        "but about so many at most; not more than target_points: all scans use target_points"},
   };
 }

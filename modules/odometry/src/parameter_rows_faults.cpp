@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "parameter_rows.h"
+#include <fastlio/math/angles.h>
 
 namespace fastlio
 {
-namespace
-{
-constexpr double kRadPerDeg = 0.017453292519943295;
-}  // namespace
-
 ParameterRows imuFaultRows()
 {
   return {
@@ -67,9 +63,9 @@ ParameterRows healthRows()
        "a scan leaves a direction open when the smallest eigenvalue of its information is smaller; "
        "a direction that is found to be open (measurement.min_signal_to_noise) is no trouble by "
        "itself"},
-      {"health.max_doubtful", "",
-       RealValue{[](auto& p) { return &p.health.max_doubtful; }, 0.001, 1.0},
-       "a scan is in trouble when the inertial data are in doubt (gap, clipping, spike) for a "
+      {"health.max_inflated", "",
+       RealValue{[](auto& p) { return &p.health.max_inflated; }, 0.001, 1.0},
+       "a scan is in trouble when the inertial data are in inflation (gap, clipping, spike) for a "
        "larger share of the time since the scan before"},
       {"health.max_gyro_bias", "deg/s",
        RealValue{[](auto& p) { return &p.health.max_gyro_bias; }, 0.001, 1000.0, kRadPerDeg},

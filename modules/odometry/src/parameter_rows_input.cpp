@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "parameter_rows.h"
+#include <fastlio/math/angles.h>
 
 #include <array>
 
@@ -9,8 +10,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kRadPerDeg = 0.017453292519943295;
-
 /** Keys of a group in the order of its rows. */
 using FurtherKeys = std::array<std::string_view, 3>;
 

@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "parameter_rows.h"
+#include <fastlio/math/angles.h>
 
 namespace fastlio
 {
-namespace
-{
-constexpr double kRadPerDeg = 0.017453292519943295;
-}  // namespace
-
 ParameterRows mapStartRows()
 {
   return {

@@ -2,14 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "parameter_rows.h"
+#include <fastlio/math/angles.h>
 
 namespace fastlio
 {
-namespace
-{
-constexpr double kRadPerDeg = 0.017453292519943295;
-}  // namespace
-
 ParameterRows initializationRows()
 {
   return {
@@ -72,7 +68,7 @@ ParameterRows motionStartRows()
       {"initialization.motion_points", "",
        IntegerValue{[](auto& p) { return &p.initialization.motion_points; }, 1, 10000000},
        "start in motion: about so many points of these scans are used, when that is more than "
-       "reduction.target_points; a map of few scans needs many to have planes"},
+       "downsampling.target_points; a map of few scans needs many to have planes"},
       {"initialization.motion_velocity_std", "m/s",
        RealValue{[](auto& p) { return &p.initialization.motion_velocity_std; }, 0.01, 1000.0},
        "start in motion: so fast the platform may be"},

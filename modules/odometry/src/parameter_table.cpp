@@ -15,7 +15,7 @@ ParameterRows allRows()
   ParameterRows all;
   for (const auto& rows :
        {inputRows(), initializationRows(), motionStartRows(), mapStartRows(), imuRows(),
-        imuFaultRows(), lidarRows(), furtherLidarRows(), calibrationRows(), reductionRows(),
+        imuFaultRows(), lidarRows(), furtherLidarRows(), calibrationRows(), downsamplingRows(),
         featureRows(), measurementRows(), mapRows(), updateRows(), restRows(), healthRows(),
         recoveryRows(), outputRows(), generalRows()})
     all.insert(all.end(), rows.begin(), rows.end());

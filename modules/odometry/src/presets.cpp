@@ -101,7 +101,7 @@ std::string headerOf(const Preset& preset)
         "For the built-in IMU: T_vehicle_imu is its place in the frame of the points, which is "
         "taken as that of the vehicle. With another IMU, or a recording with the poses of its "
         "sensors, set both T to null.");
-  if (!preset.remark.empty()) text += comment(std::string(preset.remark) + ".");
+  if (!preset.diagnostic.empty()) text += comment(std::string(preset.diagnostic) + ".");
   return text;
 }
 

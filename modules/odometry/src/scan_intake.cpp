@@ -3,6 +3,8 @@
 
 #include "scan_intake.h"
 
+#include <fastlio/math/time.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +18,7 @@ constexpr std::size_t kFewBelieved = 3;  // so few may have had wrong stamps the
 
 std::int64_t nanoseconds(double seconds)
 {
-  return static_cast<std::int64_t>(seconds * 1e9);
+  return toNanoseconds(seconds);
 }
 
 QueuedScan shifted(QueuedScan scan, std::int64_t shift_ns)

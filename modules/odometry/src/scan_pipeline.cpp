@@ -8,7 +8,8 @@
 #include "map_factory.h"
 #include "prediction.h"
 #include "start_in_map.h"
-#include "stopwatch.h"
+#include <fastlio/math/stopwatch.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
@@ -20,7 +21,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 // So many scans of a map do not match much yet.
 constexpr std::uint32_t kYoungMapInsertions = 20;
 constexpr int kSharesAveraged = 50;  // scans
@@ -53,7 +53,7 @@ ScanPipeline::ScanPipeline(const Parameters& parameters)
       update_(parameters_, workers_),
       rest_(parameters.rest),
       planes_(workers_),
-      selector_(parameters, workers_),
+      selector_(parameters.lidar, parameters.downsampling, parameters.features, workers_),
       deskewer_(workers_)
 {
 }
@@ -73,7 +73,7 @@ void ScanPipeline::start(const FilterState& state, std::int64_t stamp_ns, const 
 
 void ScanPipeline::constrainGravity()
 {
-  const InitializationParameters& p = parameters_.initialization;
+  const InitializationOptions& p = parameters_.initialization;
   if (p.gravity_model == GravityModel::Sphere) filter_ = withGravityOnSphere(filter_, p.gravity);
 }
 
@@ -87,7 +87,7 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   FilterState predicted;
   workers_->alongside(
       [&] { predicted = propagateTo(span.end_ns, imu); },  // eq. 4-8
-      [&] { reduce(scan, span.end_ns); });
+      [&] { downsample(scan, span.end_ns); });
   compensate(scan, span, predicted);  // eq. 9-10
   if (recovering_ && span.end_ns > recovery_end_ns_) beginNewMap();
   const UpdateResult update = start_in_map_ ? findInMap(predicted)
@@ -131,20 +131,20 @@ void ScanPipeline::describeScan(const LidarScan& scan, ScanStatistics& statistic
   statistics.dropped_invalid = scan.dropped_invalid + selection_.dropped_invalid;
   statistics.dropped_near = selection_.dropped_near;
   statistics.dropped_far = selection_.dropped_far;
-  statistics.points_reduced = selection_.indices.size() + edge_indices_.size();
+  statistics.points_downsampled = selection_.indices.size() + edge_indices_.size();
   statistics.imu_samples = inputs_.size();
   statistics.map_points = map_->pointCount();
   statistics.constraints = update_.constraints();
 }
 
-void ScanPipeline::reduce(const LidarScan& scan, std::int64_t end_ns)
+void ScanPipeline::downsample(const LidarScan& scan, std::int64_t end_ns)
 {
   const Stopwatch watch;
   // The cost of eq. 18 grows with the cube of the points: ten thousand would take minutes.
   const bool young = end_ns <= young_map_.until_ns && parameters_.gain == GainForm::Information;
   const std::size_t at_least = young ? static_cast<std::size_t>(young_map_.target_points) : 0;
   selector_.select(scan.points, at_least, selection_, edge_indices_);
-  timings_.reduce = watch.milliseconds();
+  timings_.downsample = watch.milliseconds();
 }
 
 std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& imu)
@@ -153,7 +153,7 @@ std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& i
   if (!pose_trusted_ || stamp_ns <= state_ns_) return std::nullopt;
   imu.inputsBetween(state_ns_, stamp_ns, parameters_.imu.hold, inputs_);
   const auto [s, transition] = propagateThrough(
-      filter_, inputs_, stamp_ns, parameters_.imu.noise, imu.doubts(),
+      filter_, inputs_, stamp_ns, parameters_.imu.noise, imu.inflations(),
       [](std::int64_t, const Prediction&) {});
   if (!isFinite(s.x) || !s.P.allFinite()) return std::nullopt;
   return imuRateState(stamp_ns, s, map_error_.additionAfter(transition), imu);
@@ -162,11 +162,11 @@ std::optional<ImuRateState> ScanPipeline::stateAtNewestSample(const ImuBuffer& i
 FilterState ScanPipeline::propagateTo(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
-  imu_gap_s_ = static_cast<double>(imu.longestGap(state_ns_, end_ns)) * kNsToS;
+  imu_gap_s_ = toSeconds(imu.longestGap(state_ns_, end_ns));
   imu.inputsBetween(state_ns_, end_ns, parameters_.imu.hold, inputs_);
   imu_rate_.clear();
   auto [s, transition] = propagateThrough(
-      filter_, inputs_, end_ns, parameters_.imu.noise, imu.doubts(),
+      filter_, inputs_, end_ns, parameters_.imu.noise, imu.inflations(),
       [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!parameters_.output.imu_rate || !pose_trusted_) return;
@@ -231,7 +231,7 @@ void ScanPipeline::judge(const UpdateResult& update, ScanResult& result)
   if (result.status != ScanStatus::PredictionOnly && evidence_good_) last_update_ns_ = state_ns_;
   if (result.status == ScanStatus::Tracking && evidence_good_) learnUsualShare(s);
 
-  const double unaided_s = static_cast<double>(state_ns_ - last_update_ns_) * kNsToS;
+  const double unaided_s = toSeconds(state_ns_ - last_update_ns_);
   const double position_std =
       std::sqrt(filter_.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
   if (!prediction_finite_ || unaided_s > parameters_.measurement.max_unaided_time)

@@ -1,20 +1,20 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, reduce, iterate, insert. */
+/** \file scan_pipeline.h The per-scan algorithm: propagate, deskew, downsample, iterate, insert. */
 #pragma once
 
 #include "carried_pose.h"
 #include "edge_stage.h"
-#include "point_selector.h"
-#include "rest_detector.h"
 #include "scan_update.h"
 #include "young_map.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/filter/propagation.h>
-#include <fastlio/lidar/scan_reduction.h>
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/imu/rest_detector.h>
+#include <fastlio/lidar/downsampling.h>
+#include <fastlio/lidar/point_selector.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/imu_buffer.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/parameters.h>
@@ -88,7 +88,7 @@ class ScanPipeline
   [[nodiscard]] UpdateResult approach(const FilterState& predicted, const Pose& candidate);
   void tellNotFound(ScanResult& result);
   void constrainGravity();
-  void reduce(const LidarScan& scan, std::int64_t end_ns);
+  void downsample(const LidarScan& scan, std::int64_t end_ns);
   void judge(const UpdateResult& update, ScanResult& result);
   void learnUsualShare(const ScanStatistics& statistics);
   [[nodiscard]] CompensatedWith compensationWith(

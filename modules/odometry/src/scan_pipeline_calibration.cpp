@@ -4,6 +4,7 @@
 // What the pipeline does about the calibration that it estimates.
 
 #include "scan_pipeline.h"
+#include <fastlio/math/time.h>
 
 #include <cmath>
 
@@ -11,14 +12,13 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsToS = 1e-9;
 constexpr double kSlowest = 0.1;      // [m/s]; slower tells nothing of an offset of milliseconds
 constexpr double kSignificant = 5.0;  // standard deviations of a rate that is more than noise
 }  // namespace
 
 std::int64_t ScanPipeline::timeShift() const
 {
-  return static_cast<std::int64_t>(std::llround(filter_.x.time_offset / kNsToS));
+  return toNanoseconds(filter_.x.time_offset);
 }
 
 void ScanPipeline::applyCalibration(LidarScan& scan, ScanSpan& span) const
@@ -51,7 +51,7 @@ CompensatedWith ScanPipeline::compensationWith(const NavState& predicted, std::i
 // heading. Maps that do not know the errors that neighbouring matches share are too sure of it.
 void ScanPipeline::releaseTimeOffset(const ScanResult& result)
 {
-  const CalibrationParameters& p = parameters_.calibration;
+  const CalibrationOptions& p = parameters_.calibration;
   if (!p.estimate_time_offset || time_offset_released_ || young_map_.in_motion) return;
   if (parameters_.map.type != MapType::Planes) return;
   if (result.status != ScanStatus::Tracking || !evidence_good_) return;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "scan_pipeline.h"
-#include "stopwatch.h"
+#include <fastlio/math/stopwatch.h>
 
 #include <cmath>
 

@@ -4,6 +4,7 @@
 #include "calibration_prior.h"
 #include "map_factory.h"
 #include "scan_pipeline.h"
+#include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
@@ -70,7 +71,7 @@ void ScanPipeline::restart(
   state_ns_ = stamp_ns;
   last_update_ns_ = stamp_ns;
   const double match_time = carried.new_map ? 0.0 : parameters_.recovery.match_time;
-  recovery_end_ns_ = stamp_ns + static_cast<std::int64_t>(match_time * 1e9);
+  recovery_end_ns_ = stamp_ns + toNanoseconds(match_time);
   lookForMap(true);
 }
 

@@ -3,7 +3,7 @@
 
 #include "scan_update.h"
 
-#include "stopwatch.h"
+#include <fastlio/math/stopwatch.h>
 
 #include <functional>
 #include <utility>
@@ -12,7 +12,7 @@ namespace fastlio
 {
 namespace
 {
-ResidualModel residualModelOf(const MeasurementParameters& p, const Matrix6& predicted)
+ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predicted)
 {
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;

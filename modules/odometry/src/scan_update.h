@@ -7,9 +7,9 @@
 #include "edge_stage.h"
 #include <fastlio/filter/scan_pose.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/degeneracy.h>
-#include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/parallel/workers.h>

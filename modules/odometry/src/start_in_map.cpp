@@ -40,7 +40,7 @@ FilterState placedInMap(const FilterState& start, const Pose& T_map_imu)
 }
 
 FilterState withUncertainPlace(
-    const FilterState& state, const InitializationParameters& parameters, double scale)
+    const FilterState& state, const InitializationOptions& parameters, double scale)
 {
   FilterState uncertain = state;
   Eigen::Matrix<double, kStateDim, 3, Eigen::DontAlign> J =
@@ -56,7 +56,7 @@ FilterState withUncertainPlace(
   return uncertain;
 }
 
-std::vector<Pose> posesAround(const Pose& pose, const InitializationParameters& parameters)
+std::vector<Pose> posesAround(const Pose& pose, const InitializationOptions& parameters)
 {
   std::vector<Pose> poses = {pose};
   for (const int turn : {0, -1, 1, -2, 2})

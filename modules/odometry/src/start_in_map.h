@@ -23,10 +23,10 @@ namespace fastlio
  * so that what the scan tells of it leaves gravity as it is in the body.
  * \param scale of these variances */
 [[nodiscard]] FilterState withUncertainPlace(
-    const FilterState& state, const InitializationParameters& parameters, double scale);
+    const FilterState& state, const InitializationOptions& parameters, double scale);
 
 /** Places and headings around a pose, as far as their standard deviations reach: itself first. */
 [[nodiscard]] std::vector<Pose> posesAround(
-    const Pose& pose, const InitializationParameters& parameters);
+    const Pose& pose, const InitializationOptions& parameters);
 
 }  // namespace fastlio

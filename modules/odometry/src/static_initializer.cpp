@@ -59,7 +59,7 @@ struct BiasAndGravity
 };
 
 BiasAndGravity estimateBiasAndGravity(
-    const RestStatistics& rest, const InitializationParameters& parameters)
+    const RestStatistics& rest, const InitializationOptions& parameters)
 {
   const Vec3 up = rest.accel_mean.normalized();
   const double direction_variance = parameters.gravity * parameters.gravity;
@@ -126,8 +126,7 @@ std::size_t restingSamples(const std::vector<ImuSample>& samples)
   return samples.size();
 }
 
-std::optional<std::string> whyNotAtRest(
-    const RestStatistics& rest, const InitializationParameters& p)
+std::optional<std::string> whyNotAtRest(const RestStatistics& rest, const InitializationOptions& p)
 {
   if (rest.samples < 2) return format("only %zu IMU samples in the resting start", rest.samples);
   const double gyro_std = rest.gyro_std.maxCoeff(), gyro_mean = rest.gyro_mean.norm();
@@ -153,7 +152,7 @@ std::optional<std::string> whyNotAtRest(
   return std::nullopt;
 }
 
-FilterState initialState(const RestStatistics& rest, const InitializationParameters& parameters)
+FilterState initialState(const RestStatistics& rest, const InitializationOptions& parameters)
 {
   const BiasAndGravity at_rest = estimateBiasAndGravity(rest, parameters);
   FilterState s;

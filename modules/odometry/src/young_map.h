@@ -18,7 +18,7 @@ struct YoungMap
   /** Added to the covariance when the first scan has founded the map: all scans after it share the
    * map's errors and would take them for motion and biases. */
   StateMatrix open_after_first_scan = StateMatrix::Zero();
-  /** Of the reduction, when more than reduction.target_points: few points make no planes. */
+  /** Of the downsampling, when more than downsampling.target_points: few points make no planes. */
   int target_points = 0;
   /** Of the poses with which these scans found planes, beyond what the filter tells: scans that
    * were compensated with a velocity not yet well known warp the map. */

@@ -13,7 +13,7 @@
 #include <vector>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {
@@ -27,7 +27,7 @@ ScanResult goodScan(std::int64_t index = 1)
   r.begin_ns = kStamp + (index - 1) * kScan;
   r.stamp_ns = kStamp + index * kScan;
   r.status = ScanStatus::Tracking;
-  r.statistics.points_reduced = 1000;
+  r.statistics.points_downsampled = 1000;
   r.statistics.points_effective = 600;
   r.statistics.usual_share = 0.5;
   r.statistics.normalized_innovation = 0.9;
@@ -36,12 +36,12 @@ ScanResult goodScan(std::int64_t index = 1)
 }
 
 template <typename Change>
-ScanHealth healthAfter(Change change, const std::vector<InertialDoubt>& doubts = {})
+ScanHealth healthAfter(Change change, const std::vector<NoiseInflation>& inflations = {})
 {
-  HealthMonitor monitor{HealthParameters{}};
+  HealthMonitor monitor{HealthOptions{}};
   ScanResult r = goodScan();
   change(r);
-  monitor.judge(doubts, r);
+  monitor.judge(inflations, r);
   return r.health;
 }
 }  // namespace
@@ -55,7 +55,7 @@ TEST(HealthMonitor, AGoodScanIsHealthy)
 
 TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
 {
-  const HealthParameters limits;
+  const HealthOptions limits;
   struct Case
   {
     HealthCause cause;
@@ -66,7 +66,7 @@ TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
       {HealthCause::FewMatches, "health.min_share",
        [&](ScanResult& r, double k)
        {
-         r.statistics.points_reduced = 100000;
+         r.statistics.points_downsampled = 100000;
          r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 50000 / k);
        }},
       {HealthCause::LargeResidual, "health.max_innovation",
@@ -99,10 +99,10 @@ TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
   }
 }
 
-TEST(HealthMonitor, DoubtfulInertialDataAreTheirShareOfTheScan)
+TEST(HealthMonitor, InflatedInertialDataAreTheirShareOfTheScan)
 {
-  const std::vector<InertialDoubt> doubts{{kStamp, kStamp + kScan / 2, 1.0, 1.0}};
-  const ScanHealth health = healthAfter([](ScanResult&) {}, doubts);
+  const std::vector<NoiseInflation> inflations{{kStamp, kStamp + kScan / 2, 1.0, 1.0}};
+  const ScanHealth health = healthAfter([](ScanResult&) {}, inflations);
   EXPECT_EQ(health.cause, HealthCause::InertialData);
   EXPECT_NE(health.reason.find("50 %"), std::string::npos) << health.reason;
 }

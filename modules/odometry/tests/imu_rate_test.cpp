@@ -4,6 +4,7 @@
 // The states between scans: their stamps, how they continue each other, accuracy, causality.
 
 #include "odometry_runs.h"
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@
 #include <limits>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {
@@ -92,7 +93,7 @@ TEST(ImuRate, EachStateContinuesTheOneBefore)
     for (std::size_t i = 1; i < step.before.size(); ++i)
     {
       const ImuRateState &a = step.before[i - 1], &b = step.before[i];
-      const double dt = double(b.stamp_ns - a.stamp_ns) * 1e-9;
+      const double dt = toSeconds(b.stamp_ns - a.stamp_ns);
       EXPECT_LT((b.x.p - a.x.p - dt * a.x.v).norm(), 1e-3);
       EXPECT_LT((b.x.v - a.x.v).norm(), 0.1);
       EXPECT_LT((logSO3(a.x.R.transpose() * b.x.R) - dt * a.angular_rate).norm(), 1e-3);
@@ -108,7 +109,7 @@ TEST(ImuRate, TheLastStateOfAScanIsNearWhatTheScanSaid)
     ASSERT_FALSE(steps[k].before.empty());
     const ImuRateState& last = steps[k].before.back();
     const NavState& x = steps[k].result.filter.x;
-    const double dt = double(steps[k].result.stamp_ns - last.stamp_ns) * 1e-9;
+    const double dt = toSeconds(steps[k].result.stamp_ns - last.stamp_ns);
     EXPECT_LT(dt, 0.006);
     EXPECT_LT((last.x.p + dt * last.x.v - x.p).norm(), 0.01);
     EXPECT_LT(logSO3(last.x.R.transpose() * x.R).norm(), 0.02);

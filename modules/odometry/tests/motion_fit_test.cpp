@@ -3,6 +3,8 @@
 
 #include "motion_fit.h"
 
+#include <fastlio/math/time.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +42,7 @@ Drive drive(double seconds, int poses_every)
   d.prior.g = {0.0, 0.0, -9.81};  // magnitude right, direction 30 degrees off
   const int samples = static_cast<int>(std::lround(seconds * 1e9 / double(kPeriodNs)));
   constexpr int kFine = 50;
-  const double dt = double(kPeriodNs) * 1e-9 / kFine;
+  const double dt = toSeconds(kPeriodNs) / kFine;
   Mat3 R = expSO3({0.1, 0.2, -0.4});
   Vec3 p{1.0, 2.0, 3.0}, v = kVelocity0;
   for (int i = 0; i <= samples; ++i)

@@ -3,12 +3,12 @@
 
 // Once storage has grown to what the scans need, a scan allocates nothing: this program counts.
 
-#include "../../map/tests/allocation_counter.h"
+#include "allocation_counter.h"
 #include "odometry_runs.h"
 
 #include <gtest/gtest.h>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 namespace
 {
@@ -60,4 +60,4 @@ TEST_P(OdometryAllocations, AScanInAKnownPlaceAllocatesNothing)
   EXPECT_GE(idle, 20U);
 }
 }  // namespace
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

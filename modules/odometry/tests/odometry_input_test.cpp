@@ -14,7 +14,7 @@
 #include <string>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

@@ -13,7 +13,7 @@
 #include <string>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {
@@ -23,11 +23,11 @@ const RoomRecording& room()
   return recording;
 }
 
-std::string textOf(const std::vector<Remark>& remarks)
+std::string textOf(const std::vector<Diagnostic>& diagnostics)
 {
   std::string text;
-  for (const Remark& remark : remarks)
-    text += remark.text + "\n";
+  for (const Diagnostic& diagnostic : diagnostics)
+    text += diagnostic.text + "\n";
   return text;
 }
 
@@ -73,9 +73,9 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
   Odometry odometry(parameters);
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
-  const std::string remarks = textOf(odometry.remarks());
-  EXPECT_NE(remarks.find("the run is split"), std::string::npos) << remarks;
-  EXPECT_NE(remarks.find("started anew"), std::string::npos) << remarks;
+  const std::string diagnostics = textOf(odometry.diagnostics());
+  EXPECT_NE(diagnostics.find("the run is split"), std::string::npos) << diagnostics;
+  EXPECT_NE(diagnostics.find("started anew"), std::string::npos) << diagnostics;
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
   EXPECT_EQ(countOf(results, ScanStatus::FirstScan), 1U) << "the old map is found again";
   // What was found of the clocks outlasts the gap.
@@ -107,8 +107,8 @@ TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
   EXPECT_GT(countOf(results, ScanStatus::Diverged), 0U);
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
-  EXPECT_NE(textOf(odometry.remarks()).find("no scan has matched"), std::string::npos)
-      << textOf(odometry.remarks());
+  EXPECT_NE(textOf(odometry.diagnostics()).find("no scan has matched"), std::string::npos)
+      << textOf(odometry.diagnostics());
   for (const ScanResult& r : results)
     ASSERT_TRUE(isFinite(r.filter.x) && r.filter.P.allFinite());
 }
@@ -155,7 +155,7 @@ TEST(OdometryRecovery, AnImuUpsideDownIsFineAndToldSo)
     scan.T_imu_lidar = Pose{flip, Vec3::Zero()} * scan.T_imu_lidar;
   Odometry odometry(roomParameters());
   const Results results = runInOrder(odometry, recording);
-  EXPECT_NE(textOf(odometry.remarks()).find("upside down"), std::string::npos);
+  EXPECT_NE(textOf(odometry.diagnostics()).find("upside down"), std::string::npos);
   EXPECT_EQ(countOf(results, ScanStatus::Tracking), recording.scans.size() - 1);
   const double travelled = (results.back().filter.x.p - results.front().filter.x.p).norm();
   const double truth =

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {

@@ -11,7 +11,7 @@
 #include <cmath>
 
 using namespace fastlio;
-using namespace fastlio::test;
+using namespace fastlio::testing;
 
 namespace
 {
@@ -75,7 +75,7 @@ TEST(Odometry, SaysWhatItDidWithEachScan)
     EXPECT_EQ(r.stamp_ns, span.end_ns);
     EXPECT_EQ(r.statistics.points_in, room().scans[i].points.size());
     EXPECT_EQ(r.statistics.dropped_invalid, 0U);
-    EXPECT_NEAR(double(r.statistics.points_reduced), 1000.0, 150.0);
+    EXPECT_NEAR(double(r.statistics.points_downsampled), 1000.0, 150.0);
     EXPECT_GT(r.statistics.map_points, 0U);
     EXPECT_GT(r.milliseconds.total, 0.0);
     if (r.status != ScanStatus::Tracking) continue;
@@ -118,7 +118,7 @@ TEST(Odometry, BothFormsOfTheGainGiveTheSameTrajectory)
   settings.duration = 4.0;
   const RoomRecording recording = recordRoom(settings);
   Parameters p = roomParameters();
-  p.reduction.target_points = 150;  // the cost of eq. 18 grows with the cube of it
+  p.downsampling.target_points = 150;  // the cost of eq. 18 grows with the cube of it
   p.gain = GainForm::Information;
   const Results information = runInOrder(p, recording);
   p.gain = GainForm::Standard;
@@ -193,6 +193,6 @@ TEST(Odometry, CanBeMoved)
   drain(second, results);
   EXPECT_EQ(results.size(), 10U);
   EXPECT_EQ(second.inputStatistics().scans_in, 10U);
-  EXPECT_EQ(second.parameters().reduction.target_points, 1000);
+  EXPECT_EQ(second.parameters().downsampling.target_points, 1000);
   EXPECT_EQ(second.map().pointCount(), results.back().statistics.map_points);
 }

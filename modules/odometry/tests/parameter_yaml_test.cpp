@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/angles.h>
 #include <fastlio/odometry/parameter_check.h>
 #include <fastlio/odometry/parameter_read.h>
 #include <fastlio/odometry/parameter_table.h>
@@ -18,8 +19,6 @@ using mrpt::containers::yaml;
 
 namespace
 {
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
-
 Parameters fromText(const std::string& text)
 {
   return loadParameters(yaml::FromText(text));
@@ -100,7 +99,7 @@ initialization:
   max_gyro_mean: 10
   align_with_gravity: false
 imu: {max_gap: 2.5e-1}
-reduction:
+downsampling:
   target_points: 1234
 gain: standard
 threads: 2
@@ -111,7 +110,7 @@ threads: 2
   EXPECT_DOUBLE_EQ(p.initialization.max_gyro_mean, 10.0 * kRadPerDeg);
   EXPECT_FALSE(p.initialization.align_with_gravity);
   EXPECT_DOUBLE_EQ(p.imu.max_gap, 0.25);
-  EXPECT_EQ(p.reduction.target_points, 1234);
+  EXPECT_EQ(p.downsampling.target_points, 1234);
   EXPECT_EQ(p.gain, GainForm::Standard);
   EXPECT_EQ(p.threads, 2);
 }

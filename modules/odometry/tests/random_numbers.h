@@ -4,7 +4,7 @@
 /** \file random_numbers.h Numbers and vectors for tests of residuals. */
 #pragma once
 
-#include <fastlio/filter/so3.h>
+#include <fastlio/math/so3.h>
 
 #include <random>
 

@@ -35,7 +35,7 @@ struct RestTruth
   Vec3 gyro_bias, accel_bias, g;
 };
 
-RestTruth drawTruth(const InitializationParameters& p, Random& random)
+RestTruth drawTruth(const InitializationOptions& p, Random& random)
 {
   RestTruth truth;
   truth.gyro_bias = random.vector(0.01);
@@ -152,7 +152,7 @@ TEST(RestingSamples, OfSignalsWithoutNoiseAreAll)
 
 TEST(InitialState, IsConsistentWithItsCovariance)
 {
-  InitializationParameters p;
+  InitializationOptions p;
   p.gyro_bias_std = 1e-5;
   constexpr int kDraws = 3000;
   for (const bool align : {true, false})
@@ -182,7 +182,7 @@ TEST(InitialState, IsConsistentWithItsCovariance)
 
 TEST(InitialState, StaysWithinThreeSigmaOfTheTruth)
 {
-  const InitializationParameters p;
+  const InitializationOptions p;
   Random random(3);
   int outside = 0;
   constexpr int kDraws = 1000;
@@ -199,7 +199,7 @@ TEST(InitialState, StaysWithinThreeSigmaOfTheTruth)
 
 TEST(InitialState, KnowsThatOnlyTheDifferenceOfBiasAndGravityIsSeen)
 {
-  const InitializationParameters p;
+  const InitializationOptions p;
   const FilterState s = initialState(restOf(Vec3::Zero(), {0.3, -0.2, 9.7}), p);
   const Mat3 R = s.x.R;
   const Mat3 P_bias = s.P.block<3, 3>(kAccelBias, kAccelBias);
@@ -213,7 +213,7 @@ TEST(InitialState, KnowsThatOnlyTheDifferenceOfBiasAndGravityIsSeen)
 
 TEST(InitialState, DefinesTheWorldFrame)
 {
-  InitializationParameters p;
+  InitializationOptions p;
   // Every way up, and exactly upside down.
   for (const Vec3& up : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(-0.6, 0.64, -0.48)})
   {

@@ -3,16 +3,13 @@
 
 #include "angles.h"
 
+#include <fastlio/math/angles.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace fastlio
 {
-namespace
-{
-constexpr double kRadPerDeg = 0.017453292519943295;
-}
-
 Pose poseFromNumbers(const SixNumbers& n)
 {
   return {

@@ -4,7 +4,7 @@
 /** \file angles.h Poses as six numbers. */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 #include <array>
 

@@ -3,8 +3,8 @@
 
 #include "cloud_formats.h"
 
-#include <fastlio/mrpt_bridge/CGenericPointsMap.h>
-#include <fastlio/mrpt_bridge/xyzirt_access.h>
+#include <fastlio/compat/CGenericPointsMap.h>
+#include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "random_stream.h"
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 #include <fastlio/simulation/imu_model.h>
 
 #include <algorithm>
@@ -12,8 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586477;
-constexpr double kNsPerSecond = 1e9;
 constexpr std::int64_t kTickNs = 100;  // resolution of MRPT's time stamps
 
 struct Reading

@@ -1,6 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 #include <fastlio/simulation/lidar_model.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -12,9 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586477;
-constexpr double kRadPerDeg = kTwoPi / 360.0;
-constexpr double kNsPerSecond = 1e9;
 
 /** Direction of a spinning sensor's laser; the azimuth grows clockwise seen from above. */
 Vec3 spinningDirection(double azimuth, double elevation)

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "cloud_formats.h"
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/velodyne_decoder.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -21,15 +23,13 @@ using mrpt::obs::CObservationPointCloud;
 using mrpt::obs::CObservationVelodyneScan;
 using RawPacket = CObservationVelodyneScan::TVelodyneRawPacket;
 
-constexpr double kTwoPi = 6.283185307179586477;
 constexpr std::int64_t kHourUs = 3'600'000'000;
 constexpr std::uint8_t kVlp16Id = 0x22;
 constexpr double kMaxRawRange = 65535.0;
 
 std::int64_t deliveredStamp(const FiredSweep& fired, const SimulationSettings& settings)
 {
-  return fired.sweep.stamp_ns +
-         static_cast<std::int64_t>(std::llround(settings.lidar.time_offset * 1e9));
+  return fired.sweep.stamp_ns + toNanoseconds(settings.lidar.time_offset);
 }
 
 /** Little-endian bytes of a data packet, in order. */

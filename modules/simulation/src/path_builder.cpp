@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/angles.h>
 #include <fastlio/simulation/path_builder.h>
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSampleDistance = 0.05;  // of the polyline before smoothing [m]
 
 using Points = std::vector<Vec3>;

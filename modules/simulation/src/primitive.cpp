@@ -11,19 +11,19 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNearest = 1e-6;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNearestHit = 1e-6;
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
 /** Distance along the ray and outward normal, both in the primitive's frame. */
 struct LocalHit
 {
-  double t = kInfinity;
+  double t = kNoHit;
   Vec3 normal = Vec3::UnitZ();
 };
 
 void keepNearer(LocalHit& best, double t, const Vec3& normal)
 {
-  if (t > kNearest && t < best.t) best = {t, normal};
+  if (t > kNearestHit && t < best.t) best = {t, normal};
 }
 
 LocalHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
@@ -37,7 +37,7 @@ LocalHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
 
 LocalHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
 {
-  double enter = -kInfinity, leave = kInfinity;
+  double enter = -kNoHit, leave = kNoHit;
   int enter_axis = 0, leave_axis = 0;
   for (int i = 0; i < 3; ++i)
   {
@@ -130,7 +130,7 @@ std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)
   const Vec3 o = R.transpose() * (ray.origin - primitive.T_world_local.p);
   const Vec3 d = R.transpose() * ray.direction;
   const LocalHit hit = hitShape(primitive, o, d);
-  if (!(hit.t < kInfinity)) return std::nullopt;
+  if (!(hit.t < kNoHit)) return std::nullopt;
   const Vec3 towards = hit.normal.dot(d) > 0.0 ? Vec3(-hit.normal) : hit.normal;
   return RayHit{hit.t, R * towards, primitive.reflectivity};
 }

@@ -5,7 +5,7 @@
  * noise on leaves all others as they were. */
 #pragma once
 
-#include <fastlio/filter/so3.h>
+#include <fastlio/math/so3.h>
 
 #include <cstdint>
 #include <random>

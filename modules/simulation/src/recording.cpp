@@ -1,12 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/compat/register_classes.h>
+#include <fastlio/exporters/number_text.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/number_text.h>
-#include <fastlio/mrpt_bridge/register_classes.h>
 #include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/parallel/workers.h>
+#include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "scenario_table.h"
+#include <fastlio/math/angles.h>
 #include <fastlio/odometry/nearest_name.h>
 
 #include <algorithm>
@@ -11,8 +12,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kRadPerDeg = 0.017453292519943295;
-
 /** Yaw, pitch and roll in degrees: R = Rz Ry Rx. */
 Pose mounting(const Vec3& p, double yaw, double pitch, double roll)
 {

@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kHand = 1.4;  // height of a hand-held sensor
+constexpr double kWalkerHand = 1.4;  // height of a hand-held sensor
 
 /** Lawn and paths: long waves and small bumps. */
 double meadow(double x, double y)
@@ -131,8 +131,9 @@ Scene campusScene()
   Scene scene;
   scene.world = campusWorld();
   Route route;
-  route.corners = {{-25, -16, kHand}, {0, -18, kHand},  {25, -16, kHand}, {27, 0, kHand},
-                   {25, 15, kHand},   {2, 16.5, kHand}, {-25, 15, kHand}, {-27, 0, kHand}};
+  route.corners = {{-25, -16, kWalkerHand}, {0, -18, kWalkerHand}, {25, -16, kWalkerHand},
+                   {27, 0, kWalkerHand},    {25, 15, kWalkerHand}, {2, 16.5, kWalkerHand},
+                   {-25, 15, kWalkerHand},  {-27, 0, kWalkerHand}};
   route.speed = 1.4;
   route.corner_cut = 4.0;
   route.ground = meadow;
@@ -202,7 +203,11 @@ Scene openAreaScene()
     bodies.push_back(pillar(x, 22, 0.3, 0.7, -0.05, 0.5));
   scene.world.ground = ground(150, 2.0, roadway);
   Route route;
-  route.corners = {{-16, -14, kHand}, {18, -14, kHand}, {20, 12, kHand}, {-16, 14, kHand}};
+  route.corners = {
+      {-16, -14, kWalkerHand},
+      {18, -14, kWalkerHand},
+      {20, 12, kWalkerHand},
+      {-16, 14, kWalkerHand}};
   route.speed = 1.5;
   route.corner_cut = 6.0;
   route.ground = roadway;

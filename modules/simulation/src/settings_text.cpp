@@ -16,7 +16,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr std::int64_t kStartUnitNs = 1'000'000'000;
 constexpr std::int64_t kLastEpoch = 9'000'000'000;  // [s], in the range of 64-bit nanoseconds
 
 /** The whole text as a number. */
@@ -82,7 +82,7 @@ struct Parser
   {
     const auto value = number<std::int64_t>(text);
     if (!value || *value < 0 || *value > kLastEpoch) return false;
-    *s.member(settings) = *value * kNsPerSecond;
+    *s.member(settings) = *value * kStartUnitNs;
     return true;
   }
   bool operator()(const SwitchSetting& s) const
@@ -133,7 +133,7 @@ struct Formatter
   std::string operator()(const SeedSetting& s) { return std::to_string(*s.member(settings)); }
   std::string operator()(const EpochSetting& s)
   {
-    return std::to_string(*s.member(settings) / kNsPerSecond);
+    return std::to_string(*s.member(settings) / kStartUnitNs);
   }
   std::string operator()(const SwitchSetting& s) { return *s.member(settings) ? "true" : "false"; }
   std::string operator()(const KindSetting& s)

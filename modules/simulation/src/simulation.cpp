@@ -3,6 +3,7 @@
 
 #include "random_stream.h"
 #include "scenario_table.h"
+#include <fastlio/math/time.h>
 #include <fastlio/simulation/settings_table.h>
 #include <fastlio/simulation/simulation.h>
 
@@ -14,7 +15,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNsPerSecond = 1e9;
 constexpr double kFinalRest = 1.0;                 // after the stop [s]
 constexpr std::int64_t kFirstShotNs = 13'700'000;  // LiDAR and IMU do not start at the same time
 

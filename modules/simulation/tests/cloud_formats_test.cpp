@@ -5,8 +5,8 @@
 
 #include "short_simulation.h"
 #include <fastlio/lidar/point_time.h>
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/point_cloud_conversion.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/settings_table.h>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace
 /** A motionless IMU without any error. */
 SimulationSettings quiet(double duration)
 {
-  return test::withoutErrors(test::shortSettings("rest", duration));
+  return testing::withoutErrors(testing::shortSettings("rest", duration));
 }
 
 /** Standard deviation of all components around the ideal reading at rest. */
@@ -123,7 +124,7 @@ TEST(ImuModel, InitialBiasIsMeanPlusScatterOverSeeds)
 
 TEST(ImuModel, OneSourceOfNoiseLeavesTheOthersAsTheyWere)
 {
-  SimulationSettings settings = test::shortSettings("office", 4.0);
+  SimulationSettings settings = testing::shortSettings("office", 4.0);
   const Simulation base(settings);
   settings.imu.noise.accel_noise_density *= 5.0;
   settings.imu.stamp_jitter = 1e-4;
@@ -134,7 +135,7 @@ TEST(ImuModel, OneSourceOfNoiseLeavesTheOthersAsTheyWere)
 
 TEST(ImuModel, SaturatesAtItsLimits)
 {
-  SimulationSettings settings = test::shortSettings("shake", 12.0);
+  SimulationSettings settings = testing::shortSettings("shake", 12.0);
   settings.imu.gyro_limit = 4.0;
   settings.imu.accel_limit = 9.0;
   std::size_t at_limit = 0;
@@ -150,7 +151,7 @@ TEST(ImuModel, SaturatesAtItsLimits)
 
 TEST(ImuModel, JitterKeepsTheOrder)
 {
-  SimulationSettings settings = test::shortSettings("office", 5.0);
+  SimulationSettings settings = testing::shortSettings("office", 5.0);
   settings.imu.stamp_jitter = 0.004;
   const Simulation simulation(settings);
   const auto& samples = simulation.imu().samples;
@@ -158,8 +159,8 @@ TEST(ImuModel, JitterKeepsTheOrder)
   for (std::size_t i = 1; i < samples.size(); ++i)
   {
     ASSERT_GT(samples[i].stamp_ns, samples[i - 1].stamp_ns);
-    const double late = static_cast<double>(samples[i].stamp_ns - settings.start_ns) * 1e-9 -
-                        0.005 * static_cast<double>(i);
+    const double late =
+        toSeconds(samples[i].stamp_ns - settings.start_ns) - 0.005 * static_cast<double>(i);
     squares += late * late;
   }
   const double rms = std::sqrt(squares / static_cast<double>(samples.size() - 1));
@@ -169,7 +170,7 @@ TEST(ImuModel, JitterKeepsTheOrder)
 
 TEST(ImuModel, LosesSamplesAsAsked)
 {
-  SimulationSettings settings = test::shortSettings("office", 20.0);
+  SimulationSettings settings = testing::shortSettings("office", 20.0);
   settings.imu.dropout = 0.1;
   const Simulation dropping(settings);
   EXPECT_NEAR(static_cast<double>(dropping.imu().lost) / 4001.0, 0.1, 0.02);
@@ -200,7 +201,7 @@ TEST(ImuModel, VibrationHasTheGivenPower)
 
 TEST(ImuModel, AveragesAreIncrementsOfTheTruth)
 {
-  SimulationSettings settings = test::withoutErrors(test::shortSettings("office", 10.0));
+  SimulationSettings settings = testing::withoutErrors(testing::shortSettings("office", 10.0));
   settings.imu.rate = 200.0;
   settings.imu.average = true;
   const Simulation simulation(settings);

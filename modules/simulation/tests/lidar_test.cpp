@@ -3,6 +3,7 @@
 
 #include "short_simulation.h"
 #include "surface_distance.h"
+#include <fastlio/math/angles.h>
 #include <fastlio/simulation/vlp16.h>
 
 #include <gtest/gtest.h>
@@ -14,8 +15,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kTwoPi = 6.283185307179586477;
-
 LidarSettings lidarOf(LidarKind kind, double rate)
 {
   LidarSettings settings;
@@ -24,7 +23,7 @@ LidarSettings lidarOf(LidarKind kind, double rate)
   return settings;
 }
 
-class EveryLidar : public testing::TestWithParam<LidarKind>
+class EveryLidar : public ::testing::TestWithParam<LidarKind>
 {
 };
 
@@ -58,7 +57,7 @@ TEST_P(EveryLidar, DirectionsAreUnitVectors)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, EveryLidar, testing::Values(LidarKind::Vlp16, LidarKind::Os64, LidarKind::Livox));
+    Kinds, EveryLidar, ::testing::Values(LidarKind::Vlp16, LidarKind::Os64, LidarKind::Livox));
 
 TEST(Vlp16, FiresAsTheManualSays)
 {
@@ -126,13 +125,14 @@ TEST(LidarModel, RejectsWhatCannotFire)
   EXPECT_THROW((void)makeLidarModel(none, 0), std::invalid_argument);
 }
 
-class EveryWorld : public testing::TestWithParam<std::string_view>
+class EveryWorld : public ::testing::TestWithParam<std::string_view>
 {
 };
 
 TEST_P(EveryWorld, PointsAtTheTruePoseOfTheirTimeLieOnSurfaces)
 {
-  const SimulationSettings settings = test::withoutErrors(test::shortSettings(GetParam(), 6.5, 16));
+  const SimulationSettings settings =
+      testing::withoutErrors(testing::shortSettings(GetParam(), 6.5, 16));
   const Simulation simulation(settings);
   ASSERT_GT(simulation.scanCount(), 50U);
   double worst = 0.0;
@@ -145,7 +145,7 @@ TEST_P(EveryWorld, PointsAtTheTruePoseOfTheirTimeLieOnSurfaces)
       const double t = simulation.secondsSinceStart(scan.stamp_ns + scan.points.time_offset_ns[k]);
       const Vec3 p(scan.points.x[k], scan.points.y[k], scan.points.z[k]);
       const Vec3 in_world = simulation.motion().pose(t) * (scan.T_imu_lidar * p);
-      worst = std::max(worst, test::surfaceDistance(simulation.world(), in_world, t));
+      worst = std::max(worst, testing::surfaceDistance(simulation.world(), in_world, t));
     }
   }
   EXPECT_GT(points, 300U);
@@ -154,7 +154,7 @@ TEST_P(EveryWorld, PointsAtTheTruePoseOfTheirTimeLieOnSurfaces)
 
 INSTANTIATE_TEST_SUITE_P(
     Catalog, EveryWorld,
-    testing::Values(
+    ::testing::Values(
         "campus", "office", "uav", "car", "shake", "spin", "stairs", "tunnel", "open_area",
         "crowd"),
     [](const auto& test) { return std::string(test.param); });
@@ -167,11 +167,11 @@ std::vector<Echo> echoesOf(const SimulationSettings& settings, std::size_t index
 
 TEST(Echoes, NoiseAndDropoutsHaveTheGivenSize)
 {
-  SimulationSettings settings = test::shortSettings("rest", 2.0, 1);
+  SimulationSettings settings = testing::shortSettings("rest", 2.0, 1);
   settings.lidar.range_noise = 0.05;
   settings.lidar.dropout = 0.1;
   const std::vector<Echo> noisy = echoesOf(settings);
-  const std::vector<Echo> exact = echoesOf(test::withoutErrors(settings));
+  const std::vector<Echo> exact = echoesOf(testing::withoutErrors(settings));
   double sum = 0.0, squares = 0.0;
   std::size_t lost = 0, present = 0, kept = 0;
   for (std::size_t i = 0; i < exact.size(); ++i)
@@ -195,7 +195,7 @@ TEST(Echoes, NoiseAndDropoutsHaveTheGivenSize)
 
 TEST(Echoes, SeedsChangeNoiseOnly)
 {
-  SimulationSettings settings = test::shortSettings("office", 4.0);
+  SimulationSettings settings = testing::shortSettings("office", 4.0);
   const Simulation one(settings), same(settings);
   settings.seed = 2;
   const Simulation other(settings);
@@ -208,7 +208,7 @@ TEST(Echoes, SeedsChangeNoiseOnly)
 
 TEST(Echoes, RangesAreLimitedOnBothSides)
 {
-  SimulationSettings settings = test::withoutErrors(test::shortSettings("rest", 2.0, 1));
+  SimulationSettings settings = testing::withoutErrors(testing::shortSettings("rest", 2.0, 1));
   settings.lidar.min_range = 2.0;
   settings.lidar.max_range = 3.0;
   std::size_t present = 0;
@@ -224,7 +224,7 @@ TEST(Echoes, RangesAreLimitedOnBothSides)
 
 TEST(Echoes, StrideThinsOutColumnsAndKeepsTheRest)
 {
-  const SimulationSettings all = test::withoutErrors(test::shortSettings("rest", 2.0, 1));
+  const SimulationSettings all = testing::withoutErrors(testing::shortSettings("rest", 2.0, 1));
   SimulationSettings some = all;
   some.lidar.stride = 7;
   const FiredSweep full = Simulation(all).fire(1), thin = Simulation(some).fire(1);
@@ -235,7 +235,7 @@ TEST(Echoes, StrideThinsOutColumnsAndKeepsTheRest)
 
 TEST(Scan, TimeOffsetShiftsStampsOnly)
 {
-  SimulationSettings settings = test::shortSettings("office", 4.0);
+  SimulationSettings settings = testing::shortSettings("office", 4.0);
   const LidarScan on_time = Simulation(settings).scan(30);
   settings.lidar.time_offset = 0.015;
   const LidarScan late = Simulation(settings).scan(30);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 #include <fastlio/simulation/path_builder.h>
 
 #include <gtest/gtest.h>
@@ -12,8 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kDegPerRad = 57.29577951308232;
-
 std::vector<std::string_view> scenarioNames()
 {
   std::vector<std::string_view> names;
@@ -127,13 +127,13 @@ TEST(Motion, RoutesNeedTwoCornersAndSpeed)
   EXPECT_THROW((void)followRoute(route), std::invalid_argument);
 }
 
-class EveryScenario : public testing::TestWithParam<std::string_view>
+class EveryScenario : public ::testing::TestWithParam<std::string_view>
 {
 };
 
 TEST_P(EveryScenario, KinematicsAreTheDerivativesOfThePose)
 {
-  const Simulation simulation(test::shortSettings(GetParam(), 25.0));
+  const Simulation simulation(testing::shortSettings(GetParam(), 25.0));
   const Motion& motion = simulation.motion();
   constexpr double kStep = 1e-5;
   for (double t = 0.5; t < 25.0; t += 0.137)
@@ -154,7 +154,7 @@ TEST_P(EveryScenario, KinematicsAreTheDerivativesOfThePose)
 
 TEST_P(EveryScenario, RestsAtTheStart)
 {
-  const Simulation simulation(test::shortSettings(GetParam(), 5.0));
+  const Simulation simulation(testing::shortSettings(GetParam(), 5.0));
   ASSERT_GE(simulation.settings().rest, 2.5);
   const Pose start = simulation.motion().pose(0.0);
   for (double t = 0.0; t <= simulation.settings().rest; t += 0.1)
@@ -184,7 +184,7 @@ TEST_P(EveryScenario, NeverRunsThroughAWall)
 
 TEST_P(EveryScenario, NoiseFreeImuIntegratesToTheTruth)
 {
-  SimulationSettings settings = test::withoutErrors(test::shortSettings(GetParam(), 12.0));
+  SimulationSettings settings = testing::withoutErrors(testing::shortSettings(GetParam(), 12.0));
   settings.imu.rate = 8000.0;
   const Simulation simulation(settings);
   const auto& samples = simulation.imu().samples;
@@ -194,7 +194,7 @@ TEST_P(EveryScenario, NoiseFreeImuIntegratesToTheTruth)
   Vec3 p = start.T_world_imu.p, v = start.velocity;
   for (std::size_t i = 0; i + 1 < samples.size(); ++i)
   {
-    const double dt = static_cast<double>(samples[i + 1].stamp_ns - samples[i].stamp_ns) * 1e-9;
+    const double dt = toSeconds(samples[i + 1].stamp_ns - samples[i].stamp_ns);
     const Mat3 next = R * expSO3(0.5 * dt * (samples[i].gyro + samples[i + 1].gyro));
     const Vec3 a0 = R * samples[i].accel + gravity, a1 = next * samples[i + 1].accel + gravity;
     p += dt * v + dt * dt * (a0 / 3.0 + a1 / 6.0);
@@ -208,7 +208,7 @@ TEST_P(EveryScenario, NoiseFreeImuIntegratesToTheTruth)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Catalog, EveryScenario, testing::ValuesIn(scenarioNames()),
+    Catalog, EveryScenario, ::testing::ValuesIn(scenarioNames()),
     [](const auto& test) { return std::string(test.param); });
 
 TEST(Scenario, CampusIsALoopOf140Metres)
@@ -225,15 +225,15 @@ TEST(Scenario, CampusIsALoopOf140Metres)
 
 TEST(Scenario, ShakeAndSpinTurnAsFastAsPromised)
 {
-  EXPECT_GT(fastestTurn(Simulation(test::shortSettings("shake", 15.0))) * kDegPerRad, 500.0);
-  EXPECT_GT(fastestTurn(Simulation(test::shortSettings("spin", 15.0))) * kDegPerRad, 1000.0);
+  EXPECT_GT(fastestTurn(Simulation(testing::shortSettings("shake", 15.0))) * kDegPerRad, 500.0);
+  EXPECT_GT(fastestTurn(Simulation(testing::shortSettings("spin", 15.0))) * kDegPerRad, 1000.0);
 }
 
 TEST(Scenario, SpeedScalesTheMotion)
 {
-  SimulationSettings fast = test::shortSettings("office", 8.0);
+  SimulationSettings fast = testing::shortSettings("office", 8.0);
   fast.speed = 2.0;
-  const Simulation once(test::shortSettings("office", 8.0)), twice(fast);
+  const Simulation once(testing::shortSettings("office", 8.0)), twice(fast);
   EXPECT_NEAR(
       twice.motion().at(7.0).velocity.norm(),
       2.0 * once.motion().at(2.5 + 2.0 * 4.5 - 1.0).velocity.norm(), 1e-9);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/imu_conversion.h>
-#include <fastlio/mrpt_bridge/point_cloud_conversion.h>
-#include <fastlio/mrpt_bridge/rawlog_source.h>
-#include <fastlio/mrpt_bridge/velodyne_decoder.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/imu_conversion.h>
+#include <fastlio/sensors/point_cloud_conversion.h>
+#include <fastlio/sensors/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
 
@@ -58,7 +58,7 @@ class TemporaryDirectory
 
 TEST(VelodynePackets, OurDecoderFindsEveryPointWithItsTime)
 {
-  const Simulation simulation(test::shortSettings("office", 6.0, 1));
+  const Simulation simulation(testing::shortSettings("office", 6.0, 1));
   for (const std::size_t index : {0U, 33U, 50U})
   {
     const FiredSweep fired = simulation.fire(index);
@@ -81,7 +81,7 @@ TEST(VelodynePackets, OurDecoderFindsEveryPointWithItsTime)
 
 TEST(VelodynePackets, MrptsDecoderFindsThePointsOfEachBlocksFirstFiring)
 {
-  const Simulation simulation(test::shortSettings("office", 4.0, 1));
+  const Simulation simulation(testing::shortSettings("office", 4.0, 1));
   const FiredSweep fired = simulation.fire(20);
   auto scan = toVelodyneScan(fired, simulation.settings());
   CObservationVelodyneScan::TGeneratePointCloudParameters parameters;
@@ -115,7 +115,7 @@ std::uint32_t timeOf(const mrpt::obs::CObservationVelodyneScan::TVelodyneRawPack
 
 TEST(VelodynePackets, TimesWrapAtTheHour)
 {
-  SimulationSettings settings = test::shortSettings("rest", 2.0);
+  SimulationSettings settings = testing::shortSettings("rest", 2.0);
   settings.start_ns = 1'700'002'800'000'000'000 - 1'060'000'000;  // a full hour is 1.06 s away
   const Simulation simulation(settings);
   const std::int64_t hour_ns = settings.start_ns + 1'060'000'000;
@@ -137,7 +137,7 @@ TEST(VelodynePackets, TimesWrapAtTheHour)
 
 TEST(VelodynePackets, RangesBeyondAPacketAreNoReturns)
 {
-  FiredSweep fired = Simulation(test::shortSettings("rest", 1.0, 1)).fire(0);
+  FiredSweep fired = Simulation(testing::shortSettings("rest", 1.0, 1)).fire(0);
   for (auto& echo : fired.echoes)
     echo.range = 140.0;
   const auto scan = toVelodyneScan(fired, defaultSettings("rest"));
@@ -148,7 +148,7 @@ TEST(Observations, CloudsHoldThePointsWithTheirTimes)
 {
   for (const char* scenario : {"shake", "uav"})
   {
-    const Simulation simulation(test::shortSettings(scenario, 4.0, 8));
+    const Simulation simulation(testing::shortSettings(scenario, 4.0, 8));
     const auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(
         toLidarObservation(simulation, 31));
     ASSERT_TRUE(observation);
@@ -179,7 +179,7 @@ TEST(Observations, ImuSamplesSurviveTheRoundTrip)
 TEST(Recording, HoldsEverythingInTheOrderOfStamps)
 {
   const TemporaryDirectory directory;
-  const Simulation simulation(test::shortSettings("office", 3.0));
+  const Simulation simulation(testing::shortSettings("office", 3.0));
   std::size_t told = 0;
   const RecordingFiles files = writeRecording(
       simulation, directory.path(),
@@ -210,7 +210,7 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
 {
   for (const char* scenario : {"office", "uav"})
   {
-    SimulationSettings settings = test::shortSettings(scenario, 2.0, 10);
+    SimulationSettings settings = testing::shortSettings(scenario, 2.0, 10);
     const TemporaryDirectory a, b, c;
     const RecordingFiles one = writeRecording(Simulation(settings), a.path());
     const RecordingFiles same = writeRecording(Simulation(settings), b.path());
@@ -227,7 +227,7 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
 
 TEST(Recording, SaysWhatIsTrue)
 {
-  SimulationSettings settings = test::shortSettings("office", 3.0);
+  SimulationSettings settings = testing::shortSettings("office", 3.0);
   settings.lidar.time_offset = 0.004;
   const Simulation simulation(settings);
   const auto json = nlohmann::json::parse(scenarioJson(simulation));
@@ -243,7 +243,7 @@ TEST(Recording, SaysWhatIsTrue)
 TEST(Recording, ConfigLoadsStrictly)
 {
   const TemporaryDirectory directory;
-  const SimulationSettings settings = test::shortSettings("uav", 1.0, 10);
+  const SimulationSettings settings = testing::shortSettings("uav", 1.0, 10);
   const RecordingFiles files = writeRecording(Simulation(settings), directory.path());
   const Parameters loaded = loadParametersFromFile(files.config);
   const Parameters meant = matchingParameters(settings);
@@ -253,7 +253,7 @@ TEST(Recording, ConfigLoadsStrictly)
 
 TEST(Recording, GroundTruthIsThePoseAt200Hz)
 {
-  const Simulation simulation(test::shortSettings("office", 4.0));
+  const Simulation simulation(testing::shortSettings("office", 4.0));
   std::istringstream lines(groundTruthText(simulation));
   std::string line;
   std::size_t count = 0;
@@ -273,7 +273,7 @@ TEST(Recording, UnwritableDirectoriesAreNamed)
 {
   const TemporaryDirectory directory;
   std::ofstream(directory.path()) << "a file";
-  const Simulation simulation(test::shortSettings("rest", 0.5));
+  const Simulation simulation(testing::shortSettings("rest", 0.5));
   try
   {
     (void)writeRecording(simulation, directory.path() + "/below");
@@ -290,7 +290,7 @@ TEST(Recording, EveryScenarioGenerates)
   for (const auto& info : scenarioCatalog())
   {
     const TemporaryDirectory directory;
-    const Simulation simulation(test::shortSettings(info.name, 3.5, 20));
+    const Simulation simulation(testing::shortSettings(info.name, 3.5, 20));
     const RecordingFiles files = writeRecording(simulation, directory.path());
     EXPECT_GT(std::filesystem::file_size(files.rawlog), 50'000U) << info.name;
     EXPECT_GT(simulation.scan(20).points.size(), 200U) << info.name;

@@ -118,7 +118,7 @@ TEST(MatchingParameters, AreValidForEveryScenario)
 {
   for (const auto& info : scenarioCatalog())
     EXPECT_EQ(problemOf([&] { validate(matchingParameters(defaultSettings(info.name))); }), "");
-  const SimulationSettings perfect = test::withoutErrors(defaultSettings("office"));
+  const SimulationSettings perfect = testing::withoutErrors(defaultSettings("office"));
   EXPECT_EQ(problemOf([&] { validate(matchingParameters(perfect)); }), "");
 }
 

@@ -6,7 +6,7 @@
 
 #include <fastlio/simulation/simulation.h>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 /** A scenario of the given length [s] with few points per sweep. */
 inline SimulationSettings shortSettings(std::string_view scenario, double duration, int stride = 40)
@@ -30,4 +30,4 @@ inline SimulationSettings withoutErrors(SimulationSettings settings)
   return settings;
 }
 
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 namespace
 {
@@ -63,4 +63,4 @@ double surfaceDistance(const World& world, const Vec3& point, double t)
   return least;
 }
 
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

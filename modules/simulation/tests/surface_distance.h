@@ -7,7 +7,7 @@
 
 #include <fastlio/simulation/world.h>
 
-namespace fastlio::test
+namespace fastlio::testing
 {
 /** Distance of a point to the surface of a primitive [m]. */
 [[nodiscard]] double surfaceDistance(const Primitive& primitive, const Vec3& point);
@@ -15,4 +15,4 @@ namespace fastlio::test
 /** Least distance to any surface of a world at t; to the ground measured vertically. */
 [[nodiscard]] double surfaceDistance(const World& world, const Vec3& point, double t);
 
-}  // namespace fastlio::test
+}  // namespace fastlio::testing

@@ -45,7 +45,7 @@ double traced(const Primitive& primitive, const Ray& ray, double max_range)
   double t = 0.0;
   while (t < max_range)
   {
-    const double d = test::surfaceDistance(primitive, ray.origin + t * ray.direction);
+    const double d = testing::surfaceDistance(primitive, ray.origin + t * ray.direction);
     if (d < 1e-9) return t;
     t += std::max(d, 1e-9);
   }
@@ -85,7 +85,7 @@ TEST(Primitive, NormalsAreUnitAndFaceTheRay)
     EXPECT_LE(hit->normal.dot(ray.direction), 0.0);
     // Along the normal the distance grows as fast as the way.
     const Vec3 at = ray.origin + hit->range * ray.direction;
-    const double off = test::surfaceDistance(primitive, at + 1e-5 * hit->normal);
+    const double off = testing::surfaceDistance(primitive, at + 1e-5 * hit->normal);
     EXPECT_NEAR(off, 1e-5, 1e-8);
   }
 }

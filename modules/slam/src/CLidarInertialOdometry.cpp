@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "online_sensors.h"
+#include <fastlio/compat/register_classes.h>
 #include <fastlio/map/register_classes.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/mrpt_bridge/register_classes.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>

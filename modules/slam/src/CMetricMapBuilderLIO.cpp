@@ -1,11 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/map/mrpt_compat.h>
-#include <fastlio/mrpt_bridge/conversions.h>
-#include <fastlio/mrpt_bridge/output/levelled_scan.h>
-#include <fastlio/mrpt_bridge/output/mrpt_poses.h>
-#include <fastlio/mrpt_bridge/output/scan_in_world.h>
+#include <fastlio/compat/mrpt_compat.h>
+#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/exporters/pseudo_2d_scan.h>
+#include <fastlio/exporters/scan_in_world.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -25,7 +26,7 @@ constexpr std::size_t kMostWaiting = 100;
 
 std::int64_t nanoseconds(double seconds)
 {
-  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  return toNanoseconds(seconds);
 }
 
 /** The scan's points as the LiDAR would have seen them from one place: where it was at the stamp.
@@ -152,7 +153,7 @@ void CMetricMapBuilderLIO::addKeyFrame(const Waiting& waiting, const TrackedPose
   const auto cloud = compensatedCloud(scan, track, T_world_lidar);
   // MRPT 2.5 takes no notice of the robot's pose for this class, so the sensor's says it all.
   cloud->sensorPose = toMrptPose(*T_map_world_ * T_world_lidar);
-  const auto planar = levelledScan(scan, track, planarOptions());
+  const auto planar = pseudo2dScan(scan, track, planarOptions());
   const mrpt::poses::CPose3D ground(
       mrpt::poses::CPose2D(toMrptPose(*T_map_world_)) + onGround(pose.T_world_body));
   for (auto& map : metric_map_.maps)
@@ -169,9 +170,9 @@ void CMetricMapBuilderLIO::addKeyFrame(const Waiting& waiting, const TrackedPose
       {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
 }
 
-LevelledScanOptions CMetricMapBuilderLIO::planarOptions() const
+Pseudo2dScanOptions CMetricMapBuilderLIO::planarOptions() const
 {
-  LevelledScanOptions planar;
+  Pseudo2dScanOptions planar;
   planar.rays = parameters_.output.scan_2d_rays;
   planar.height = parameters_.output.scan_2d_height;
   planar.thickness = parameters_.output.scan_2d_thickness;

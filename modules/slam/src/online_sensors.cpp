@@ -3,7 +3,7 @@
 
 #include "online_sensors.h"
 
-#include <fastlio/mrpt_bridge/input_plan.h>
+#include <fastlio/survey/input_plan.h>
 
 namespace fastlio
 {

@@ -4,8 +4,9 @@
 /** \file online_sensors.h Which LiDAR and IMU to use, decided while observations come in. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/observation_bridge.h>
 #include <fastlio/odometry/parameters.h>
+#include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <mrpt/obs/CObservation.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "walk.h"
-#include <fastlio/mrpt_bridge/conversions.h>
 #include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <gtest/gtest.h>

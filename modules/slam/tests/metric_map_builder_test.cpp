@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "walk.h"
-#include <fastlio/map/mrpt_compat.h>
+#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
-#include <fastlio/mrpt_bridge/conversions.h>
+#include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 
 #include <gtest/gtest.h>

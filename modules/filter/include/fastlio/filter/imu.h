@@ -4,7 +4,7 @@
 /** \file imu.h Inertial samples and the noise densities of the sensor. */
 #pragma once
 
-#include <fastlio/filter/so3.h>
+#include <fastlio/math/so3.h>
 
 #include <cstdint>
 

@@ -5,7 +5,7 @@
  * on SO(3) x R^4, and its boxplus/boxminus (section III of the paper). */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 namespace fastlio
 {

@@ -4,7 +4,7 @@
 /** \file scan.h A LiDAR scan with the time of every point. */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 #include <cstddef>
 #include <cstdint>

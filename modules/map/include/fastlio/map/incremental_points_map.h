@@ -5,7 +5,7 @@
  * rebuilds. */
 #pragma once
 
-#include <fastlio/map/mrpt_compat.h>
+#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/map/neighbors.h>
 
 #include <mrpt/config/CLoadableOptions.h>

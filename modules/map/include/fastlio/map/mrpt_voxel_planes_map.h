@@ -4,8 +4,8 @@
 /** \file mrpt_voxel_planes_map.h The map of planes as a metric map of MRPT. */
 #pragma once
 
+#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/map/incremental_points_map.h>
-#include <fastlio/map/mrpt_compat.h>
 #include <fastlio/map/voxel_plane_map.h>
 
 #include <mrpt/config/CLoadableOptions.h>

@@ -5,7 +5,7 @@
  * 21) and bounded memory. */
 #pragma once
 
-#include <fastlio/filter/so3.h>
+#include <fastlio/math/so3.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
-#include <fastlio/odometry/imu_buffer.h>
+#include <fastlio/imu/imu_buffer.h>
 
 #include <cstdint>
 #include <optional>

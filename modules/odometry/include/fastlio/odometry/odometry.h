@@ -7,9 +7,9 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
+#include <fastlio/imu/imu_report.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/imu_report.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
@@ -94,7 +94,7 @@ class Odometry
   [[nodiscard]] ImuReport imuReport() const;
   /** What the user should know, in the order in which it was found out: units, mounting, splits of
    * the run. */
-  [[nodiscard]] const std::vector<Remark>& remarks() const;
+  [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const;
 
  private:
   class Impl;

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/parallel/workers.h>
 

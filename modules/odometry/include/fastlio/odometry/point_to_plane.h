@@ -6,8 +6,8 @@
 #pragma once
 
 #include <fastlio/filter/update.h>
+#include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/deskew.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/robust_kernel.h>
 

@@ -18,19 +18,19 @@ namespace fastlio
 /** One LiDAR with the figures of its maker. */
 struct Preset
 {
-  std::string_view name;      //!< of the file params/NAME.yaml
-  std::string_view title;     //!< maker and models
-  std::string_view words;     //!< what sensor labels may contain, lower case, separated by blanks
-  int lines = 0;              //!< laser lines; 0: any number, or a pattern without lines
-  double lowest = 0;          //!< elevation of the lowest beam [deg]
-  double highest = 0;         //!< of the highest [deg]
-  bool full_circle = true;    //!< sees all around
-  double min_range = 0.5;     //!< blind zone [m]
-  double max_range = 150.0;   //!< [m]
-  double range_noise = 0.02;  //!< standard deviation of a range, of the map's planes, too [m]
-  std::optional<Vec3> imu;    //!< place of the built-in IMU in the frame of the points [m]
-  std::string_view source;    //!< of the figures
-  std::string_view remark;    //!< what else to know; may be empty
+  std::string_view name;        //!< of the file params/NAME.yaml
+  std::string_view title;       //!< maker and models
+  std::string_view words;       //!< what sensor labels may contain, lower case, separated by blanks
+  int lines = 0;                //!< laser lines; 0: any number, or a pattern without lines
+  double lowest = 0;            //!< elevation of the lowest beam [deg]
+  double highest = 0;           //!< of the highest [deg]
+  bool full_circle = true;      //!< sees all around
+  double min_range = 0.5;       //!< blind zone [m]
+  double max_range = 150.0;     //!< [m]
+  double range_noise = 0.02;    //!< standard deviation of a range, of the map's planes, too [m]
+  std::optional<Vec3> imu;      //!< place of the built-in IMU in the frame of the points [m]
+  std::string_view source;      //!< of the figures
+  std::string_view diagnostic;  //!< what else to know; may be empty
 };
 
 /** All presets, by maker. */

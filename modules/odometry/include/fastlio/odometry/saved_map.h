@@ -4,9 +4,9 @@
 /** \file saved_map.h A map of an earlier run to start in. */
 #pragma once
 
-#include <fastlio/filter/pose.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/math/pose.h>
 #include <fastlio/parallel/workers.h>
 
 #include <memory>

@@ -57,18 +57,19 @@ struct ScanHealth
 /** Wall-clock milliseconds per stage of one scan. */
 struct StageTimings
 {
-  double propagate = 0, deskew = 0, reduce = 0, associate = 0, update = 0, insert = 0, total = 0;
+  double propagate = 0, deskew = 0, downsample = 0, associate = 0, update = 0, insert = 0,
+         total = 0;
 };
 
 /** Counts and measures of one scan. */
 struct ScanStatistics
 {
-  std::size_t points_in = 0;         //!< points delivered by the bridge
-  std::size_t dropped_invalid = 0;   //!< no echo, NaN or zero
-  std::size_t dropped_near = 0;      //!< nearer than lidar.min_range
-  std::size_t dropped_far = 0;       //!< farther than lidar.max_range
-  std::size_t points_reduced = 0;    //!< after the voxel grid
-  std::size_t points_effective = 0;  //!< matched with a plane in the last iteration
+  std::size_t points_in = 0;           //!< points delivered by the bridge
+  std::size_t dropped_invalid = 0;     //!< no echo, NaN or zero
+  std::size_t dropped_near = 0;        //!< nearer than lidar.min_range
+  std::size_t dropped_far = 0;         //!< farther than lidar.max_range
+  std::size_t points_downsampled = 0;  //!< after the voxel grid
+  std::size_t points_effective = 0;    //!< matched with a plane in the last iteration
   double usual_share = 0.0;     //!< of the points that matched in the scans before; 0: none did
   std::size_t imu_samples = 0;  //!< inertial samples of this scan's interval
   std::size_t map_points = 0;   //!< points in the map after the scan

@@ -34,7 +34,7 @@ struct RestStatistics
 /** Why the statistics are not those of a platform at rest, in a sentence that names the numbers and
  * what to do; nothing when they are. */
 [[nodiscard]] std::optional<std::string> whyNotAtRest(
-    const RestStatistics& rest, const InitializationParameters& parameters);
+    const RestStatistics& rest, const InitializationOptions& parameters);
 
 /** The state at rest: velocity zero, gyro bias = mean rate, gravity opposite to the mean specific
  * force with the configured length, accelerometer bias and gravity jointly from one Kalman update
@@ -42,6 +42,6 @@ struct RestStatistics
  * their difference is observed). Position and attitude define the world frame: their variance is
  * zero. */
 [[nodiscard]] FilterState initialState(
-    const RestStatistics& rest, const InitializationParameters& parameters);
+    const RestStatistics& rest, const InitializationOptions& parameters);
 
 }  // namespace fastlio

@@ -5,7 +5,7 @@
  * functions of time. */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 #include <fastlio/simulation/uniform_spline.h>
 
 #include <array>

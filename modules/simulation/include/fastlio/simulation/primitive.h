@@ -4,7 +4,7 @@
 /** \file primitive.h Simple bodies and their intersection with rays. */
 #pragma once
 
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 #include <optional>
 

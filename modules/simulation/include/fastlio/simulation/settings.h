@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
-#include <fastlio/filter/pose.h>
+#include <fastlio/math/pose.h>
 
 #include <cstdint>
 #include <string>

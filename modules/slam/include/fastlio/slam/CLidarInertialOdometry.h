@@ -5,7 +5,7 @@
  * YAML, fed with observations. */
 #pragma once
 
-#include <fastlio/mrpt_bridge/output/pose_track.h>
+#include <fastlio/exporters/pose_track.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/scan_result.h>
 

@@ -5,8 +5,8 @@
  * mrpt::slam::CMetricMapBuilder. */
 #pragma once
 
-#include <fastlio/map/mrpt_compat.h>
-#include <fastlio/mrpt_bridge/output/levelled_scan.h>
+#include <fastlio/compat/mrpt_compat.h>
+#include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -71,7 +71,7 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
   };
   void addKeyFrame(const Waiting& waiting, const TrackedPose& pose);
   [[nodiscard]] TrackedPose fromStart(const TrackedPose& pose) const;
-  [[nodiscard]] LevelledScanOptions planarOptions() const;
+  [[nodiscard]] Pseudo2dScanOptions planarOptions() const;
 
   mutable std::recursive_mutex mutex_;
   Parameters parameters_;

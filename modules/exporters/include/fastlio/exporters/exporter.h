@@ -1,0 +1,80 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file exporter.h What writes results: one class per file format, fed scan by scan. */
+#pragma once
+
+#include <fastlio/exporters/output_map.h>
+#include <fastlio/exporters/run_summary.h>
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/odometry/imu_rate.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** What is known when the last scan is done. */
+struct RunEnd
+{
+  const RunSummary& summary;  //!< with the outputs of the exporters that finished before
+  const OutputMap& map;       //!< final map, world frame; empty unless an exporter needs it
+  /** What scans were matched with, when there is something. */
+  const SurfaceMap* surfaces = nullptr;
+};
+
+/** Turns a run into one or more files. Constructors open the files, so that an unwritable place is
+ * known before the run; rows are written as they come. */
+class Exporter
+{
+ public:
+  Exporter() = default;
+  virtual ~Exporter() = default;
+  Exporter(const Exporter&) = delete;
+  Exporter& operator=(const Exporter&) = delete;
+
+  /** Takes one scan's result, in time order.
+   * \exception std::runtime_error the file cannot be written */
+  virtual void onScan(const ScanResult& result) = 0;
+
+  /** Takes the states between the scan before and the one that onScan() gets next, in time order;
+   * for files at the rate of the inertial sensor.
+   * \exception std::runtime_error the file cannot be written */
+  virtual void onImuRate(const std::vector<ImuRateState>& /*states*/) {}
+
+  /** Whether finish() needs the map. */
+  [[nodiscard]] virtual bool needsMap() const { return false; }
+
+  /** Completes the files and gives them their final names.
+   * \exception std::runtime_error the file cannot be written */
+  virtual std::vector<OutputFile> finish(const RunEnd& end) = 0;
+};
+
+/** All exporters of a run. One that fails is left out from there on and reported; the others go on.
+ */
+class ExporterSet
+{
+ public:
+  void add(std::unique_ptr<Exporter> exporter);
+  /** One scan, and the states at the inertial samples before it (Odometry::imuRateStates()). */
+  void onScan(const ScanResult& result, const std::vector<ImuRateState>& before = {});
+
+  /** Finishes all, in the order they were added.
+   * \return the summary, completed with outputs and output_problems */
+  [[nodiscard]] RunSummary finish(
+      RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces = nullptr);
+
+  /** Whether any of them needs the map: otherwise none has to be collected. */
+  [[nodiscard]] bool needMap() const;
+
+  /** Sentences about exporters that failed so far. */
+  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  std::vector<std::unique_ptr<Exporter>> exporters_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,111 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file standard_exporters.h The files that a run writes: one row per format. */
+#pragma once
+
+#include <fastlio/exporters/exporter.h>
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/exporters/recording_access.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fastlio
+{
+/** What to write and where; an empty path leaves the file or files out. */
+struct ExportTarget
+{
+  std::string directory;      //!< exists; receives the files
+  std::string tum_path;       //!< one more trajectory in TUM format
+  OutputFrame frame;          //!< body of all poses but those of states.csv
+  ExportOptions parameters;   //!< exporters (names, separated by commas) and what they obey
+  RecordingAccess recording;  //!< for files that hold raw observations
+  double time_offset = 0.0;   //!< added to the stamps of raw scans (lidar.time_offset) [s]
+
+  /** Path of a file in the directory. */
+  [[nodiscard]] std::string path(std::string_view file) const;
+};
+
+/** A format: a row of exporterKinds(). */
+struct ExporterKind
+{
+  std::string_view name;     //!< for --export and output.exporters
+  std::string_view file;     //!< name of its file
+  std::string_view content;  //!< for people
+  bool standard;             //!< written when no names are given
+  std::unique_ptr<Exporter> (*make)(const ExportTarget& options);
+};
+
+/** Every format. A new one is a file with a class, and a row here. */
+[[nodiscard]] const std::vector<ExporterKind>& exporterKinds();
+
+/** Lines for --help: name, file and content of each format. */
+[[nodiscard]] std::string exporterHelp();
+
+/** The exporters that the options name, of \a kinds (a program may add its own); without names the
+ * standard ones, and imu_rate with output.imu_rate. The summary is always written, as the last.
+ * \exception std::invalid_argument an unknown name (the message lists those that there are)
+ * \exception std::runtime_error a file cannot be opened */
+[[nodiscard]] ExporterSet makeExporters(
+    const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
+
+/** `trajectory.tum`: "t x y z qx qy qz qw" per scan with a pose, t in seconds with 9 decimals. */
+[[nodiscard]] std::unique_ptr<Exporter> makeTumExporter(
+    const std::string& path, const OutputFrame& frame);
+
+/** `trajectory.kitti`: the 3x4 matrix [R t] row by row per scan with a pose; the stamps [s] in
+ * `trajectory.kitti_times`. */
+[[nodiscard]] std::unique_ptr<Exporter> makeKittiExporter(
+    const std::string& path, const OutputFrame& frame);
+
+/** `states.csv`: the whole state of the IMU body and its 18 standard deviations. */
+[[nodiscard]] std::unique_ptr<Exporter> makeStatesExporter(const std::string& path);
+
+/** `covariance.csv`: pose and the upper triangle of its 6x6 covariance. */
+[[nodiscard]] std::unique_ptr<Exporter> makeCovarianceExporter(
+    const std::string& path, const OutputFrame& frame);
+
+/** `imu_rate.csv`: pose, velocity and pose covariance at each inertial sample. */
+[[nodiscard]] std::unique_ptr<Exporter> makeImuRateExporter(
+    const std::string& path, const OutputFrame& frame);
+
+/** `timing.csv`: status, counts and milliseconds per stage of every scan. */
+[[nodiscard]] std::unique_ptr<Exporter> makeTimingExporter(const std::string& path);
+
+/** `map.ply`: binary little-endian PLY in the world frame: float x y z [m] intensity, double time
+ * [s]. */
+[[nodiscard]] std::unique_ptr<Exporter> makePlyMapExporter(const std::string& path);
+
+/** `map.pcd`: the same as binary PCD. */
+[[nodiscard]] std::unique_ptr<Exporter> makePcdMapExporter(const std::string& path);
+
+/** `map.txt`: the same as text, one point per line. */
+[[nodiscard]] std::unique_ptr<Exporter> makeTextMapExporter(const std::string& path);
+
+/** `map.metricmap`: a gzipped, serialised mrpt::maps::CSimplePointsMap. */
+[[nodiscard]] std::unique_ptr<Exporter> makeMetricMapExporter(const std::string& path);
+
+/** `map.planes`: the map of planes that scans were matched with, a gzipped, serialised
+ * fastlio::CVoxelPlanesMap. */
+[[nodiscard]] std::unique_ptr<Exporter> makePlanesExporter(const std::string& path);
+
+/** `keyframes.simplemap`: a gzipped mrpt::maps::CSimpleMap of the raw scans of key frames. */
+[[nodiscard]] std::unique_ptr<Exporter> makeSimpleMapExporter(const ExportTarget& options);
+
+/** `odometry.rawlog`: what other SLAM programs of MRPT take as odometry. */
+[[nodiscard]] std::unique_ptr<Exporter> makeRawlogExporter(const ExportTarget& options);
+
+/** `poses.graph`: key frames and the motions between them, as mrpt::graphs reads them (VERTEX3,
+ * EDGE3 with information matrices). */
+[[nodiscard]] std::unique_ptr<Exporter> makeGraphExporter(const ExportTarget& options);
+
+/** `poses.g2o`: the same for g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT). */
+[[nodiscard]] std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options);
+
+/** `summary.json`: the RunSummary, with the files of the exporters added before it. */
+[[nodiscard]] std::unique_ptr<Exporter> makeSummaryExporter(const std::string& path);
+
+}  // namespace fastlio

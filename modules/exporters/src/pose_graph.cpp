@@ -1,0 +1,150 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <Eigen/Cholesky>
+
+#include <array>
+
+namespace fastlio
+{
+namespace
+{
+using Aligned6 = Eigen::Matrix<double, 6, 6>;
+
+// Of standard deviations: a perfect edge has no information matrix.
+constexpr double kLeastDeviation = 1e-6;
+
+Aligned6 information(const Aligned6& covariance)
+{
+  const Aligned6 floor = kLeastDeviation * kLeastDeviation * Aligned6::Identity();
+  const Aligned6 inverse = Aligned6(covariance + floor).ldlt().solve(Aligned6::Identity());
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+std::string upperTriangle(const Aligned6& m)
+{
+  std::string text;
+  for (int row = 0; row < 6; ++row)
+    for (int column = row; column < 6; ++column)
+      text += " " + roundTripText(m(row, column));
+  return text;
+}
+
+/** x y z roll pitch yaw. */
+std::string anglesText(const Pose& pose)
+{
+  const auto p = toMrptPose(pose);
+  std::string text;
+  for (const double v : {p.x(), p.y(), p.z(), p.roll(), p.pitch(), p.yaw()})
+    text += " " + roundTripText(v);
+  return text;
+}
+
+/** MRPT's order x, y, z, yaw, pitch, roll to that of the file: x, y, z, roll, pitch, yaw. */
+Aligned6 anglesCovariance(const RelativePose& edge)
+{
+  constexpr std::array kOrder = {0, 1, 2, 5, 4, 3};
+  const auto m = mrptCovariance(edge.T_a_b, edge.covariance);
+  Aligned6 ordered;
+  for (int row = 0; row < 6; ++row)
+    for (int column = 0; column < 6; ++column)
+      ordered(row, column) =
+          m(kOrder.at(static_cast<std::size_t>(row)), kOrder.at(static_cast<std::size_t>(column)));
+  return ordered;
+}
+
+/** g2o's error of an edge: its position in the frame of the measured pose, the vector part of the
+ * quaternion, which is half the rotation vector. */
+Aligned6 quaternionCovariance(const RelativePose& edge)
+{
+  Matrix6 J = Matrix6::Zero();
+  J.topRightCorner<3, 3>() = edge.T_a_b.R.transpose();
+  J.bottomLeftCorner<3, 3>() = 0.5 * Mat3::Identity();
+  return J * edge.covariance * J.transpose();
+}
+
+std::string ids(std::size_t from)
+{
+  return std::to_string(from) + " " + std::to_string(from + 1);
+}
+
+std::string mrptVertex(std::size_t id, const Pose& pose)
+{
+  return "VERTEX3 " + std::to_string(id) + anglesText(pose) + "\n";
+}
+
+std::string mrptEdge(std::size_t from, const RelativePose& edge)
+{
+  return "EDGE3 " + ids(from) + anglesText(edge.T_a_b) +
+         upperTriangle(information(anglesCovariance(edge))) + "\n";
+}
+
+std::string g2oVertex(std::size_t id, const Pose& pose)
+{
+  return "VERTEX_SE3:QUAT " + std::to_string(id) + " " + poseText(pose, ' ') + "\n";
+}
+
+std::string g2oEdge(std::size_t from, const RelativePose& edge)
+{
+  return "EDGE_SE3:QUAT " + ids(from) + " " + poseText(edge.T_a_b, ' ') +
+         upperTriangle(information(quaternionCovariance(edge))) + "\n";
+}
+
+struct GraphFormat
+{
+  std::string (*vertex)(std::size_t id, const Pose& pose);
+  std::string (*edge)(std::size_t from, const RelativePose& edge);
+};
+
+class GraphExporter : public Exporter
+{
+ public:
+  GraphExporter(const std::string& path, const ExportTarget& options, GraphFormat format)
+      : file_(path),
+        format_(format),
+        track_(options.frame),
+        rule_(options.parameters.keyframe_distance, options.parameters.keyframe_angle)
+  {
+  }
+
+  void onScan(const ScanResult& result) override { track_.add(result); }
+
+  std::vector<OutputFile> finish(const RunEnd& /*end*/) override
+  {
+    std::vector<TrackedPose> frames;
+    for (const TrackedPose& pose : track_.poses())
+      if (rule_.accept(pose.T_world_body)) frames.push_back(pose);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      file_.write(format_.vertex(i, frames[i].T_world_body));
+    if (!frames.empty()) file_.write("FIX 0\n");
+    for (std::size_t i = 0; i + 1 < frames.size(); ++i)
+      file_.write(format_.edge(i, relativePose(frames[i], frames[i + 1])));
+    return {file_.commit()};
+  }
+
+ private:
+  AtomicFile file_;
+  GraphFormat format_;
+  PoseTrack track_;
+  KeyFrameRule rule_;
+};
+}  // namespace
+
+std::unique_ptr<Exporter> makeGraphExporter(const ExportTarget& options)
+{
+  return std::make_unique<GraphExporter>(
+      options.path("poses.graph"), options, GraphFormat{mrptVertex, mrptEdge});
+}
+
+std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options)
+{
+  return std::make_unique<GraphExporter>(
+      options.path("poses.g2o"), options, GraphFormat{g2oVertex, g2oEdge});
+}
+
+}  // namespace fastlio

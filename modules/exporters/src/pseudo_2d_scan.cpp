@@ -1,0 +1,71 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/exporters/pseudo_2d_scan.h>
+#include <fastlio/exporters/scan_in_world.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+mrpt::obs::CObservation2DRangeScan::Ptr emptyScan(const Pseudo2dScanOptions& options)
+{
+  auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+  const auto rays = static_cast<std::size_t>(options.rays);
+  scan->resizeScanAndAssign(rays, static_cast<float>(options.max_range), false);
+  scan->aperture = static_cast<float>(2.0 * kPi * (1.0 - 1.0 / static_cast<double>(rays)));
+  scan->maxRange = static_cast<float>(options.max_range);
+  scan->rightToLeft = true;
+  return scan;
+}
+
+void addRay(
+    mrpt::obs::CObservation2DRangeScan& scan, double x, double y,
+    const Pseudo2dScanOptions& options)
+{
+  const double range = std::hypot(x, y);
+  if (range <= 0.0 || range > options.max_range) return;
+  const double first = -0.5 * static_cast<double>(scan.aperture);
+  const double ray = (std::atan2(y, x) - first) / (2.0 * kPi) * options.rays;
+  const auto i =
+      static_cast<std::size_t>((static_cast<int>(std::lround(ray)) + options.rays) % options.rays);
+  if (scan.getScanRangeValidity(i) && scan.getScanRange(i) <= static_cast<float>(range)) return;
+  scan.setScanRange(i, static_cast<float>(range));
+  scan.setScanRangeValidity(i, true);
+}
+}  // namespace
+
+mrpt::obs::CObservation2DRangeScan::Ptr pseudo2dScan(
+    const LidarScan& scan, const PoseTrack& track, const Pseudo2dScanOptions& options)
+{
+  const auto vehicle = track.at(scan.stamp_ns);
+  if (!vehicle || scan.points.size() == 0) return nullptr;
+  const auto ground = onGround(vehicle->T_world_body);
+  const Vec3 origin = vehicle->T_world_body * mountingOn(track, scan).p;
+  const Mat3 R_level_world = expSO3({0.0, 0.0, -ground.phi()});
+
+  auto planar = emptyScan(options);
+  planar->timestamp = toMrptTime(scan.stamp_ns);
+  planar->sensorLabel = "pseudo_2d_scan";
+  const Vec3 mounting = R_level_world * (origin - Vec3(ground.x(), ground.y(), 0.0));
+  planar->sensorPose = mrpt::poses::CPose3D(mounting.x(), mounting.y(), 0.0, 0.0, 0.0, 0.0);
+  const OutputPoints world = scanInWorld(scan, track);
+  for (std::size_t i = 0; i < world.size(); ++i)
+  {
+    const Vec3 point(
+        static_cast<double>(world.x[i]), static_cast<double>(world.y[i]),
+        static_cast<double>(world.z[i]));
+    const Vec3 ray = R_level_world * (point - origin);
+    if (std::abs(ray.z() - options.height) <= 0.5 * options.thickness)
+      addRay(*planar, ray.x(), ray.y(), options);
+  }
+  return planar;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,123 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/exporters/standard_exporters.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+using Options = ExportTarget;
+
+constexpr std::string_view kSummary = "summary";
+
+std::vector<std::string> namesIn(const std::string& list)
+{
+  std::vector<std::string> names;
+  std::istringstream in(list);
+  for (std::string name; std::getline(in, name, ',');)
+  {
+    const auto first = name.find_first_not_of(" \t");
+    if (first == std::string::npos) continue;
+    names.push_back(name.substr(first, name.find_last_not_of(" \t") - first + 1));
+  }
+  return names;
+}
+
+void requireKnown(const std::vector<std::string>& names, const std::vector<ExporterKind>& kinds)
+{
+  for (const auto& name : names)
+  {
+    const auto is_it = [&name](const ExporterKind& kind) { return kind.name == name; };
+    if (std::any_of(kinds.begin(), kinds.end(), is_it)) continue;
+    std::string known;
+    for (const auto& kind : kinds)
+      known += (known.empty() ? "" : ", ") + std::string(kind.name);
+    throw std::invalid_argument(
+        "there is no exporter '" + name + "' (--export, output.exporters); there are: " + known);
+  }
+}
+
+bool isWanted(
+    const ExporterKind& kind, const std::vector<std::string>& names,
+    const ExportOptions& parameters)
+{
+  if (kind.name == kSummary) return true;
+  if (std::find(names.begin(), names.end(), kind.name) != names.end()) return true;
+  if (kind.name == "imu_rate") return parameters.imu_rate;
+  return names.empty() && kind.standard;
+}
+}  // namespace
+
+std::string ExportTarget::path(std::string_view file) const
+{
+  return (std::filesystem::path(directory) / file).string();
+}
+
+const std::vector<ExporterKind>& exporterKinds()
+{
+  static const std::vector<ExporterKind> kinds = {
+      {"trajectory", "trajectory.tum", "pose at each scan's end (TUM)", true,
+       [](const Options& o) { return makeTumExporter(o.path("trajectory.tum"), o.frame); }},
+      {"kitti", "trajectory.kitti", "the same as 3x4 matrices, times beside it", false,
+       [](const Options& o) { return makeKittiExporter(o.path("trajectory.kitti"), o.frame); }},
+      {"states", "states.csv", "the whole state and its standard deviations", true,
+       [](const Options& o) { return makeStatesExporter(o.path("states.csv")); }},
+      {"covariance", "covariance.csv", "pose and its 6x6 covariance", true,
+       [](const Options& o) { return makeCovarianceExporter(o.path("covariance.csv"), o.frame); }},
+      {"imu_rate", "imu_rate.csv", "state at each inertial sample", false,
+       [](const Options& o) { return makeImuRateExporter(o.path("imu_rate.csv"), o.frame); }},
+      {"timing", "timing.csv", "what became of each scan, milliseconds per stage", true,
+       [](const Options& o) { return makeTimingExporter(o.path("timing.csv")); }},
+      {"ply", "map.ply", "map: points with intensity and time (PLY)", true,
+       [](const Options& o) { return makePlyMapExporter(o.path("map.ply")); }},
+      {"pcd", "map.pcd", "the same as PCD", false,
+       [](const Options& o) { return makePcdMapExporter(o.path("map.pcd")); }},
+      {"text", "map.txt", "the same as text", false,
+       [](const Options& o) { return makeTextMapExporter(o.path("map.txt")); }},
+      {"metricmap", "map.metricmap", "map for MRPT programs", true,
+       [](const Options& o) { return makeMetricMapExporter(o.path("map.metricmap")); }},
+      {"planes", "map.planes", "map of planes that scans were matched with, for --map-in", false,
+       [](const Options& o) { return makePlanesExporter(o.path("map.planes")); }},
+      {"simplemap", "keyframes.simplemap", "key frames with their raw scans", false,
+       makeSimpleMapExporter},
+      {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},
+      {"graph", "poses.graph", "pose graph for MRPT", false, makeGraphExporter},
+      {"g2o", "poses.g2o", "pose graph for g2o", false, makeG2oExporter},
+      // The last: it lists the files before it.
+      {kSummary, "summary.json", "the run: inputs, parameters, losses, speed, problems", true,
+       [](const Options& o) { return makeSummaryExporter(o.path("summary.json")); }},
+  };
+  return kinds;
+}
+
+std::string exporterHelp()
+{
+  constexpr std::size_t kNameWidth = 12, kFileWidth = 21;
+  const auto padded = [](std::string_view text, std::size_t width)
+  { return std::string(text) + std::string(width - std::min(width, text.size()), ' '); };
+  std::string text;
+  for (const auto& kind : exporterKinds())
+    text += "  " + padded(kind.name, kNameWidth) + padded(kind.file, kFileWidth) +
+            std::string(kind.content) + (kind.standard ? "" : " *") + "\n";
+  return text;
+}
+
+ExporterSet makeExporters(const ExportTarget& options, const std::vector<ExporterKind>& kinds)
+{
+  const auto names = namesIn(options.parameters.exporters);
+  requireKnown(names, kinds);
+  ExporterSet set;
+  if (!options.tum_path.empty()) set.add(makeTumExporter(options.tum_path, options.frame));
+  if (options.directory.empty()) return set;
+  for (const ExporterKind& kind : kinds)
+    if (isWanted(kind, names, options.parameters)) set.add(kind.make(options));
+  return set;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,219 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "health_json.h"
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/odometry/parameter_table.h>
+#include <fastlio/odometry/parameter_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace fastlio
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/** Numbers, booleans, lists and null keep their type; the rest is text. */
+Json valueOf(const ParameterRow& row, const Parameters& parameters)
+{
+  if (const auto* text = std::get_if<RegexValue>(&row.value)) return text->member.of(parameters);
+  if (const auto* text = std::get_if<TextValue>(&row.value)) return text->member.of(parameters);
+  const std::string yaml = valueText(row, parameters);
+  const Json value = Json::parse(yaml, nullptr, false);
+  return value.is_discarded() ? Json(yaml) : value;
+}
+
+Json parametersJson(const Parameters& parameters)
+{
+  Json json = Json::object();
+  for (const ParameterRow& row : parameterTable())
+  {
+    Json& group = row.group().empty() ? json : json[std::string(row.group())];
+    group[std::string(row.name())] = valueOf(row, parameters);
+  }
+  return json;
+}
+
+Json filesJson(const std::vector<OutputFile>& files)
+{
+  Json json = Json::array();
+  for (const auto& file : files)
+    json.push_back({{"path", file.path}, {"bytes", file.bytes}});
+  return json;
+}
+
+Json inputJson(const RunSummary& run)
+{
+  Json files = Json::array();
+  for (const auto& file : run.inputs)
+    files.push_back({{"path", file.path}, {"bytes", file.bytes}});
+  Json counts = Json::object();
+  for (const auto& count : run.input_counts)
+    counts[count.name] = count.count;
+  return {
+      {"files", files},
+      {"sensors", run.sensors},
+      {"counts", counts},
+      {"problems", run.input_problems}};
+}
+
+Json scansJson(const RunStatistics& statistics)
+{
+  Json json = {{"processed", statistics.scans()}, {"with_pose", statistics.poses()}};
+  for (std::size_t i = 0; i < kScanStatusCount; ++i)
+  {
+    const auto status = static_cast<ScanStatus>(i);
+    json[machineName(status)] = statistics.count(status);
+  }
+  return json;
+}
+
+Json pointsJson(const PointTotals& points)
+{
+  return {
+      {"in", points.in},
+      {"dropped_invalid", points.invalid},
+      {"dropped_near", points.near},
+      {"dropped_far", points.far},
+      {"after_downsampling", points.downsampled},
+      {"effective", points.effective}};
+}
+
+Json troubleJson(const Trouble& trouble)
+{
+  return {
+      {"scan", trouble.scan_index},
+      {"stamp", secondsText(trouble.stamp_ns)},
+      {"status", machineName(trouble.status)},
+      {"message", trouble.message}};
+}
+
+Json troublesJson(const RunStatistics& statistics)
+{
+  Json json = Json::array();
+  for (const auto& trouble : statistics.troubles())
+    json.push_back(troubleJson(trouble));
+  return json;
+}
+
+Json vectorJson(const Vec3& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
+
+Json openDirectionsJson(const OpenDirections& open)
+{
+  if (open.scans == 0) return {{"scans", 0}};
+  return {
+      {"scans", open.scans},
+      {"first", secondsText(open.first_ns)},
+      {"last", secondsText(open.last_ns)},
+      {"weakest",
+       {{open.weakest.is_rotation ? "rotation_about_imu_axis" : "translation_along_world_axis",
+         vectorJson(open.weakest.axis)},
+        {"signal_to_noise", open.signal_to_noise}}}};
+}
+
+/** The calibration as estimated at the end: changes against what was given, and their standard
+ * deviations; null when nothing of it is estimated. */
+Json calibrationJson(const RunSummary& run)
+{
+  const CalibrationOptions& p = run.parameters.calibration;
+  const std::optional<FilterState>& last = run.statistics.lastState();
+  Json json = nullptr;
+  if (!last) return json;
+  const auto sigma = [&](StateBlock block)
+  { return Vec3(last->P.diagonal().segment<3>(block).cwiseMax(0.0).cwiseSqrt()); };
+  if (p.estimate_extrinsic)
+  {
+    const Pose& C = last->x.extrinsic_correction;
+    json["rotation_correction_deg"] = vectorJson(kDegPerRad * logSO3(C.R));
+    json["rotation_sigma_deg"] = vectorJson(kDegPerRad * sigma(kExtrinsicRotation));
+    json["translation_correction_m"] = vectorJson(C.p);
+    json["translation_sigma_m"] = vectorJson(sigma(kExtrinsicTranslation));
+  }
+  if (p.estimate_time_offset)
+  {
+    json["time_offset_s"] = run.parameters.lidar.time_offset + last->x.time_offset;
+    const double variance = last->P(kTimeOffset, kTimeOffset);
+    // Not a part of the state before the map can tell it: as uncertain as given.
+    json["time_offset_sigma_s"] = variance > 0.0 ? std::sqrt(variance) : p.time_offset_std;
+  }
+  return json;
+}
+
+Json timeJson(const RunSummary& run)
+{
+  const ScanTimeSummary ms = run.statistics.scanTimes();
+  return {
+      {"begin", secondsText(run.statistics.beginNs())},
+      {"end", secondsText(run.statistics.endNs())},
+      {"duration_s", run.statistics.duration()},
+      {"wall_s", run.wall_seconds},
+      {"compute_s", run.statistics.computeSeconds()},
+      {"real_time_factor", realTimeFactor(run)},
+      {"ms_per_scan",
+       {{"mean", ms.mean}, {"median", ms.median}, {"p99", ms.p99}, {"max", ms.max}}}};
+}
+
+Json summaryJson(const RunSummary& run)
+{
+  const ExitStatus status = exitStatusOf(run);
+  const auto trouble = run.statistics.firstTrouble();
+  return {
+      {"program", run.program},
+      {"version", run.version},
+      {"status", toString(status)},
+      {"exit_status", static_cast<int>(status)},
+      {"configuration", run.configuration},
+      {"frame", run.frame},
+      {"input", inputJson(run)},
+      {"scans", scansJson(run.statistics)},
+      {"points", pointsJson(run.statistics.points())},
+      {"path_length_m", run.statistics.pathLength()},
+      {"time", timeJson(run)},
+      {"open_directions", openDirectionsJson(run.statistics.openDirections())},
+      {"calibration", calibrationJson(run)},
+      {"health", healthJson(run.statistics.health())},
+      {"imu", imuJson(run.imu)},
+      {"diagnostics", remarksJson(run.diagnostics)},
+      {"first_trouble", trouble ? troubleJson(*trouble) : Json(nullptr)},
+      {"troubles", troublesJson(run.statistics)},
+      {"outputs", filesJson(run.outputs)},
+      {"failure", run.failure},
+      {"output_problems", run.output_problems},
+      {"parameters", parametersJson(run.parameters)}};
+}
+
+class SummaryExporter : public Exporter
+{
+ public:
+  explicit SummaryExporter(const std::string& path) : file_(path) {}
+
+  void onScan(const ScanResult& /*result*/) override {}
+
+  std::vector<OutputFile> finish(const RunEnd& end) override
+  {
+    // Paths and messages may hold bytes that are not UTF-8: replaced instead of failing.
+    const auto text = summaryJson(end.summary).dump(2, ' ', false, Json::error_handler_t::replace);
+    file_.write(text + "\n");
+    return {file_.commit()};
+  }
+
+ private:
+  AtomicFile file_;
+};
+}  // namespace
+
+std::unique_ptr<Exporter> makeSummaryExporter(const std::string& path)
+{
+  return std::make_unique<SummaryExporter>(path);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,78 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file imu_conditioner.h From raw inertial samples to samples that the filter can trust, and
+ * spans of time in which it should not. */
+#pragma once
+
+#include <fastlio/imu/imu_clipping.h>
+#include <fastlio/imu/imu_options.h>
+#include <fastlio/imu/imu_report.h>
+#include <fastlio/imu/imu_spike_gate.h>
+#include <fastlio/imu/imu_time_gate.h>
+#include <fastlio/imu/noise_inflation.h>
+#include <fastlio/imu/sampling_period.h>
+#include <fastlio/math/time.h>
+
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+/** A sample in SI units, and what happened between it and the one before. */
+struct ConditionedSample
+{
+  ImuSample sample;
+  std::optional<NoiseInflation> inflation;
+  bool after_break = false;   //!< more than imu.max_gap after the one before
+  double rescale_gyro = 1.0;  //!< factor for the rates of all samples before: their unit was wrong
+};
+
+/** The stages: unit, stamps, spikes, gaps and clipping. Clean samples come out as they came in. */
+class ImuConditioner
+{
+ public:
+  /** \param gravity its magnitude [m/s^2] */
+  ImuConditioner(const ImuOptions& parameters, double gravity);
+
+  /** Takes a raw sample of finite numbers.
+   * \return the samples that are ready now; valid until the next call */
+  const std::vector<ConditionedSample>& add(const ImuSample& raw);
+  /** Nothing more will come: what waits for a successor or for the unit is ready. */
+  const std::vector<ConditionedSample>& finish();
+
+  [[nodiscard]] ImuReport report() const;
+  /** What is added to the stamps, since the clock was set back [ns]. */
+  [[nodiscard]] std::int64_t clockOffset() const { return time_gate_.clockOffset(); }
+  /** What was found out since the last call. */
+  [[nodiscard]] std::vector<Diagnostic> takeDiagnostics();
+
+ private:
+  void decideAccelUnit();
+  void scaled(ImuSample sample);
+  void emit(const TimedSample& timed);
+  void emitAll();
+  void remarkClockStep();
+  [[nodiscard]] double considerGyroUnit(ConditionedSample& next);
+  [[nodiscard]] std::optional<NoiseInflation> inflationBefore(const TimedSample& timed);
+  [[nodiscard]] std::optional<NoiseInflation> clippingInflation(const ImuSample& sample);
+
+  ImuOptions parameters_;
+  double gravity_;
+  double accel_scale_ = 1.0, gyro_scale_ = 1.0;
+  bool accel_unit_known_;
+  ImuReport report_;
+  std::vector<ImuSample> without_unit_;
+  ImuTimeGate time_gate_;
+  ImuSpikeGate spike_gate_;
+  SamplingPeriod period_;
+  ClippingDetector gyro_clipping_, accel_clipping_;
+  double gyro_clipped_ = 0.0, accel_clipped_ = 0.0;  // full scales, of the sample before
+  GyroUnitTest gyro_unit_test_;
+  std::optional<std::int64_t> last_ns_;
+  std::vector<Diagnostic> diagnostics_;
+  std::vector<TimedSample> timed_, gated_;
+  std::vector<ConditionedSample> ready_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,218 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/imu/imu_conditioner.h>
+#include <fastlio/math/time.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// The first samples tell the unit.
+constexpr std::int64_t kUnitTimeNs = 200'000'000;
+constexpr std::size_t kUnitFewest = 10, kUnitMost = 200;
+// Below these, a value that repeats is no end of a range.
+constexpr double kGyroFloor = 1.7;    // [rad/s]
+constexpr double kAccelFloor = 17.0;  // [m/s^2]
+}  // namespace
+
+ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
+    : parameters_(parameters),
+      gravity_(gravity),
+      accel_scale_(siPerUnit(parameters.accel_unit)),
+      gyro_scale_(siPerUnit(parameters.gyro_unit)),
+      accel_unit_known_(parameters.accel_unit != AccelUnit::Auto),
+      time_gate_(parameters.max_gap),
+      spike_gate_(parameters.spike_gyro, parameters.spike_accel),
+      gyro_clipping_(parameters.gyro_range, kGyroFloor),
+      accel_clipping_(parameters.accel_range, kAccelFloor)
+{
+  report_.accel_unit = parameters.accel_unit;
+  report_.gyro_unit =
+      parameters.gyro_unit == GyroUnit::Auto ? GyroUnit::Radians : parameters.gyro_unit;
+}
+
+const std::vector<ConditionedSample>& ImuConditioner::add(const ImuSample& raw)
+{
+  ready_.clear();
+  if (!isTime(raw.stamp_ns))
+  {
+    ++report_.bad_stamps;
+    return ready_;
+  }
+  if (accel_unit_known_)
+  {
+    scaled(raw);
+    return ready_;
+  }
+  without_unit_.push_back(raw);
+  const bool long_enough = raw.stamp_ns - without_unit_.front().stamp_ns >= kUnitTimeNs;
+  if ((long_enough && without_unit_.size() >= kUnitFewest) || without_unit_.size() >= kUnitMost)
+    decideAccelUnit();
+  return ready_;
+}
+
+const std::vector<ConditionedSample>& ImuConditioner::finish()
+{
+  ready_.clear();
+  if (!without_unit_.empty()) decideAccelUnit();
+  timed_.clear();
+  time_gate_.finish(timed_);
+  emitAll();
+  gated_.clear();
+  spike_gate_.finish(gated_);
+  for (const TimedSample& timed : gated_)
+    emit(timed);
+  return ready_;
+}
+
+void ImuConditioner::decideAccelUnit()
+{
+  const AccelUnitVerdict verdict = findAccelUnit(without_unit_, gravity_);
+  accel_unit_known_ = true;
+  accel_scale_ = siPerUnit(verdict.unit);
+  report_.accel_unit = verdict.unit;
+  const std::int64_t stamp_ns = without_unit_.front().stamp_ns;
+  if (!verdict.clear)
+    diagnostics_.push_back(
+        {stamp_ns,
+         mrpt::format(
+             "the specific force has a magnitude of %.4g at the start: gravity in no known unit; "
+             "taken as m/s^2 (imu.accel_unit)",
+             verdict.norm)});
+  else if (verdict.unit != AccelUnit::Si)
+    diagnostics_.push_back(
+        {stamp_ns, mrpt::format(
+                       "the specific force is in units of %s (magnitude %.4g at the start): "
+                       "converted to m/s^2; imu.accel_unit: %s says so beforehand",
+                       toString(verdict.unit), verdict.norm, toString(verdict.unit))});
+  std::vector<ImuSample> samples;
+  samples.swap(without_unit_);
+  for (const ImuSample& sample : samples)
+    scaled(sample);
+}
+
+void ImuConditioner::scaled(ImuSample sample)
+{
+  // Not multiplied by 1: clean samples stay as they are, minus zeros included.
+  if (accel_scale_ != 1.0) sample.accel *= accel_scale_;
+  if (parameters_.invert_acceleration) sample.accel = -sample.accel;
+  if (gyro_scale_ != 1.0) sample.gyro *= gyro_scale_;
+  const std::size_t steps = time_gate_.clockSteps();
+  timed_.clear();
+  time_gate_.push(sample, timed_);
+  if (time_gate_.clockSteps() != steps) remarkClockStep();
+  emitAll();
+}
+
+void ImuConditioner::remarkClockStep()
+{
+  const std::int64_t at_ns = timed_.empty() ? 0 : timed_.front().sample.stamp_ns;
+  diagnostics_.push_back(
+      {at_ns, mrpt::format(
+                  "the clock was set back: %.3f s are added to the stamps from here on, as if it "
+                  "had not been",
+                  toSeconds(time_gate_.clockOffset()))});
+}
+
+void ImuConditioner::emitAll()
+{
+  gated_.clear();
+  for (const TimedSample& timed : timed_)
+    spike_gate_.push(timed, gated_);
+  for (const TimedSample& timed : gated_)
+    emit(timed);
+}
+
+void ImuConditioner::emit(const TimedSample& timed)
+{
+  ConditionedSample next;
+  next.sample = timed.sample;
+  next.after_break = timed.after_break;
+  const bool in_order = !last_ns_ || timed.sample.stamp_ns > *last_ns_;
+  if (in_order)
+  {
+    next.inflation = inflationBefore(timed);
+    next.rescale_gyro = considerGyroUnit(next);
+    last_ns_ = timed.sample.stamp_ns;
+  }
+  ready_.push_back(next);
+}
+
+double ImuConditioner::considerGyroUnit(ConditionedSample& next)
+{
+  if (parameters_.gyro_unit != GyroUnit::Auto || report_.gyro_unit == GyroUnit::Degrees) return 1.0;
+  gyro_unit_test_.add(next.sample, gravity_);
+  if (!gyro_unit_test_.degrees()) return 1.0;
+  report_.gyro_unit = GyroUnit::Degrees;
+  gyro_scale_ = siPerUnit(GyroUnit::Degrees);
+  next.sample.gyro *= gyro_scale_;
+  diagnostics_.push_back(
+      {next.sample.stamp_ns,
+       "the angular rate is in deg/s, not in rad/s (" + gyro_unit_test_.evidence() +
+           "): converted, and the run starts anew here; imu.gyro_unit: deg/s avoids that"});
+  return gyro_scale_;
+}
+
+std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample& timed)
+{
+  const ImuSample& sample = timed.sample;
+  auto inflation = clippingInflation(sample);
+  if (!last_ns_) return std::nullopt;
+  const double interval = toSeconds(sample.stamp_ns - *last_ns_);
+  const double period = period_.median();
+  if (!timed.after_break) period_.add(interval, parameters_.gap_periods);
+  const bool gap =
+      timed.after_break || (period > 0.0 && interval > parameters_.gap_periods * period);
+  const bool spike = spike_gate_.latestSpike() > *last_ns_;
+  if (gap)
+  {
+    ++report_.gaps;
+    report_.longest_gap = std::max(report_.longest_gap, interval);
+  }
+  if (!gap && !spike) return inflation;
+  // What the motion does in between grows with the time it has.
+  const double share = std::min(1.0, interval / parameters_.max_gap);
+  return NoiseInflation{
+      *last_ns_, sample.stamp_ns, share * parameters_.gap_gyro_std,
+      share * parameters_.gap_accel_std, gap ? InertialFault::Gap : InertialFault::Spike};
+}
+
+/** An input between two samples is in doubt when one of them is. */
+std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample& sample)
+{
+  const double gyro = gyro_clipping_.add(sample.gyro), accel = accel_clipping_.add(sample.accel);
+  const double gyro_between = std::max(gyro, gyro_clipped_);
+  const double accel_between = std::max(accel, accel_clipped_);
+  gyro_clipped_ = gyro;
+  accel_clipped_ = accel;
+  if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
+  if (!last_ns_ || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
+  return NoiseInflation{
+      *last_ns_, sample.stamp_ns, parameters_.saturation_std * gyro_between,
+      parameters_.saturation_std * accel_between, InertialFault::Saturation};
+}
+
+ImuReport ImuConditioner::report() const
+{
+  ImuReport report = report_;
+  report.rate = period_.median() > 0.0 ? 1.0 / period_.median() : 0.0;
+  report.jitter = period_.jitter();
+  report.spikes = spike_gate_.spikes();
+  report.bad_stamps += time_gate_.badStamps();
+  report.late = time_gate_.late();
+  report.clock_steps = time_gate_.clockSteps();
+  return report;
+}
+
+std::vector<Diagnostic> ImuConditioner::takeDiagnostics()
+{
+  return std::exchange(diagnostics_, {});
+}
+
+}  // namespace fastlio

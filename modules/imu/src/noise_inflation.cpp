@@ -1,0 +1,66 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/imu/noise_inflation.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+std::int64_t overlap(const NoiseInflation& inflation, std::int64_t begin_ns, std::int64_t end_ns)
+{
+  return std::max<std::int64_t>(
+      0, std::min(inflation.end_ns, end_ns) - std::max(inflation.begin_ns, begin_ns));
+}
+}  // namespace
+
+const char* toString(InertialFault fault)
+{
+  switch (fault)
+  {
+    case InertialFault::Gap:
+      return "gap";
+    case InertialFault::Saturation:
+      return "saturation";
+    case InertialFault::Spike:
+      return "spike";
+  }
+  return "unknown";
+}
+
+ImuNoise noiseBetween(
+    const ImuNoise& noise, const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns,
+    std::int64_t end_ns)
+{
+  double gyro_variance = 0.0, accel_variance = 0.0;  // of the input's error
+  const auto duration_ns = static_cast<double>(end_ns - begin_ns);
+  for (const NoiseInflation& inflation : inflations)
+  {
+    const std::int64_t common_ns = overlap(inflation, begin_ns, end_ns);
+    if (common_ns <= 0) continue;
+    const double share = static_cast<double>(common_ns) / duration_ns;
+    gyro_variance += share * inflation.gyro_std * inflation.gyro_std;
+    accel_variance += share * inflation.accel_std * inflation.accel_std;
+  }
+  if (gyro_variance == 0.0 && accel_variance == 0.0) return noise;
+  const double dt = 1e-9 * duration_ns;
+  ImuNoise grown = noise;
+  grown.gyro_noise_density = std::hypot(noise.gyro_noise_density, std::sqrt(gyro_variance * dt));
+  grown.accel_noise_density = std::hypot(noise.accel_noise_density, std::sqrt(accel_variance * dt));
+  return grown;
+}
+
+double inflatedRatio(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
+{
+  if (end_ns <= begin_ns) return 0.0;
+  std::int64_t sum_ns = 0;
+  for (const NoiseInflation& inflation : inflations)
+    sum_ns += overlap(inflation, begin_ns, end_ns);
+  return std::min(1.0, static_cast<double>(sum_ns) / static_cast<double>(end_ns - begin_ns));
+}
+
+}  // namespace fastlio

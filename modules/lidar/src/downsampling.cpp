@@ -1,0 +1,176 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/lidar/downsampling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// Multiples of the golden section, modulo one in 32-bit fixed point: the most even sequence there
+// is.
+constexpr std::uint32_t kGoldenSection = 0x9E3779B9U;
+// Another irrational for the start of each scan, so that it is not a mere shift of the sequence.
+constexpr std::uint32_t kScanStep = 0xB504F333U;
+constexpr float kFixedPointOne = 4294967296.0F;
+// Times any squared range this exceeds every draw.
+constexpr float kKeepAll = std::numeric_limits<float>::infinity();
+
+// Bins of a logarithmic histogram: exponent and the upper two bits of the mantissa, from 2^-16 m^2
+// on.
+constexpr int kMantissaBits = 2;
+constexpr int kFirstExponent = 127 - 16;
+
+std::size_t binOf(float squared_range, std::size_t bins)
+{
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &squared_range, sizeof bits);
+  const auto bin =
+      static_cast<std::int32_t>(bits >> (23 - kMantissaBits)) - (kFirstExponent << kMantissaBits);
+  return static_cast<std::size_t>(std::clamp<std::int32_t>(bin, 0, static_cast<int>(bins) - 1));
+}
+
+/** Middle of a bin's squared ranges. */
+float binValue(std::size_t bin)
+{
+  const int steps = 1 << kMantissaBits;
+  const int exponent = static_cast<int>(bin) / steps - 16;
+  const float mantissa =
+      1.0F + (static_cast<float>(static_cast<int>(bin) % steps) + 0.5F) / static_cast<float>(steps);
+  return std::ldexp(mantissa, exponent);
+}
+}  // namespace
+
+Downsampler::Downsampler(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
+
+Downsampler::Ranges Downsampler::gateRanges(
+    const PointColumns& points, const DownsamplingLimits& limits, std::size_t first,
+    std::size_t last)
+{
+  const float min2 = limits.min_range * limits.min_range;
+  const float max2 = limits.max_range * limits.max_range;
+  Ranges ranges;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    const float x = points.x[i], y = points.y[i], z = points.z[i];
+    const float range2 = x * x + y * y + z * z;
+    const bool usable = range2 >= min2 && range2 <= max2 && range2 > 0.0F;
+    squared_ranges_[i] = usable ? range2 : 0.0F;
+    if (usable)
+    {
+      ++ranges.counts[binOf(range2, kBins)];
+      ++ranges.usable;
+    }
+    else if (!(range2 > 0.0F) || !std::isfinite(range2))
+      ++ranges.invalid;
+    else
+      ++(range2 < min2 ? ranges.near : ranges.far);
+  }
+  return ranges;
+}
+
+Downsampler::Ranges Downsampler::gateRanges(
+    const PointColumns& points, const DownsamplingLimits& limits)
+{
+  squared_ranges_.resize(points.size());
+  chunk_ranges_.resize(Workers::chunks(points.size(), kChunk));
+  workers_->forEachChunk(
+      points.size(), kChunk,
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_ranges_[chunk] = gateRanges(points, limits, first, last); });
+  Ranges total;
+  for (const Ranges& part : chunk_ranges_)
+  {
+    for (std::size_t bin = 0; bin < kBins; ++bin)
+      total.counts[bin] += part.counts[bin];
+    total.usable += part.usable;
+    total.invalid += part.invalid;
+    total.near += part.near;
+    total.far += part.far;
+  }
+  return total;
+}
+
+std::size_t Downsampler::targetOf(const Ranges& ranges, const DownsamplingLimits& limits)
+{
+  if (limits.wide_points <= limits.target_points || ranges.usable == 0) return limits.target_points;
+  double squares = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    squares += static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
+  const double wide =
+      static_cast<double>(limits.wide_range) * static_cast<double>(limits.wide_range);
+  const double growth = squares / (wide * static_cast<double>(ranges.usable));
+  const double target = static_cast<double>(limits.target_points) * std::max(growth, 1.0);
+  return static_cast<std::size_t>(std::min(target, static_cast<double>(limits.wide_points)));
+}
+
+float Downsampler::densityFactor(const Ranges& ranges, std::size_t target)
+{
+  // Bins from the farthest on are kept whole while the rest can be thinned to meet the target.
+  double rest_sum = 0.0;
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    rest_sum += static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
+  double whole = 0.0;
+  for (std::size_t bin = kBins; bin-- > 0;)
+  {
+    const double factor = (static_cast<double>(target) - whole) / std::max(rest_sum, 1e-30);
+    if (factor * static_cast<double>(binValue(bin)) <= 1.0) return static_cast<float>(factor);
+    whole += ranges.counts[bin];
+    rest_sum -= static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
+  }
+  return kKeepAll;
+}
+
+/** Draws for the points [first, last); the chosen ones stand at kept_[first] and after it. */
+std::size_t Downsampler::keep(float factor, std::size_t first, std::size_t last)
+{
+  const std::uint32_t start = scan_ * kScanStep;
+  std::size_t kept = 0;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    const std::uint32_t draw = start + static_cast<std::uint32_t>(i) * kGoldenSection;
+    const float range2 = squared_ranges_[i];
+    // Written always, counted when chosen: no branch that depends on the draw.
+    kept_[first + kept] = static_cast<std::uint32_t>(i);
+    kept += range2 > 0.0F && static_cast<float>(draw) < factor * range2 ? 1 : 0;
+  }
+  return kept;
+}
+
+void Downsampler::gather(std::vector<std::uint32_t>& indices) const
+{
+  indices.clear();
+  for (std::size_t chunk = 0; chunk < kept_counts_.size(); ++chunk)
+  {
+    const auto begin = kept_.begin() + static_cast<std::ptrdiff_t>(chunk * kChunk);
+    indices.insert(indices.end(), begin, begin + static_cast<std::ptrdiff_t>(kept_counts_[chunk]));
+  }
+}
+
+void Downsampler::select(
+    const PointColumns& points, const DownsamplingLimits& limits, ScanSelection& selection)
+{
+  const Ranges ranges = gateRanges(points, limits);
+  selection.dropped_invalid = ranges.invalid;
+  selection.dropped_near = ranges.near;
+  selection.dropped_far = ranges.far;
+  const std::size_t target = targetOf(ranges, limits);
+  const bool keep_all = limits.target_points == 0 || ranges.usable <= target;
+  const float factor = keep_all ? kKeepAll : densityFactor(ranges, target);
+  ++scan_;
+  kept_.resize(points.size());
+  kept_counts_.resize(chunk_ranges_.size());
+  workers_->forEachChunk(
+      points.size(), kChunk,
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { kept_counts_[chunk] = keep(factor * kFixedPointOne, first, last); });
+  gather(selection.indices);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,22 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file pose.h A rigid transformation, named by its frames: T_a_b takes coordinates of b to a. */
+#pragma once
+
+#include <fastlio/math/so3.h>
+
+namespace fastlio
+{
+/** Rotation and translation [m]: p_a = R p_b + p for a pose called T_a_b. */
+struct Pose
+{
+  Mat3 R = Mat3::Identity();
+  Vec3 p = Vec3::Zero();
+
+  [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  [[nodiscard]] Pose operator*(const Pose& b) const { return {R * b.R, R * b.p + p}; }
+  [[nodiscard]] Vec3 operator*(const Vec3& point) const { return R * point + p; }
+};
+
+}  // namespace fastlio

@@ -1,0 +1,56 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file decode_ahead_source.h Reading, decompressing and decoding on a thread of their own. */
+#pragma once
+
+#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/observation_bridge.h>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace fastlio
+{
+/** One input of the odometry, and how far reading had come when it was made. */
+struct DecodedInput
+{
+  std::variant<ImuSample, LidarScan> data;
+  ReadProgress progress;
+};
+
+/** Runs a RawlogSource and an ObservationBridge ahead of the consumer, through a bounded queue. The
+ * order of the inputs is that of the source; of several LiDARs the scans are merged (ScanMerger).
+ * One thread consumes. */
+class DecodeAheadSource
+{
+ public:
+  /** Starts reading. \a capacity: inputs that are kept ready. */
+  DecodeAheadSource(RawlogSource source, ObservationBridge bridge, std::size_t capacity = 256);
+
+  /** Stops reading if it has not come to the end. */
+  ~DecodeAheadSource();
+  DecodeAheadSource(const DecodeAheadSource&) = delete;
+  DecodeAheadSource& operator=(const DecodeAheadSource&) = delete;
+
+  /** Waits for the next input; nothing after the last one or after stop().
+   * \exception whatever the reading thread could not handle, e.g. std::bad_alloc */
+  [[nodiscard]] std::optional<DecodedInput> next();
+
+  /** Stops reading early; next() returns nothing from then on. */
+  void stop();
+
+  /** What was met on the way: call after next() has returned nothing, or after stop().
+   * \exception std::logic_error called earlier */
+  [[nodiscard]] const std::vector<ReadProblem>& problems() const;
+  [[nodiscard]] const BridgeStatistics& statistics() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fastlio

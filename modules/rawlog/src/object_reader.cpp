@@ -1,0 +1,250 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "object_reader.h"
+
+#include "rotating_scan_stream.h"
+#include "size_check.h"
+#include <fastlio/compat/mrpt_messages.h>
+
+#include <mrpt/rtti/CObject.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/system/os.h>
+
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+namespace
+{
+using fastlio::ReadProblemKind;
+
+bool isRegistered(const std::string& class_name)
+{
+  return mrpt::rtti::findRegisteredClass(class_name) != nullptr;
+}
+
+std::string hintFor(ReadProblemKind kind)
+{
+  switch (kind)
+  {
+    case ReadProblemKind::NotFound:
+      return "Check the path and the permissions.";
+    case ReadProblemKind::NotARawlog:
+      return "Give a file written as an MRPT rawlog (.rawlog).";
+    case ReadProblemKind::Truncated:
+      return "The recording or a copy of it was cut off; everything before was read.";
+    case ReadProblemKind::Corrupt:
+      return "Copy the file anew, or check the medium it lies on.";
+    case ReadProblemKind::UnknownClass:
+      return "This program runs on " + mrpt::system::MRPT_getVersion() +
+             "; the recording needs a newer one, or a plugin that knows the class.";
+    case ReadProblemKind::ExternalFile:
+      return "Keep the folder with the external files beside the rawlog.";
+  }
+  return {};
+}
+
+constexpr unsigned char kZstdMagic[] = {0x28, 0xB5, 0x2F, 0xFD};
+
+bool startsAsZstd(fastlio::ObjectStream& stream)
+{
+  unsigned char head[sizeof kZstdMagic] = {};
+  try
+  {
+    stream.Read(head, sizeof head);
+  }
+  catch (const std::runtime_error&)
+  {
+    // Shorter than the magic number.
+  }
+  stream.rewindTo(0);
+  return std::equal(std::begin(head), std::end(head), std::begin(kZstdMagic));
+}
+}  // namespace
+
+namespace fastlio
+{
+ObjectReader::ObjectReader(std::string path, bool recover)
+    : path_(std::move(path)), recover_(recover)
+{
+}
+
+std::uint64_t ObjectReader::compressedPosition() const
+{
+  return stream_ ? stream_->file().compressedPosition() : 0;
+}
+
+ReadProblem ObjectReader::makeProblem(
+    ReadProblemKind kind, const std::string& class_name, const std::string& what) const
+{
+  const bool has_place = kind != ReadProblemKind::NotFound && kind != ReadProblemKind::NotARawlog;
+  std::string message = path_ + ": ";
+  if (has_place)
+    message += "object " + std::to_string(index_) +
+               (class_name.empty() ? "" : " (" + class_name + ")") + " at byte " +
+               std::to_string(object_offset_) + ": ";
+  message += what + ". " + hintFor(kind);
+  return {path_, index_, object_offset_, kind, class_name, message, 1};
+}
+
+NextObject ObjectReader::next()
+{
+  if (finished_) return EndOfObjects{};
+  if (!stream_)
+  {
+    finished_ = true;  // unless the file can be opened
+    std::error_code error;
+    if (!std::filesystem::exists(path_, error))
+      return makeProblem(ReadProblemKind::NotFound, "", "there is no such file");
+    if (std::filesystem::is_directory(path_, error))
+      return makeProblem(ReadProblemKind::NotFound, "", "this is a folder, not a file");
+    try
+    {
+      stream_ = std::make_unique<ObjectStream>(path_);
+    }
+    catch (const std::runtime_error& e)
+    {
+      return makeProblem(ReadProblemKind::NotFound, "", std::string("the file ") + e.what());
+    }
+    finished_ = false;
+  }
+  return readOne();
+}
+
+NextObject ObjectReader::readOne()
+{
+  for (;; ++index_)
+  {
+    if (recovered_) skipFrameEnds();
+    stream_->beginObject();
+    object_offset_ = stream_->position();
+    if (stream_->atEnd()) return atEndOfFile();
+    const auto header = stream_->peekHeader();
+    if (!header && stream_->endsInsideHeader(0))
+      return fail(makeProblem(ReadProblemKind::Truncated, "", "the file ends inside its header"));
+    if (!header) return fail(diagnose("", "there is no object where one should start"));
+    if (header->class_name != "nullptr" && !isRegistered(header->class_name))
+      return fail(
+          makeProblem(ReadProblemKind::UnknownClass, header->class_name, "its class is not known"));
+    const SizeVerdict sizes = checkSizes(*stream_);
+    if (sizes == SizeVerdict::RunsOut) return fail(diagnoseEnd(header->class_name));
+    if (sizes == SizeVerdict::Misaligned)
+      return fail(makeProblem(
+          ReadProblemKind::Corrupt, header->class_name, "it does not end where its lengths say"));
+    try
+    {
+      auto object = readObject(*header);
+      if (!object) continue;
+      ++index_;
+      return object;
+    }
+    catch (const std::bad_alloc&)
+    {
+      return fail(makeProblem(
+          ReadProblemKind::Corrupt, header->class_name, "it asks for more memory than there is"));
+    }
+    catch (const std::exception& e)
+    {
+      return fail(diagnose(header->class_name, innermostMessage(e.what())));
+    }
+  }
+}
+
+// MRPT reads rotating scans of its own layout only.
+mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHeader& header)
+{
+  constexpr std::uint8_t kEndFlag = 0x88;
+  auto archive = mrpt::serialization::archiveFrom(*stream_);
+  if (header.class_name != kRotatingScanClass) return archive.ReadObject();
+  std::vector<std::uint8_t> head(header.length + 1);  // and the version, which is 0 in all layouts
+  archive.ReadBuffer(head.data(), head.size());
+  auto scan = readRotatingScan(archive);
+  if (archive.ReadAs<std::uint8_t>() != kEndFlag)
+    throw std::runtime_error("the object does not end where it should");
+  return scan;
+}
+
+NextObject ObjectReader::atEndOfFile()
+{
+  finished_ = true;
+  switch (stream_->file().end())
+  {
+    case FileEnd::Truncated:
+      return makeProblem(ReadProblemKind::Truncated, "", "the compressed data end too early");
+    case FileEnd::Corrupt:
+      return makeProblem(ReadProblemKind::Corrupt, "", "the compressed data are damaged");
+    case FileEnd::NotYet:
+    case FileEnd::Clean:
+      break;
+  }
+  if (index_ == 0 && !recovered_)
+    return makeProblem(ReadProblemKind::NotARawlog, "", "the file is empty");
+  return EndOfObjects{};
+}
+
+ReadProblem ObjectReader::diagnoseEnd(const std::string& class_name) const
+{
+  if (stream_->file().end() == FileEnd::Corrupt)
+    return makeProblem(
+        ReadProblemKind::Corrupt, class_name, "the compressed data are damaged inside it");
+  return makeProblem(ReadProblemKind::Truncated, class_name, "the file ends inside it");
+}
+
+ReadProblem ObjectReader::diagnose(const std::string& class_name, const std::string& error) const
+{
+  if (stream_->ranOut()) return diagnoseEnd(class_name);
+  const auto inner = stream_->lastHeaderRead();
+  if (inner && inner->class_name != class_name && !isRegistered(inner->class_name))
+    return makeProblem(
+        ReadProblemKind::UnknownClass, inner->class_name,
+        "the class of a part of " + (class_name.empty() ? "it" : class_name) + " is not known");
+  return makeProblem(ReadProblemKind::Corrupt, class_name, error);
+}
+
+// Decides whether and where reading goes on, and with that what the problem really was: a file that
+// ends inside an object and yet holds further ones is not truncated, its object lies about its
+// size; and one that starts with no object and holds none is no rawlog.
+NextObject ObjectReader::fail(ReadProblem problem)
+{
+  const bool at_start = index_ == 0 && object_offset_ == 0;
+  stream_->rewindTo(0);
+  if (at_start && startsAsZstd(*stream_))
+  {
+    finished_ = true;
+    return makeProblem(
+        ReadProblemKind::NotARawlog, "",
+        "the file is compressed with Zstandard (MRPT 2.15.7 and newer do that), which this program "
+        "does not read; decompress it with 'zstd -d' first");
+  }
+  stream_->rewindTo(1);
+  const bool found = (recover_ || at_start) && stream_->seekNextObservation();
+  finished_ = !found || !recover_;
+  if (found && problem.kind == ReadProblemKind::Truncated)
+    problem = makeProblem(
+        ReadProblemKind::Corrupt, problem.class_name, "it claims to be larger than it can be");
+  else if (
+      !found && at_start && problem.kind == ReadProblemKind::Corrupt && problem.class_name.empty())
+    problem =
+        makeProblem(ReadProblemKind::NotARawlog, "", "the content is not a stream of MRPT objects");
+  recovered_ = found;
+  ++index_;
+  return problem;
+}
+
+// Behind the observations that were saved from a broken sensory frame comes its end flag.
+void ObjectReader::skipFrameEnds()
+{
+  constexpr unsigned char kEndFlag = 0x88;
+  stream_->beginObject();
+  while (!stream_->atEnd() && !stream_->peekHeader())
+  {
+    unsigned char byte = 0;
+    stream_->Read(&byte, 1);
+    if (byte == kEndFlag) continue;
+    stream_->rewindTo(0);
+    return;
+  }
+}
+
+}  // namespace fastlio

@@ -1,0 +1,215 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "external_storage.h"
+#include "object_reader.h"
+#include "time_sorter.h"
+#include <fastlio/compat/register_classes.h>
+#include <fastlio/rawlog/rawlog_source.h>
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/rtti/CObject.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+namespace
+{
+using mrpt::obs::CObservation;
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+std::uint64_t sizeOf(const std::string& file)
+{
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  return error ? 0 : size;
+}
+
+// An observation is itself, a frame is what it holds; actions and others are nothing.
+std::vector<CObservation::Ptr> observationsOf(const mrpt::serialization::CSerializable::Ptr& object)
+{
+  if (auto single = std::dynamic_pointer_cast<CObservation>(object)) return {single};
+  std::vector<CObservation::Ptr> observations;
+  if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+    for (const auto& observation : *frame)
+      if (observation) observations.push_back(observation);
+  return observations;
+}
+
+bool belongsInARawlog(const mrpt::serialization::CSerializable& object)
+{
+  return dynamic_cast<const CObservation*>(&object) != nullptr ||
+         dynamic_cast<const mrpt::obs::CSensoryFrame*>(&object) != nullptr ||
+         dynamic_cast<const mrpt::obs::CActionCollection*>(&object) != nullptr;
+}
+}  // namespace
+
+namespace fastlio
+{
+const char* toString(ReadProblemKind kind)
+{
+  switch (kind)
+  {
+    case ReadProblemKind::NotFound:
+      return "not found";
+    case ReadProblemKind::NotARawlog:
+      return "not a rawlog";
+    case ReadProblemKind::Truncated:
+      return "truncated";
+    case ReadProblemKind::Corrupt:
+      return "corrupt";
+    case ReadProblemKind::UnknownClass:
+      return "unknown class";
+    case ReadProblemKind::ExternalFile:
+      return "external file";
+  }
+  return "unknown";
+}
+
+class RawlogSource::Impl
+{
+ public:
+  Impl(std::vector<std::string> files, const RawlogSourceOptions& options)
+      : files_(std::move(files)),
+        options_(options),
+        sorter_(std::llround(options.sorting_window * kNanosecondsPerSecond))
+  {
+    for (const std::string& file : files_)
+      progress_.bytes_total += sizeOf(file);
+  }
+
+  CObservation::Ptr next()
+  {
+    while (!sorter_.ready() && readMore())
+    {
+    }
+    if (sorter_.empty()) return nullptr;
+    ++progress_.observations_read;
+    return sorter_.pop();
+  }
+
+  [[nodiscard]] const std::vector<ReadProblem>& problems() const { return problems_; }
+
+  [[nodiscard]] ReadProgress progress() const
+  {
+    ReadProgress now = progress_;
+    now.bytes_read = bytes_of_files_read_ + (reader_ ? reader_->compressedPosition() : 0);
+    return now;
+  }
+
+ private:
+  bool readMore();
+  void take(const mrpt::serialization::CSerializable::Ptr& object);
+  void add(ReadProblem problem);
+  void closeFile();
+
+  std::vector<std::string> files_;
+  RawlogSourceOptions options_;
+  TimeSorter sorter_;
+  std::size_t file_ = 0;  // the one at hand
+  std::optional<ObjectReader> reader_;
+  std::string foreign_class_;    // of the first object in this file that belongs into no rawlog
+  bool rawlog_content_ = false;  // this file has held something that does
+  std::uint64_t bytes_of_files_read_ = 0;
+  ReadProgress progress_;
+  std::vector<ReadProblem> problems_;
+};
+
+// False when nothing is left to read.
+bool RawlogSource::Impl::readMore()
+{
+  if (file_ == files_.size()) return false;
+  if (!reader_) reader_.emplace(files_[file_], options_.recover);
+  NextObject next = reader_->next();
+  if (auto* object = std::get_if<mrpt::serialization::CSerializable::Ptr>(&next))
+    take(*object);
+  else if (auto* problem = std::get_if<ReadProblem>(&next))
+    add(std::move(*problem));
+  else
+    closeFile();
+  return true;
+}
+
+void RawlogSource::Impl::take(const mrpt::serialization::CSerializable::Ptr& object)
+{
+  ++progress_.objects_read;
+  if (belongsInARawlog(*object))
+    rawlog_content_ = true;
+  else if (foreign_class_.empty())
+    foreign_class_ = object->GetRuntimeClass()->className;
+  for (auto& observation : observationsOf(object))
+  {
+    if (auto error = loadExternal(*observation, files_[file_]))
+      add(
+          {files_[file_], progress_.objects_read - 1, 0, ReadProblemKind::ExternalFile,
+           observation->GetRuntimeClass()->className, *error, 1});
+    else
+      sorter_.push(std::move(observation));
+  }
+}
+
+void RawlogSource::Impl::add(ReadProblem problem)
+{
+  rawlog_content_ |= problem.kind != ReadProblemKind::NotFound;  // it speaks for itself
+  const auto same = std::find_if(
+      problems_.begin(), problems_.end(),
+      [&](const ReadProblem& p) {
+        return p.file == problem.file && p.kind == problem.kind &&
+               p.class_name == problem.class_name;
+      });
+  if (same != problems_.end())
+    ++same->occurrences;
+  else
+    problems_.push_back(std::move(problem));
+}
+
+void RawlogSource::Impl::closeFile()
+{
+  if (!rawlog_content_ && !foreign_class_.empty())
+    add(
+        {files_[file_], 0, 0, ReadProblemKind::NotARawlog, foreign_class_,
+         files_[file_] + ": this is not a rawlog, it holds an object of class " + foreign_class_ +
+             ". Give a file with observations.",
+         1});
+  bytes_of_files_read_ += sizeOf(files_[file_]);
+  reader_.reset();
+  foreign_class_.clear();
+  rawlog_content_ = false;
+  ++file_;
+}
+
+RawlogSource::RawlogSource(std::vector<std::string> files, RawlogSourceOptions options)
+{
+  if (files.empty()) throw std::invalid_argument("No rawlog file was given; give at least one.");
+  if (!(options.sorting_window >= 0.0))
+    throw std::invalid_argument(
+        "RawlogSourceOptions.sorting_window is " + std::to_string(options.sorting_window) +
+        " s; give zero or more.");
+  registerBridgeClasses();
+  impl_ = std::make_unique<Impl>(std::move(files), options);
+}
+
+RawlogSource::~RawlogSource() = default;
+RawlogSource::RawlogSource(RawlogSource&&) noexcept = default;
+RawlogSource& RawlogSource::operator=(RawlogSource&&) noexcept = default;
+
+CObservation::Ptr RawlogSource::next()
+{
+  return impl_->next();
+}
+const std::vector<ReadProblem>& RawlogSource::problems() const
+{
+  return impl_->problems();
+}
+ReadProgress RawlogSource::progress() const
+{
+  return impl_->progress();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,218 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Every way in which a rawlog can be broken: what is whole is delivered, what is wrong is told.
+
+#include "rawlog_reading.h"
+#include <fastlio/compat/register_classes.h>
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <random>
+
+namespace
+{
+using namespace fastlio::testing;
+using fastlio::ReadProblem;
+using fastlio::ReadProblemKind;
+
+class RawlogDamageTest : public RawlogTest
+{
+};
+
+// Where each object ends.
+std::vector<std::size_t> endsOf(const std::vector<Object>& objects)
+{
+  std::vector<std::size_t> ends;
+  ends.reserve(objects.size());
+  for (const Object& object : objects)
+    ends.push_back((ends.empty() ? 0 : ends.back()) + serialize({object}).size());
+  return ends;
+}
+
+std::size_t wholeObjects(const std::vector<std::size_t>& ends, std::size_t length)
+{
+  return static_cast<std::size_t>(
+      std::count_if(ends.begin(), ends.end(), [&](std::size_t end) { return end <= length; }));
+}
+
+void replaceAll(std::string& bytes, const std::string& from, const std::string& to)
+{
+  for (auto at = bytes.find(from); at != std::string::npos; at = bytes.find(from, at + 1))
+    bytes.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_F(RawlogDamageTest, PlainFileCutAnywhereKeepsAllWholeObjects)
+{
+  const auto objects = samples(4);
+  const auto ends = endsOf(objects);
+  const std::string bytes = serialize(objects);
+  for (std::size_t length = 1; length < bytes.size(); ++length)
+  {
+    const Reading reading = readAll({fileOf(bytes.substr(0, length))});
+    EXPECT_EQ(reading.seconds.size(), wholeObjects(ends, length)) << length;
+    const bool at_boundary = std::count(ends.begin(), ends.end(), length) > 0;
+    EXPECT_EQ(reading.problems.size(), at_boundary ? 0U : 1U) << length;
+    for (const ReadProblem& problem : reading.problems)
+    {
+      EXPECT_EQ(problem.kind, ReadProblemKind::Truncated) << length << problem.message;
+      EXPECT_EQ(problem.object_index, wholeObjects(ends, length));
+    }
+  }
+}
+
+TEST_F(RawlogDamageTest, GzipFileCutAnywhereIsTruncated)
+{
+  const auto objects = samples(40);
+  const std::string bytes = gzip(serialize(objects));
+  std::size_t most = 0;
+  for (std::size_t length = 1; length < bytes.size(); ++length)
+  {
+    const Reading reading = readAll({fileOf(bytes.substr(0, length))});
+    ASSERT_EQ(reading.problems.size(), 1U) << length;
+    const ReadProblemKind kind = reading.problems[0].kind;
+    EXPECT_TRUE(
+        kind == ReadProblemKind::Truncated ||
+        (reading.seconds.empty() && kind == ReadProblemKind::NotARawlog))
+        << length << reading.problems[0].message;
+    EXPECT_GE(reading.seconds.size(), most) << length;
+    most = reading.seconds.size();
+  }
+  EXPECT_EQ(most, objects.size());  // only the trailer was missing
+}
+
+TEST_F(RawlogDamageTest, CutInsideAFrameSavesItsWholeObservations)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  for (int i = 0; i < 5; ++i)
+    frame->insert(imuAt(0.01 * i));
+  const std::string bytes = serialize({imuAt(-1), frame});
+  const Reading reading = readAll({fileOf(bytes.substr(0, bytes.size() - 50))});
+  EXPECT_EQ(reading.seconds.size(), 5U);
+  ASSERT_FALSE(reading.problems.empty());
+  EXPECT_EQ(reading.problems.back().kind, ReadProblemKind::Truncated);
+}
+
+TEST_F(RawlogDamageTest, ABrokenObjectInTheMiddleCostsOnlyItself)
+{
+  const auto objects = samples(20);
+  const auto ends = endsOf(objects);
+  std::string bytes = serialize(objects);
+  bytes[ends[9] - 1] = 'x';  // the end flag of object 9
+  const Reading reading = readAll({fileOf(gzip(bytes))});
+  EXPECT_EQ(reading.seconds.size(), 19U);
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt);
+  EXPECT_EQ(reading.problems[0].object_index, 9U);
+  EXPECT_EQ(reading.problems[0].byte_offset, ends[8]);
+  EXPECT_EQ(reading.problems[0].class_name, "mrpt::obs::CObservationIMU");
+
+  const Reading strict = readAll({fileOf(gzip(bytes))}, {0.2, false});
+  EXPECT_EQ(strict.seconds.size(), 9U);
+}
+
+TEST_F(RawlogDamageTest, AnySingleWrongByteCostsAtMostTwoObjects)
+{
+  const auto objects = samples(12);
+  const std::string bytes = serialize(objects);
+  std::mt19937 random(1);
+  for (std::size_t at = 0; at < bytes.size(); ++at)
+  {
+    std::string wrong = bytes;
+    wrong[at] = static_cast<char>(wrong[at] ^ static_cast<char>(1U << (random() % 8)));
+    const Reading reading = readAll({fileOf(wrong)});
+    EXPECT_GE(reading.seconds.size(), objects.size() - 2) << at;
+  }
+}
+
+TEST_F(RawlogDamageTest, DamagedGzipIsCorruptAndKeepsWhatCameBefore)
+{
+  const auto objects = samples(3000);
+  const std::string bytes = gzip(serialize(objects));
+  std::mt19937 random(2);
+  int noticed = 0;
+  for (int i = 0; i < 30; ++i)
+  {
+    std::string wrong = bytes;
+    const std::size_t at = bytes.size() / 2 + random() % (bytes.size() / 4);
+    wrong[at] = static_cast<char>(~wrong[at]);
+    const Reading reading = readAll({fileOf(wrong)});
+    EXPECT_GE(reading.seconds.size(), 1000U);
+    noticed += reading.problems.empty() ? 0 : 1;
+  }
+  EXPECT_EQ(noticed, 30);  // at the latest by the checksum
+}
+
+TEST_F(RawlogDamageTest, NoiseNeverCrashes)
+{
+  std::mt19937 random(3);
+  const std::string bytes = serialize(samples(30));
+  for (int i = 0; i < 100; ++i)
+  {
+    std::string wrong = bytes;
+    for (int k = 0; k < 20; ++k)
+      wrong[random() % wrong.size()] = static_cast<char>(random());
+    readAll({fileOf(i % 2 == 0 ? wrong : gzip(wrong))});
+  }
+}
+
+TEST_F(RawlogDamageTest, OtherFilesAreNotRawlogs)
+{
+  fastlio::registerBridgeClasses();
+  const std::string map = serialize({mrpt::maps::CSimplePointsMap::Create()});
+  for (const std::string& content :
+       {std::string(), std::string("t x y z\n0 0 0 0\n"), std::string(5000, '\0'), gzip("text"),
+        gzip(""), map, std::string("\x28\xB5\x2F\xFD zstd")})
+  {
+    const Reading reading = readAll({fileOf(content)});
+    ASSERT_EQ(reading.problems.size(), 1U);
+    EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotARawlog) << reading.problems[0].message;
+    EXPECT_NE(reading.problems[0].message.find("log.rawlog"), std::string::npos);
+  }
+}
+
+TEST_F(RawlogDamageTest, ZstdIsNamed)
+{
+  const Reading reading = readAll({fileOf("\x28\xB5\x2F\xFD.......")});
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_NE(reading.problems[0].message.find("zstd -d"), std::string::npos);
+}
+
+TEST_F(RawlogDamageTest, UnknownClassesAreNamedCountedAndSkipped)
+{
+  std::vector<Object> objects;
+  for (int i = 0; i < 10; ++i)
+  {
+    objects.push_back(imuAt(i));
+    objects.push_back(mrpt::obs::CObservationComment::Create());
+  }
+  std::string bytes = serialize(objects);
+  replaceAll(bytes, "mrpt::obs::CObservationComment", "mrpt::obs::CObservationFutures");
+  const Reading reading = readAll({fileOf(bytes)});
+  EXPECT_EQ(reading.seconds.size(), 10U);
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::UnknownClass);
+  EXPECT_EQ(reading.problems[0].class_name, "mrpt::obs::CObservationFutures");
+  EXPECT_EQ(reading.problems[0].occurrences, 10U);
+  EXPECT_NE(reading.problems[0].message.find("newer"), std::string::npos);
+}
+
+TEST_F(RawlogDamageTest, UnknownClassInsideAnObservationIsNamed)
+{
+  auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->sensorLabel = "lidar";
+  cloud->pointcloud = mrpt::maps::CSimplePointsMap::Create();
+  std::string bytes = serialize({imuAt(0), cloud, imuAt(1)});
+  replaceAll(bytes, "mrpt::maps::CSimplePointsMap", "mrpt::maps::CGenericxxxxxMap");
+  const Reading reading = readAll({fileOf(bytes)});
+  EXPECT_EQ(reading.seconds.size(), 2U);
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::UnknownClass);
+  EXPECT_EQ(reading.problems[0].class_name, "mrpt::maps::CGenericxxxxxMap");
+}

@@ -1,0 +1,185 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Reading rawlogs: formats, order, progress.
+
+#include "rawlog_reading.h"
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/xyzirt_access.h>
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <filesystem>
+
+namespace
+{
+using namespace fastlio::testing;
+using fastlio::RawlogSource;
+using fastlio::ReadProblemKind;
+
+class RawlogSourceTest : public RawlogTest
+{
+};
+}  // namespace
+
+TEST_F(RawlogSourceTest, ReadsPlainAndGzip)
+{
+  const std::string bytes = serialize(samples(10));
+  for (const std::string& content :
+       {bytes, gzip(bytes), gzip(bytes.substr(0, 700)) + gzip(bytes.substr(700))})
+  {
+    const Reading reading = readAll({fileOf(content)});
+    EXPECT_EQ(reading.seconds.size(), 10U);
+    EXPECT_TRUE(reading.problems.empty()) << reading.problems.front().message;
+  }
+}
+
+TEST_F(RawlogSourceTest, TakesSensoryFramesApartAndSkipsActions)
+{
+  std::vector<Object> objects;
+  for (int i = 0; i < 3; ++i)
+  {
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(imuAt(i, "a"));
+    frame->insert(imuAt(i, "b"));
+    objects.push_back(mrpt::obs::CActionCollection::Create());
+    objects.push_back(frame);
+  }
+  const Reading reading = readAll({fileOf(gzip(serialize(objects)))});
+  EXPECT_EQ(reading.labels, (std::vector<std::string>{"a", "b", "a", "b", "a", "b"}));
+  EXPECT_TRUE(reading.problems.empty());
+}
+
+TEST_F(RawlogSourceTest, ReadsFilesInTheOrderGiven)
+{
+  write(folder_.file("1"), serialize({imuAt(0), imuAt(1)}));
+  write(folder_.file("2"), gzip(serialize({imuAt(2), imuAt(3)})));
+  const Reading reading = readAll({folder_.file("1"), folder_.file("2")});
+  EXPECT_EQ(reading.seconds, (std::vector<double>{0, 1, 2, 3}));
+}
+
+TEST_F(RawlogSourceTest, AMissingFileDoesNotStopTheNext)
+{
+  write(folder_.file("2"), serialize({imuAt(2)}));
+  const Reading reading = readAll({folder_.file("1"), folder_.path().string(), folder_.file("2")});
+  EXPECT_EQ(reading.seconds.size(), 1U);
+  ASSERT_EQ(reading.problems.size(), 2U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotFound);
+  EXPECT_EQ(reading.problems[0].file, folder_.file("1"));
+  EXPECT_EQ(reading.problems[1].kind, ReadProblemKind::NotFound);
+}
+
+TEST_F(RawlogSourceTest, SortsWithinTheWindow)
+{
+  const std::string file = fileOf(serialize(
+      {imuAt(1.0, "a"), imuAt(1.1, "a"), imuAt(1.0, "b"), imuAt(0.95, "b"), imuAt(2.0, "a"),
+       imuAt(0.5, "late"), imuAt(3.0, "a")}));
+  EXPECT_EQ(readAll({file}).seconds, (std::vector<double>{0.95, 1.0, 1.0, 1.1, 0.5, 2.0, 3.0}));
+  EXPECT_EQ(
+      readAll({file}).labels, (std::vector<std::string>{"b", "a", "b", "a", "late", "a", "a"}));
+  EXPECT_EQ(
+      readAll({file}, {0.0, true}).seconds,
+      (std::vector<double>{1.0, 1.1, 1.0, 0.95, 2.0, 0.5, 3.0}));
+}
+
+TEST_F(RawlogSourceTest, StampsThatJumpBackOrMakeNoSenseLoseNothing)
+{
+  auto objects = samples(50);
+  for (int i = 0; i < 50; ++i)
+    objects.push_back(imuAt(-3600 + 0.005 * i));
+  objects.insert(objects.begin() + 20, imuAt(1e6));
+  auto unset = imuAt(0);
+  unset->timestamp = INVALID_TIMESTAMP;
+  objects.insert(objects.begin() + 10, unset);
+  auto absurd = imuAt(0);
+  absurd->timestamp = mrpt::Clock::time_point::max();
+  objects.push_back(absurd);
+  EXPECT_EQ(readAll({fileOf(serialize(objects))}).seconds.size(), 103U);
+}
+
+TEST_F(RawlogSourceTest, MemoryIsBoundedWhereTimeStandsStill)
+{
+  std::vector<Object> objects(5000, imuAt(1.0));
+  EXPECT_EQ(readAll({fileOf(gzip(serialize(objects)))}).seconds.size(), 5000U);
+}
+
+TEST_F(RawlogSourceTest, ExternalCloudsAreLoadedFromBesideTheFile)
+{
+  std::filesystem::create_directory(folder_.path() / "log_Images");
+  const auto points = fastlio::makeXyzirt(fastlio::CloudColumns{{1}, {2}, {3}, {4}, {5}, {0.5F}});
+  write((folder_.path() / "log_Images" / "scan.bin").string(), gzip(serialize({points})));
+  const auto cloudIn = [](const std::string& file)
+  {
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->timestamp = fastlio::toMrptTime(kStart);
+    cloud->setAsExternalStorage(
+        file, mrpt::obs::CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization);
+    return cloud;
+  };
+  RawlogSource source({fileOf(serialize({cloudIn("scan.bin"), cloudIn("gone.bin")}))});
+  const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
+  ASSERT_TRUE(read && read->pointcloud) << source.problems().front().message;
+  EXPECT_EQ(fastlio::readColumns(*read->pointcloud).time, std::vector<double>{0.5});
+  EXPECT_EQ(source.next(), nullptr);
+  ASSERT_EQ(source.problems().size(), 1U);
+  EXPECT_EQ(source.problems()[0].kind, ReadProblemKind::ExternalFile);
+  EXPECT_NE(source.problems()[0].message.find("gone.bin"), std::string::npos);
+}
+
+TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
+{
+  using Format = mrpt::obs::CObservationPointCloud::ExternalStorageFormat;
+  std::filesystem::create_directory(folder_.path() / "log_Images");
+  const auto file = [&](const char* name)
+  { return (folder_.path() / "log_Images" / name).string(); };
+  const std::vector<float> kitti{1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
+  write(
+      file("scan.bin"),
+      {reinterpret_cast<const char*>(kitti.data()), kitti.size() * sizeof(float)});
+  write(file("scan.txt"), "1 2 3\n4 5 6\n");
+  std::vector<Object> objects;
+  for (const auto& [name, format] :
+       {std::pair{"scan.bin", Format::KittiBinFile}, {"scan.txt", Format::PlainTextFile}})
+  {
+    auto cloud = mrpt::obs::CObservationPointCloud::Create();
+    cloud->timestamp = fastlio::toMrptTime(kStart);
+    cloud->setAsExternalStorage(name, format);
+    objects.push_back(cloud);
+  }
+  RawlogSource source({fileOf(serialize(objects))});
+  for (const bool bright : {true, false})
+  {
+    const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
+    ASSERT_TRUE(read && read->pointcloud) << source.problems().front().message;
+    const fastlio::CloudColumns columns = fastlio::readColumns(*read->pointcloud);
+    EXPECT_EQ(columns.x, (std::vector<float>{1, 4}));
+    EXPECT_EQ(columns.z, (std::vector<float>{3, 6}));
+    if (bright)
+    {
+      EXPECT_EQ(columns.intensity, (std::vector<float>{0.5F, 0.25F}));
+    }
+    EXPECT_TRUE(columns.time.empty());
+  }
+}
+
+TEST_F(RawlogSourceTest, ProgressReachesTheSizeOfTheFiles)
+{
+  const std::string content = gzip(serialize(samples(1000)));
+  RawlogSource source({fileOf(content)});
+  EXPECT_EQ(source.progress().bytes_total, content.size());
+  while (source.next())
+  {
+    EXPECT_LE(source.progress().bytes_read, content.size());
+  }
+  EXPECT_EQ(source.progress().bytes_read, content.size());
+  EXPECT_EQ(source.progress().objects_read, 1000U);
+  EXPECT_EQ(source.progress().observations_read, 1000U);
+}
+
+TEST(RawlogSourceOptions, AreChecked)
+{
+  EXPECT_THROW(RawlogSource({}), std::invalid_argument);
+  EXPECT_THROW(RawlogSource({"a"}, {-1.0, true}), std::invalid_argument);
+}

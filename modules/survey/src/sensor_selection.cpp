@@ -1,0 +1,142 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "label_pattern.h"
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/survey/sensor_selection.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace
+{
+using fastlio::SensorKind;
+using fastlio::SensorSummary;
+using fastlio::SensorSurvey;
+
+const char* nameOf(SensorKind kind)
+{
+  return kind == SensorKind::Imu ? "IMU" : "LiDAR";
+}
+const char* flagOf(SensorKind kind)
+{
+  return kind == SensorKind::Imu ? "--imu-sensor-label" : "--lidar-sensor-label";
+}
+
+std::string whatThereIs(const SensorSurvey& survey)
+{
+  std::string text;
+  for (const auto& problem : survey.problems)
+    text += "\n  trouble: " + problem.message;
+  for (const SensorSummary& sensor : survey.sensors)
+    text += "\n  found: " + describe(sensor);
+  return text.empty() ? "\n  There are no observations at all." : text;
+}
+
+std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::string& pattern)
+{
+  const auto is_kind = [&](const SensorSummary& s) { return s.kind == kind; };
+  const auto count = std::count_if(survey.sensors.begin(), survey.sensors.end(), is_kind);
+  if (survey.sensors.empty())
+    return std::string("No ") + nameOf(kind) + " found: nothing could be read.";
+  if (count == 0)
+    return std::string("No ") + nameOf(kind) + " found in the recording. " +
+           (kind == SensorKind::Imu
+                ? "Odometry needs a CObservationIMU with acceleration and angular rate."
+                : "Odometry needs CObservationVelodyneScan or CObservationPointCloud.");
+  if (!pattern.empty())
+    return std::string("No usable ") + nameOf(kind) + " has a label that matches '" + pattern +
+           "'. Give another " + flagOf(kind) + ".";
+  return std::string("No ") + nameOf(kind) + " of the recording can be used; see the reason below.";
+}
+
+using Taken = std::vector<const SensorSummary*>;
+
+const SensorSummary* bestOf(
+    const SensorSurvey& survey, SensorKind kind, const fastlio::LabelPattern& pattern,
+    const Taken& taken)
+{
+  const SensorSummary* best = nullptr;
+  for (const SensorSummary& sensor : survey.sensors)
+  {
+    const bool free = std::find(taken.begin(), taken.end(), &sensor) == taken.end();
+    const bool fits = sensor.kind == kind && sensor.usable && pattern.matches(sensor.label);
+    if (free && fits && (best == nullptr || sensor.observations > best->observations))
+      best = &sensor;
+  }
+  return best;
+}
+
+Taken askedForBeside(const SensorSurvey& survey, const fastlio::SensorPatterns& patterns)
+{
+  Taken asked;
+  for (const std::string& label : patterns.further_lidar_labels)
+    for (const SensorSummary& sensor : survey.sensors)
+      if (fastlio::LabelPattern("lidar", label).matches(sensor.label)) asked.push_back(&sensor);
+  return asked;
+}
+
+const SensorSummary& choose(
+    const SensorSurvey& survey, SensorKind kind, const std::string& pattern, const Taken& taken)
+{
+  const SensorSummary* best = bestOf(
+      survey, kind, fastlio::LabelPattern(kind == SensorKind::Imu ? "imu" : "lidar", pattern),
+      taken);
+  if (best == nullptr)
+    throw std::runtime_error(reasonFor(survey, kind, pattern) + whatThereIs(survey));
+  return *best;
+}
+}  // namespace
+
+namespace fastlio
+{
+SensorSelection selectSensors(const SensorSurvey& survey, const SensorPatterns& patterns)
+{
+  // "Any" for the first LiDAR does not mean those that are asked for beside it.
+  const Taken reserved = patterns.lidar_label.empty() ? askedForBeside(survey, patterns) : Taken{};
+  Taken used{
+      &choose(survey, SensorKind::Lidar, patterns.lidar_label, reserved),
+      &choose(survey, SensorKind::Imu, patterns.imu_label, {})};
+  SensorSelection selection{*used[0], *used[1], {}, {}};
+  for (const std::string& label : patterns.further_lidar_labels)
+  {
+    used.push_back(&choose(survey, SensorKind::Lidar, label, used));
+    selection.further_lidars.push_back(*used.back());
+  }
+  for (const SensorSummary& sensor : survey.sensors)
+    if (std::find(used.begin(), used.end(), &sensor) == used.end())
+      selection.ignored.push_back(sensor);
+  return selection;
+}
+
+std::string describe(const SensorSummary& sensor)
+{
+  const auto pose = toMrptPose(sensor.T_vehicle_sensor);
+  const double seconds = toSeconds(sensor.last_stamp_ns - sensor.first_stamp_ns);
+  std::string text =
+      mrpt::format("label '%s', %s", sensor.label.c_str(), sensor.class_name.c_str());
+  if (!sensor.detail.empty()) text += " (" + sensor.detail + ")";
+  if (seconds > 0)
+    text += mrpt::format(", %.1f Hz", static_cast<double>(sensor.observations - 1) / seconds);
+  return text + mrpt::format(
+                    ", T_vehicle_sensor: x=%.3f y=%.3f z=%.3f m, yaw=%.2f pitch=%.2f roll=%.2f deg",
+                    pose.x(), pose.y(), pose.z(), pose.yaw() * kDegPerRad,
+                    pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad);
+}
+
+std::string describe(const SensorSelection& selection)
+{
+  std::string text = "LiDAR: " + describe(selection.lidar);
+  for (const SensorSummary& sensor : selection.further_lidars)
+    text += "\nLiDAR: " + describe(sensor);
+  text += "\nIMU:   " + describe(selection.imu);
+  for (const SensorSummary& sensor : selection.ignored)
+    text += "\nignored: " + describe(sensor);
+  return text;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,145 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "survey_diagnostics.h"
+
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kSteepTilt = 30.0;     // [deg]
+constexpr double kOddRotation = 10.0;   // between found and given mounting [deg]
+constexpr double kOddOffset = 0.02;     // the check is rough [s]
+constexpr double kDegreesScale = 10.0;  // rates differ by more: the gyro is in deg/s
+constexpr double kLittleOverlap = 0.9;
+constexpr double kSlowImu = 50.0;  // [Hz]
+
+void warn(RecordingSurvey& survey, std::string text)
+{
+  survey.warnings.push_back(std::move(text));
+}
+
+void remarkOnRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const char* what)
+{
+  const StampReport& stamps = sensor.stamps;
+  const char* label = sensor.summary.label.c_str();
+  if (stamps.gaps > 0)
+    warn(
+        survey,
+        mrpt::format(
+            "%s '%s': %zu gaps, the longest of %.3f s at %.3f s after its start.", what, label,
+            stamps.gaps, stamps.longest_gap, toSeconds(stamps.longest_gap_ns - stamps.first_ns)));
+  if (stamps.backwards + stamps.duplicates > 0)
+    warn(
+        survey, mrpt::format(
+                    "%s '%s': %zu stamps before the one before them, %zu equal to it.", what, label,
+                    stamps.backwards, stamps.duplicates));
+}
+
+void remarkOnOverlap(RecordingSurvey& survey)
+{
+  const ClockOverlap& overlap = survey.overlap;
+  if (overlap.seconds <= 0)
+    warn(
+        survey,
+        mrpt::format(
+            "LiDAR and IMU have no time in common: %.3f s lie between them. Are their clocks "
+            "the same? lidar.time_offset shifts the LiDAR's.",
+            -overlap.seconds));
+  else if (overlap.share < kLittleOverlap)
+    warn(
+        survey,
+        mrpt::format("The IMU covers %.0f %% of the LiDAR's time only.", 100.0 * overlap.share));
+}
+
+void remarkOnImu(RecordingSurvey& survey, const Parameters& parameters)
+{
+  const ImuSurvey& imu = survey.imu;
+  const SurveyedSensor& sensor = survey.sensors[*survey.imu_index];
+  if (sensor.stamps.rate() < kSlowImu)
+    warn(survey, mrpt::format("The IMU is slow: %.1f Hz.", sensor.stamps.rate()));
+  if (!imu.rests)
+  {
+    warn(
+        survey,
+        "The platform is never at rest for a second: start in motion (initialization.mode: motion "
+        "or auto).");
+    return;
+  }
+  const double before = toSeconds(imu.rest_begin_ns - sensor.stamps.first_ns);
+  if (before > parameters.initialization.duration &&
+      parameters.initialization.mode == InitializationMode::Rest)
+    survey.notes.push_back(mrpt::format(
+        "The longest rest (%.1f s) begins %.1f s after the start; initialization.mode: auto does "
+        "not wait for it.",
+        imu.rest_seconds, before));
+  if (imu.accel_unit.empty())
+    warn(
+        survey, mrpt::format(
+                    "The specific force at rest is %.4g, which is gravity neither in m/s^2, g nor "
+                    "mg: is the rest one, is the sensor calibrated?",
+                    imu.accel_norm));
+  else if (imu.accel_unit != "m/s^2")
+    warn(survey, "The specific force is in " + imu.accel_unit + ", not in m/s^2.");
+  const double tilt = kDegPerRad * tiltOf(survey, parameters);
+  if (tilt > kSteepTilt)
+    survey.notes.push_back(mrpt::format(
+        "By its sensor pose the vehicle stands tilted by %.0f deg at rest; the odometry does not "
+        "mind, but is the pose of the IMU right?",
+        tilt));
+}
+
+void diagnoseMotion(RecordingSurvey& survey, const Parameters& parameters)
+{
+  if (!survey.motion || !survey.motion->conclusive) return;
+  const MotionCheck& motion = *survey.motion;
+  if (motion.scale > kDegreesScale)
+    warn(
+        survey, mrpt::format(
+                    "The gyro turns %.1f times as fast as the LiDAR: it is in deg/s, not rad/s.",
+                    motion.scale));
+  const double offset = motion.time_offset - parameters.lidar.time_offset;
+  if (std::abs(offset) > kOddOffset)
+    warn(
+        survey, mrpt::format(
+                    "The stamps of LiDAR and IMU differ: lidar.time_offset should be about %.3f s "
+                    "(correlation %.2f). Half or a whole scan period means that the stamp's "
+                    "reference is another (input.point_time_reference).",
+                    motion.time_offset, motion.correlation));
+  const double angle = kDegPerRad * survey.rotation_error;
+  if (motion.rotation_known && angle > kOddRotation)
+    warn(
+        survey, mrpt::format(
+                    "The given mounting of LiDAR and IMU is %.0f deg off the one that both motions "
+                    "show; check sensorPose, input.T_vehicle_lidar and input.T_vehicle_imu.",
+                    angle));
+}
+}  // namespace
+
+double tiltOf(const RecordingSurvey& survey, const Parameters& parameters)
+{
+  const Pose T_vehicle_imu = parameters.input.T_vehicle_imu.value_or(
+      survey.sensors[*survey.imu_index].summary.T_vehicle_sensor);
+  const Vec3 up = T_vehicle_imu.R * survey.imu.up;
+  return std::acos(std::clamp(up.z(), -1.0, 1.0));
+}
+
+void addRemarks(RecordingSurvey& survey, const Parameters& parameters)
+{
+  for (const SurveyedLidar& lidar : survey.lidars)
+    remarkOnRhythm(survey, survey.sensors[lidar.index], "LiDAR");
+  remarkOnRhythm(survey, survey.sensors[*survey.imu_index], "IMU");
+  remarkOnOverlap(survey);
+  remarkOnImu(survey, parameters);
+  diagnoseMotion(survey, parameters);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,17 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file survey_diagnostics.h What people should know of a surveyed recording (internal). */
+#pragma once
+
+#include <fastlio/survey/recording_survey.h>
+
+namespace fastlio
+{
+/** Adds to survey.notes and survey.warnings. */
+void addRemarks(RecordingSurvey& survey, const Parameters& parameters);
+
+/** Angle between the vehicle's z axis and up, at rest [rad]. */
+[[nodiscard]] double tiltOf(const RecordingSurvey& survey, const Parameters& parameters);
+
+}  // namespace fastlio

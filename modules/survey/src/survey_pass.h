@@ -1,0 +1,49 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file survey_pass.h The two readings of a recording that surveyRecording() makes (internal). */
+#pragma once
+
+#include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/survey/lidar_look.h>
+#include <fastlio/survey/motion_check.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+using SurveyProgress = std::function<void(double share)>;
+
+/** What the first reading gathers; one entry per sensor. */
+struct FirstPass
+{
+  SensorSurvey survey;
+  std::vector<std::vector<std::int64_t>> stamps;  //!< in the order of the files
+  std::vector<std::vector<ImuSample>> samples;    //!< of IMUs, ascending stamps
+  std::vector<std::vector<double>> leads;  //!< of LiDARs: stamp minus newest IMU stamp before [s]
+};
+
+[[nodiscard]] FirstPass readFirst(
+    const std::vector<std::string>& files, const SurveyProgress& progress);
+
+/** What the second reading looks at. */
+struct SecondPassRequest
+{
+  ScanSpan turns{0, -1};   //!< stamps of scans of the first LiDAR to be matched; empty: none
+  std::size_t looks = 20;  //!< scans per LiDAR to be looked at
+};
+
+struct SecondPass
+{
+  std::vector<LidarLook> looks;  //!< the first LiDAR, then the further ones
+  std::vector<ScanTurn> turns;
+  Pose T_imu_lidar;  //!< of the first LiDAR, as it is given
+};
+
+[[nodiscard]] SecondPass readSecond(
+    const std::vector<std::string>& files, ObservationBridge bridge,
+    const SecondPassRequest& request, const SurveyProgress& progress);
+
+}  // namespace fastlio

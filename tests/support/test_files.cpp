@@ -1,0 +1,89 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "test_files.h"
+
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <unistd.h>
+#include <zlib.h>
+
+namespace fastlio::testing
+{
+TemporaryFolder::TemporaryFolder()
+{
+  std::string name = (std::filesystem::temp_directory_path() / "fastlio_test_XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+  std::error_code error;
+  std::filesystem::remove_all(path_, error);
+}
+
+std::string serialize(const std::vector<Object>& objects)
+{
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  for (const Object& object : objects)
+    archive.WriteObject(object.get());
+  return {
+      static_cast<const char*>(stream.getRawBufferData()),
+      static_cast<std::size_t>(stream.getTotalBytesCount())};
+}
+
+std::string gzip(const std::string& bytes, int level, int strategy, gz_header* header)
+{
+  constexpr int kGzipWindow = 15 + 16;
+  z_stream stream{};
+  if (deflateInit2(&stream, level, Z_DEFLATED, kGzipWindow, 8, strategy) != Z_OK)
+    throw std::runtime_error("deflateInit2");
+  if (header != nullptr) deflateSetHeader(&stream, header);
+  std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
+  std::string input = bytes;
+  stream.next_in = reinterpret_cast<Bytef*>(input.data());
+  stream.avail_in = static_cast<uInt>(input.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
+void write(const std::string& file, const std::string& bytes)
+{
+  // A new file: truncating an old one makes ext4 flush it to the disk.
+  std::filesystem::remove(file);
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+mrpt::obs::CObservationIMU::Ptr imuAt(double seconds, const std::string& label)
+{
+  auto imu = mrpt::obs::CObservationIMU::Create();
+  imu->sensorLabel = label;
+  imu->timestamp = fastlio::toMrptTime(kStart + toNanoseconds(seconds));
+  imu->set(mrpt::obs::IMU_WX, 0.01);
+  imu->set(mrpt::obs::IMU_WY, 0.02);
+  imu->set(mrpt::obs::IMU_WZ, 0.03);
+  imu->set(mrpt::obs::IMU_X_ACC, 0.1);
+  imu->set(mrpt::obs::IMU_Y_ACC, 0.2);
+  imu->set(mrpt::obs::IMU_Z_ACC, 9.81);
+  return imu;
+}
+
+std::string recordingsFolder()
+{
+  return FASTLIO_RECORDINGS_DIR;
+}
+
+}  // namespace fastlio::testing

@@ -1,0 +1,53 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file test_files.h Rawlogs written for a test, in a folder that is removed after it. */
+#pragma once
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/serialization/CSerializable.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+#include <zlib.h>
+
+namespace fastlio::testing
+{
+class TemporaryFolder
+{
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+using Object = mrpt::serialization::CSerializable::Ptr;
+
+/** The bytes of an uncompressed rawlog. */
+std::string serialize(const std::vector<Object>& objects);
+
+/** One member of a gzip file, with whatever kinds of blocks zlib's level and strategy make. */
+std::string gzip(
+    const std::string& bytes, int level = 6, int strategy = Z_DEFAULT_STRATEGY,
+    gz_header* header = nullptr);
+
+void write(const std::string& file, const std::string& bytes);
+
+constexpr std::int64_t kStart = 1'700'000'000'000'000'000;  // [ns]
+
+/** A sample at rest, seconds after kStart. */
+mrpt::obs::CObservationIMU::Ptr imuAt(double seconds, const std::string& label = "imu");
+
+/** Empty when the tests were configured without recordings. */
+std::string recordingsFolder();
+
+}  // namespace fastlio::testing
