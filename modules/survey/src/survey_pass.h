@@ -7,6 +7,7 @@
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/survey/lidar_look.h>
 #include <fastlio/survey/motion_check.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <functional>
 #include <string>
