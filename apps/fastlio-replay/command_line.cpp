@@ -28,8 +28,10 @@ constexpr const char* kFooter =
     "    3  input truncated or corrupt; results of what could be read are written\n"
     "    4  the odometry diverged or never initialised; results are written\n"
     "    5  an output file could not be written; the others are complete\n"
+    "    6  degraded: stretches of the run cannot be trusted (untrusted.csv says which);\n"
+    "       results are written\n"
     "  130  interrupted (Ctrl-C or SIGTERM); results up to there are written\n"
-    "When several apply, the order is 130, 5, 3, 4.\n\n"
+    "When several apply, the order is 130, 5, 3, 4, 6.\n\n"
     "Example:\n"
     "  fastlio-replay -c params/velodyne_vlp16.yaml --input-rawlog walk.rawlog --output-dir out";
 

@@ -113,6 +113,13 @@ std::string healthText(const RunHealth& health)
          first->health.reason;
 }
 
+std::string stretchText(const UntrustedStretch& stretch)
+{
+  return fixedText(stretch.begin_s, 1) + " to " + fixedText(stretch.end_s, 1) + " s (" +
+         std::to_string(stretch.scans) + " scans): " + toString(stretch.cause) + ": " +
+         stretch.reason;
+}
+
 std::string filesText(const std::vector<OutputFile>& files)
 {
   std::size_t width = 0;
@@ -147,6 +154,9 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
   const auto& statistics = summary.statistics;
   if (statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0)
     sentences.push_back(whyOdometryFailed(statistics));
+  if (exitStatusOf(summary) == ExitStatus::Degraded)
+    sentences.emplace_back(
+        "degraded: do not rely on the stretches that the report calls untrusted (untrusted.csv)");
   if (summary.interrupted)
     sentences.emplace_back("interrupted; the results up to there are written");
   return sentences;
@@ -166,6 +176,8 @@ std::string reportText(const RunSummary& summary)
     text += line("Open", openText(statistics.openDirections()));
   text += line("IMU", imuText(summary.imu));
   text += line("Health", healthText(statistics.health()));
+  for (const UntrustedStretch& stretch : statistics.health().untrusted())
+    text += line("Untrusted", stretchText(stretch));
   for (const Diagnostic& diagnostic : summary.diagnostics)
     text += line("Diagnostic", secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
   text += filesText(summary.outputs);

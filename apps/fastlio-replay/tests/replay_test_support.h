@@ -88,8 +88,8 @@ class ReplayTest : public ::testing::Test
   void expectAllFiles() const
   {
     for (const auto* name :
-         {"trajectory.tum", "states.csv", "covariance.csv", "timing.csv", "map.ply",
-          "map.metricmap", "summary.json"})
+         {"trajectory.tum", "states.csv", "covariance.csv", "timing.csv", "untrusted.csv",
+          "map.ply", "map.metricmap", "summary.json"})
     {
       EXPECT_TRUE(std::filesystem::exists(file("out/" + std::string(name)))) << name;
       EXPECT_FALSE(std::filesystem::exists(file("out/" + std::string(name) + ".tmp"))) << name;

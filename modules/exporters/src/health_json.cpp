@@ -23,8 +23,19 @@ Json healthJson(const RunHealth& health)
         {"value", trouble->health.value},
         {"cause", toString(trouble->health.cause)},
         {"reason", trouble->health.reason}};
+  Json untrusted = Json::array();
+  for (const UntrustedStretch& stretch : health.untrusted())
+    untrusted.push_back(
+        {{"from_s", stretch.begin_s},
+         {"to_s", stretch.end_s},
+         {"from", secondsText(stretch.begin_ns)},
+         {"to", secondsText(stretch.end_ns)},
+         {"scans", stretch.scans},
+         {"cause", toString(stretch.cause)},
+         {"reason", stretch.reason}});
   return {{"scans", health.scans()}, {"troubled", health.troubled()}, {"mean", health.mean()},
-          {"worst", health.worst()}, {"first_trouble", first},        {"causes", causes}};
+          {"worst", health.worst()}, {"first_trouble", first},        {"causes", causes},
+          {"untrusted", untrusted}};
 }
 
 Json imuJson(const ImuReport& imu)

@@ -8,6 +8,13 @@
 
 namespace fastlio
 {
+namespace
+{
+// Trouble that comes again within this time belongs to the same stretch.
+constexpr double kStretchGap = 1.0;  // [s]
+constexpr std::size_t kLeastScans = 3;
+}  // namespace
+
 void RunHealth::add(const ScanResult& result)
 {
   if (seen_ == 0) begin_ns_ = result.begin_ns;
@@ -19,8 +26,39 @@ void RunHealth::add(const ScanResult& result)
   if (result.health.value >= kTroubledHealth) return;
   ++troubled_;
   ++causes_[result.health.cause];
+  extendStretch(result);
   if (first_) return;
   first_ = Trouble{index, result.stamp_ns, toSeconds(result.stamp_ns - begin_ns_), result.health};
+}
+
+void RunHealth::extendStretch(const ScanResult& result)
+{
+  if (stretches_.empty() ||
+      toSeconds(result.stamp_ns - stretches_.back().stretch.end_ns) > kStretchGap)
+  {
+    stretches_.emplace_back();
+    stretches_.back().stretch.begin_ns = result.stamp_ns;
+    stretches_.back().stretch.begin_s = toSeconds(result.stamp_ns - begin_ns_);
+  }
+  Growing& growing = stretches_.back();
+  UntrustedStretch& stretch = growing.stretch;
+  stretch.end_ns = result.stamp_ns;
+  stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);
+  ++stretch.scans;
+  if (++growing.causes[result.health.cause] > growing.causes[stretch.cause] ||
+      stretch.cause == HealthCause::None)
+    stretch.cause = result.health.cause;
+  if (result.health.value >= growing.worst) return;
+  growing.worst = result.health.value;
+  stretch.reason = result.health.reason;
+}
+
+std::vector<UntrustedStretch> RunHealth::untrusted() const
+{
+  std::vector<UntrustedStretch> stretches;
+  for (const Growing& growing : stretches_)
+    if (growing.stretch.scans >= kLeastScans) stretches.push_back(growing.stretch);
+  return stretches;
 }
 
 double RunHealth::mean() const

@@ -13,7 +13,7 @@ ExitStatus exitStatusOf(const RunSummary& summary)
   const bool diverged = summary.statistics.count(ScanStatus::Diverged) > 0;
   if (!summary.failure.empty() || diverged || summary.statistics.poses() == 0)
     return ExitStatus::OdometryFailed;
-  return ExitStatus::Ok;
+  return summary.statistics.health().untrusted().empty() ? ExitStatus::Ok : ExitStatus::Degraded;
 }
 
 const char* toString(ExitStatus status)
@@ -32,6 +32,8 @@ const char* toString(ExitStatus status)
       return "odometry_failed";
     case ExitStatus::OutputFailed:
       return "output_failed";
+    case ExitStatus::Degraded:
+      return "degraded";
     case ExitStatus::Interrupted:
       return "interrupted";
   }

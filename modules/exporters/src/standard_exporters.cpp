@@ -74,6 +74,8 @@ const std::vector<ExporterKind>& exporterKinds()
        [](const Options& o) { return makeImuRateExporter(o.path("imu_rate.csv"), o.frame); }},
       {"timing", "timing.csv", "what became of each scan, milliseconds per stage", true,
        [](const Options& o) { return makeTimingExporter(o.path("timing.csv")); }},
+      {"untrusted", "untrusted.csv", "stretches of the run that cannot be trusted, and why", true,
+       [](const Options& o) { return makeUntrustedExporter(o.path("untrusted.csv")); }},
       {"ply", "map.ply", "map: points with intensity and time (PLY)", true,
        [](const Options& o) { return makePlyMapExporter(o.path("map.ply")); }},
       {"pcd", "map.pcd", "the same as PCD", false,

@@ -67,10 +67,10 @@ TEST(ExporterSet, StandardFilesAreAllThere)
   const RunSummary summary = set.finish({}, *smallMap());
   EXPECT_TRUE(summary.output_problems.empty());
   for (const auto* name :
-       {"trajectory.tum", "extra.tum", "states.csv", "covariance.csv", "timing.csv", "map.ply",
-        "map.metricmap", "summary.json"})
+       {"trajectory.tum", "extra.tum", "states.csv", "covariance.csv", "timing.csv",
+        "untrusted.csv", "map.ply", "map.metricmap", "summary.json"})
     EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
-  EXPECT_EQ(summary.outputs.size(), 8U);
+  EXPECT_EQ(summary.outputs.size(), 9U);
   EXPECT_EQ(contentOf(folder.file("extra.tum")), contentOf(folder.file("trajectory.tum")));
 }
 

@@ -58,11 +58,12 @@ enum class ExitStatus : int
   InputBroken = 3,     //!< truncated or corrupt input: results up to there
   OdometryFailed = 4,  //!< diverged or never initialised: results written
   OutputFailed = 5,    //!< an output file could not be written; the others are complete
+  Degraded = 6,        //!< stretches of the run cannot be trusted: results written
   Interrupted = 130    //!< SIGINT or SIGTERM: results up to there
 };
 
 /** Exit status of a run that computed something; when several apply, the first of interrupted,
- * output failed, input broken, odometry failed. */
+ * output failed, input broken, odometry failed, degraded. */
 [[nodiscard]] ExitStatus exitStatusOf(const RunSummary& summary);
 
 /** "ok", "input_broken", ... */

@@ -75,6 +75,9 @@ struct ExporterKind
 /** `timing.csv`: status, counts and milliseconds per stage of every scan. */
 [[nodiscard]] std::unique_ptr<Exporter> makeTimingExporter(const std::string& path);
 
+/** `untrusted.csv`: stretches of the run that cannot be trusted, with their cause. */
+[[nodiscard]] std::unique_ptr<Exporter> makeUntrustedExporter(const std::string& path);
+
 /** `map.ply`: binary little-endian PLY in the world frame: float x y z [m] intensity, double time
  * [s]. */
 [[nodiscard]] std::unique_ptr<Exporter> makePlyMapExporter(const std::string& path);

@@ -1,0 +1,44 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/exporters/number_text.h>
+#include <fastlio/exporters/standard_exporters.h>
+
+namespace fastlio
+{
+namespace
+{
+constexpr const char* kUntrustedHeader =
+    "# Stretches of the run that cannot be trusted; no rows: there are none. Stamps: ends of the\n"
+    "# first and the last scan, seconds since the first scan's begin. cause: as in timing.csv.\n"
+    "begin_ns,end_ns,begin_s,end_s,scans,cause\n";
+
+class UntrustedExporter : public Exporter
+{
+ public:
+  explicit UntrustedExporter(const std::string& path) : file_(path) {}
+
+  void onScan(const ScanResult& /*result*/) override {}
+
+  std::vector<OutputFile> finish(const RunEnd& end) override
+  {
+    file_.write(kUntrustedHeader);
+    for (const UntrustedStretch& stretch : end.summary.statistics.health().untrusted())
+      file_.write(
+          std::to_string(stretch.begin_ns) + "," + std::to_string(stretch.end_ns) + "," +
+          fixedText(stretch.begin_s, 3) + "," + fixedText(stretch.end_s, 3) + "," +
+          std::to_string(stretch.scans) + "," + toString(stretch.cause) + "\n");
+    return {file_.commit()};
+  }
+
+ private:
+  AtomicFile file_;
+};
+}  // namespace
+
+std::unique_ptr<Exporter> makeUntrustedExporter(const std::string& path)
+{
+  return std::make_unique<UntrustedExporter>(path);
+}
+
+}  // namespace fastlio
