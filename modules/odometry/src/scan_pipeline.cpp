@@ -21,8 +21,6 @@ namespace fastlio
 {
 namespace
 {
-// So many scans of a map do not match much yet.
-constexpr std::uint32_t kYoungMapInsertions = 20;
 constexpr int kSharesAveraged = 50;  // scans
 
 Vector6 eigenvalues(const Matrix6& m)
@@ -85,14 +83,16 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
   result.begin_ns = span.begin_ns;
   result.stamp_ns = span.end_ns;
   FilterState predicted;
+  const double blind_s = toSeconds(span.end_ns - state_ns_);
   workers_->alongside(
       [&] { predicted = propagateTo(span.end_ns, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
+  considerUnmodelledAcceleration(predicted, blind_s);
   compensate(scan, span, predicted);  // eq. 9-10
   if (recovering_ && span.end_ns > recovery_end_ns_) beginNewMap();
   const UpdateResult update = start_in_map_ ? findInMap(predicted)
                               : recovering_ ? findMap(predicted)
-                                            : updateWithScan(predicted);  // eq. 12-20
+                                            : matchOrSearch(predicted);  // eq. 12-20
   describeUpdate(update, result.statistics);
   filter_ = update.posterior;
   filter_.x.R = normalizeRotation(filter_.x.R);  // products of rotations drift off SO(3)
@@ -105,6 +105,8 @@ ScanResult ScanPipeline::process(const LidarScan& scan, const ScanSpan& span, co
     tellNotFound(result);
   else if (recovering_)
     judgeRecovery(result);
+  else
+    reportSearch(result);
   if (parameters_.rest.enabled || rest_.assumed()) considerRest(result);
   pose_trusted_ = result.status != ScanStatus::Diverged;
   if (mayGrowMap(result))

@@ -6,6 +6,7 @@
 
 #include "carried_pose.h"
 #include "edge_stage.h"
+#include "pose_search.h"
 #include "scan_update.h"
 #include "young_map.h"
 #include <fastlio/filter/backward_propagation.h>
@@ -29,6 +30,9 @@
 
 namespace fastlio
 {
+// So many scans of a map do not match much yet.
+constexpr std::uint32_t kYoungMapInsertions = 20;
+
 /** Filter, map and the storage that scans share. */
 class ScanPipeline
 {
@@ -95,6 +99,10 @@ class ScanPipeline
       const NavState& predicted, std::int64_t end_ns) const;
   void releaseTimeOffset(const ScanResult& result);
   void considerRest(ScanResult& result);
+  [[nodiscard]] UpdateResult matchOrSearch(const FilterState& predicted);
+  [[nodiscard]] UpdateResult searchInPrediction(const FilterState& predicted);
+  [[nodiscard]] bool isConvincing(const UpdateResult& update) const;
+  void reportSearch(ScanResult& result) const;
   [[nodiscard]] UpdateResult findMap(const FilterState& predicted);
   void judgeRecovery(ScanResult& result);
   void beginNewMap();
@@ -124,6 +132,8 @@ class ScanPipeline
   double share_in_map_ = 0.0;         //!< of the points, when it was looked for last
   bool map_is_given_ = false;
   bool evidence_good_ = true;  // the last scan matched as a map matches that is the right one
+  bool searching_ = false;     // the prediction is too uncertain for matching without a search
+  PoseSearchResult search_;    // of the last scan, if there was one
   bool recovering_ = false;    // looking for the old map
   std::pair<int, int> ordinary_iterations_{0, 0};  // of matching and update, when it is not
   std::int64_t recovery_end_ns_ = 0;

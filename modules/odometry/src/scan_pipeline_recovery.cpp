@@ -57,6 +57,7 @@ void ScanPipeline::suspend()
 {
   skipScan();
   rest_.reset();
+  searching_ = false;
   state_ns_ = 0;
   pose_trusted_ = false;
 }
@@ -152,6 +153,7 @@ void ScanPipeline::beginNewMap()
   edges_ = EdgeStage(parameters_);
   map_error_ = {};
   insertions_ = 0;
+  searching_ = false;
   usual_share_ = 0.0;
   shares_ = 0;
 }

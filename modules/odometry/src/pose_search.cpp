@@ -1,0 +1,220 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pose_search.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+// Half a percent of scale and a third of a degree of misalignment of gravity, as MEMS sensors have.
+constexpr double kUnmodelledAcceleration = 0.05;  // [m/s^2]
+// Shorter times add nothing that the noise of the inertial sensor does not cover.
+constexpr double kShortTime = 0.5;  // [s]
+// A start farther off than this may end in a wrong minimum.
+constexpr double kPullInStd = 0.05;  // [m]
+// Planes of the coarser voxels pull in from half of this and more.
+constexpr double kGridStep = 0.5;  // [m]
+constexpr double kSigmas = 3.5;
+// Bounds the time that a search takes, to about a second.
+constexpr std::size_t kMostCandidates = 2000;
+constexpr std::size_t kSamplePoints = 300;
+constexpr int kSampleIterations = 4, kScanIterations = 5;
+constexpr std::size_t kRefined = 8;
+constexpr double kSamePlace = 0.3;  // [m]
+// A rival as good as this share of the best: nobody knows which of the two is right.
+constexpr double kRivalShare = 0.8;
+constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
+// The whole scan pulls a candidate in from wide to narrow.
+constexpr double kRefiningStds[] = {0.3, 0.1, 0.05};  // [m]
+// How well a search knows the pose that the scan is then matched from.
+constexpr double kFoundAngleStd = 0.01, kFoundPositionStd = 0.03;  // [rad], [m]
+
+using Square6 = Eigen::Matrix<double, 6, 6>;
+
+double innovationOf(const UpdateResult& update)
+{
+  return update.last.weighted_squares /
+         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
+}
+
+PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
+{
+  PoseCandidate candidate;
+  candidate.T_world_imu = update.posterior.x.pose();
+  candidate.innovation = innovationOf(update);
+  candidate.inlier_ratio = static_cast<double>(update.last.count) / static_cast<double>(points);
+  candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
+  return candidate;
+}
+
+/** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
+FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, double position_std)
+{
+  FilterState start = predicted;
+  start.x.R = T_world_imu.R;
+  start.x.p = T_world_imu.p;
+  start.P.setZero();
+  start.P.diagonal().segment<3>(kAttitude).setConstant(kHeadingStd * kHeadingStd);
+  start.P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
+  return start;
+}
+
+/** Every so many-th point: enough to tell candidates apart. */
+CompensatedScan sampleOf(const CompensatedScan& scan)
+{
+  const BodyPoints& all = scan.points;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kSamplePoints);
+  CompensatedScan sample;
+  sample.compensation = scan.compensation;
+  sample.points.resize((all.size() + stride - 1) / stride);
+  for (std::size_t i = 0, k = 0; i < all.size(); i += stride, ++k)
+  {
+    BodyPoints& p = sample.points;
+    p.x[k] = all.x[i], p.y[k] = all.y[i], p.z[k] = all.z[i];
+    p.ux[k] = all.ux[i], p.uy[k] = all.uy[i], p.uz[k] = all.uz[i];
+  }
+  return sample;
+}
+
+bool better(const PoseCandidate& a, const PoseCandidate& b)
+{
+  return a.score > b.score;
+}
+
+double distance(const PoseCandidate& a, const PoseCandidate& b)
+{
+  return (a.T_world_imu.p - b.T_world_imu.p).norm();
+}
+
+/** The best of each place, not more than are refined. \param candidates best first */
+std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidates)
+{
+  std::vector<PoseCandidate> places;
+  for (const PoseCandidate& candidate : candidates)
+  {
+    const auto near = [&](const PoseCandidate& p) { return distance(p, candidate) < kSamePlace; };
+    if (std::none_of(places.begin(), places.end(), near)) places.push_back(candidate);
+    if (places.size() == kRefined) break;
+  }
+  return places;
+}
+
+PoseCandidate refined(
+    PoseCandidate candidate, const FilterState& predicted, const CompensatedScan& scan,
+    const MatchFromStart& match)
+{
+  for (const double position_std : kRefiningStds)
+  {
+    const FilterState start = startAt(predicted, candidate.T_world_imu, position_std);
+    const UpdateResult update = match(start, scan, kScanIterations);
+    if (!update.updated)
+    {
+      candidate.score = 0.0;
+      return candidate;
+    }
+    candidate = candidateOf(update, scan.points.size());
+  }
+  return candidate;
+}
+}  // namespace
+
+void considerUnmodelledAcceleration(FilterState& predicted, double blind_s)
+{
+  if (blind_s < kShortTime) return;
+  const double t = blind_s, q = kUnmodelledAcceleration * kUnmodelledAcceleration;
+  StateMatrix& P = predicted.P;
+  P.diagonal().segment<3>(kPosition).array() += q * t * t * t * t / 4.0;
+  P.diagonal().segment<3>(kVelocity).array() += q * t * t;
+  P.block<3, 3>(kPosition, kVelocity).diagonal().array() += q * t * t * t / 2.0;
+  P.block<3, 3>(kVelocity, kPosition).diagonal().array() += q * t * t * t / 2.0;
+}
+
+bool needsPoseSearch(const FilterState& predicted)
+{
+  return predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
+}
+
+std::vector<Vec3> candidateOffsets(const FilterState& predicted)
+{
+  const Vec3 std = predicted.P.diagonal().segment<3>(kPosition).cwiseMax(0.0).cwiseSqrt();
+  // Grid points stand for half a step around them.
+  const auto steps = [](double sigma)
+  { return static_cast<int>(std::ceil(std::max(0.0, 3.0 * sigma - kGridStep / 2.0) / kGridStep)); };
+  // More than this in each direction would be cut off by the most that are tried anyway.
+  constexpr int kMostSteps = 60;
+  const int nx = std::min(steps(std.x()), kMostSteps), ny = std::min(steps(std.y()), kMostSteps),
+            nz = std::min(steps(std.z()), kMostSteps);
+  const Vec3 scale = std.cwiseMax(kGridStep / 3.0).cwiseInverse();
+  std::vector<Vec3> offsets;
+  for (int x = -nx; x <= nx; ++x)
+    for (int y = -ny; y <= ny; ++y)
+      for (int z = -nz; z <= nz; ++z)
+      {
+        const Vec3 offset = kGridStep * Vec3(x, y, z);
+        if (offset.cwiseProduct(scale).norm() <= kSigmas) offsets.push_back(offset);
+      }
+  std::stable_sort(
+      offsets.begin(), offsets.end(),
+      [&](const Vec3& a, const Vec3& b)
+      { return a.cwiseProduct(scale).squaredNorm() < b.cwiseProduct(scale).squaredNorm(); });
+  if (offsets.size() > kMostCandidates) offsets.resize(kMostCandidates);
+  return offsets;
+}
+
+PoseSearchResult searchPose(
+    const FilterState& predicted, const CompensatedScan& scan, const PoseSearchLimits& limits,
+    const MatchFromStart& match)
+{
+  PoseSearchResult result;
+  if (scan.points.size() == 0) return result;
+  const CompensatedScan sample = sampleOf(scan);
+  std::vector<PoseCandidate> candidates;
+  for (const Vec3& offset : candidateOffsets(predicted))
+  {
+    ++result.candidates;
+    const Pose pose{predicted.x.R, predicted.x.p + offset};
+    const UpdateResult update =
+        match(startAt(predicted, pose, 0.6 * kGridStep), sample, kSampleIterations);
+    if (update.updated) candidates.push_back(candidateOf(update, sample.points.size()));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  std::vector<PoseCandidate> places = bestPlaces(candidates);
+  for (PoseCandidate& place : places)
+    place = refined(place, predicted, scan, match);
+  std::stable_sort(places.begin(), places.end(), better);
+  if (places.empty() || places.front().score <= 0.0) return result;
+  result.best = places.front();
+  for (const PoseCandidate& place : places)
+    if (distance(place, *result.best) > kSamePlace)
+      result.rival_score = std::max(result.rival_score, place.score);
+  result.accepted = result.best->inlier_ratio >= limits.min_inlier_ratio &&
+                    result.best->innovation <= limits.max_innovation &&
+                    result.rival_score < kRivalShare * result.best->score;
+  return result;
+}
+
+FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu)
+{
+  NavState found = predicted.x;
+  found.R = T_world_imu.R;
+  found.p = T_world_imu.p;
+  Square6 S = predicted.P.topLeftCorner<6, 6>();
+  S.diagonal().head<3>().array() += kFoundAngleStd * kFoundAngleStd;
+  S.diagonal().tail<3>().array() += kFoundPositionStd * kFoundPositionStd;
+  const Eigen::Matrix<double, kStateDim, 6> PHt = predicted.P.leftCols<6>();
+  const Eigen::Matrix<double, 6, kStateDim> Kt = S.llt().solve(PHt.transpose());
+  const StateVector difference = boxminus(found, predicted.x);
+  FilterState corrected;
+  corrected.x = boxplus(predicted.x, Kt.transpose() * difference.head<6>());
+  const StateMatrix removed = PHt * Kt;
+  corrected.P = predicted.P - 0.5 * (removed + removed.transpose());
+  return corrected;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file pose_search.h Where in the map a scan was taken, after a time without scans: the
+ * prediction's covariance says where to look. */
+#pragma once
+
+#include "scan_update.h"
+#include <fastlio/filter/state.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+/** Adds what the inertial model leaves out to a prediction without scans: scale errors and
+ * misalignment of the accelerometer act like an unknown constant acceleration.
+ * \param blind_s time without a scan [s] */
+void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
+
+/** The prediction is too uncertain for the matching of ordinary scans, which pulls in a few
+ * centimetres. */
+[[nodiscard]] bool needsPoseSearch(const FilterState& predicted);
+
+/** Positions on a grid within three standard deviations of the predicted one, the likeliest first.
+ * \return offsets from the predicted position, world frame [m] */
+[[nodiscard]] std::vector<Vec3> candidateOffsets(const FilterState& predicted);
+
+/** Matches a scan from a start; so many iterations search the map anew. */
+using MatchFromStart = std::function<UpdateResult(
+    const FilterState& start, const CompensatedScan& scan, int iterations)>;
+
+/** What a found pose has to show. */
+struct PoseSearchLimits
+{
+  double min_inlier_ratio = 0.3;
+  double max_innovation = 3.0;  //!< mean z^2/r
+};
+
+/** A pose that a candidate was pulled to, with its evidence. */
+struct PoseCandidate
+{
+  Pose T_world_imu;
+  double inlier_ratio = 0.0;
+  double innovation = 0.0;  //!< mean z^2/r
+  double score = 0.0;       //!< many matches that agree
+};
+
+/** The outcome of a search. */
+struct PoseSearchResult
+{
+  std::size_t candidates = 0;
+  std::optional<PoseCandidate> best;
+  double rival_score = 0.0;  //!< of the best candidate at another place
+  bool accepted = false;     //!< enough evidence, and more than any rival has
+};
+
+/** Matches a sample of the scan from every candidate, and the whole scan from the best of them. */
+[[nodiscard]] PoseSearchResult searchPose(
+    const FilterState& predicted, const CompensatedScan& scan, const PoseSearchLimits& limits,
+    const MatchFromStart& match);
+
+/** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
+ * and biases, too, as far as they made the error. The scan itself makes it exact afterwards. */
+[[nodiscard]] FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu);
+
+}  // namespace fastlio

@@ -1,0 +1,172 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "pose_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+FilterState predictionWithStd(double x, double y, double z)
+{
+  FilterState s;
+  s.P.diagonal().setConstant(1e-6);
+  s.P.diagonal().segment<3>(kPosition) = Vec3(x * x, y * y, z * z);
+  return s;
+}
+
+/** A scan of points that do not matter: the matcher of these tests looks at the start only. */
+CompensatedScan someScan(std::size_t points)
+{
+  CompensatedScan scan;
+  scan.points.resize(points);
+  return scan;
+}
+
+/** Pulls starts within half a metre of a place there, with so many matches of a hundred. */
+struct Place
+{
+  Vec3 p;
+  double inlier_ratio;
+};
+MatchFromStart matcherWith(const std::vector<Place>& places)
+{
+  return [places](const FilterState& start, const CompensatedScan& scan, int /*iterations*/)
+  {
+    UpdateResult update;
+    update.posterior = start;
+    for (const Place& place : places)
+    {
+      if ((place.p - start.x.p).norm() > 0.5) continue;
+      update.updated = true;
+      update.posterior.x.p = place.p;
+      const double count = place.inlier_ratio * static_cast<double>(scan.points.size());
+      update.last.count = static_cast<std::size_t>(count);
+      update.last.weighted_squares = static_cast<double>(update.last.count);
+      return update;
+    }
+    return update;
+  };
+}
+
+TEST(PoseSearch, LooksAtThePredictionAloneWhenItIsCertain)
+{
+  const auto offsets = candidateOffsets(predictionWithStd(0.01, 0.02, 0.01));
+  ASSERT_EQ(offsets.size(), 1U);
+  EXPECT_EQ(offsets[0], Vec3::Zero().eval());
+}
+
+TEST(PoseSearch, CoversThreeStandardDeviationsTheLikeliestFirst)
+{
+  const FilterState s = predictionWithStd(1.0, 0.5, 0.1);
+  const auto offsets = candidateOffsets(s);
+  EXPECT_EQ(offsets[0], Vec3::Zero().eval());
+  for (const Vec3& wanted : {Vec3(3, 0, 0), Vec3(0, -1.5, 0), Vec3(0.7, 0.9, 0.1)})
+  {
+    double nearest = 1e9;
+    for (const Vec3& offset : offsets)
+      nearest = std::min(nearest, (offset - wanted).norm());
+    EXPECT_LE(nearest, 0.25 * std::sqrt(3.0) + 1e-9) << wanted.transpose();
+  }
+  for (std::size_t i = 1; i < offsets.size(); ++i)
+    EXPECT_LE(std::abs(offsets[i].z()), 0.5) << "along z the prediction is certain";
+}
+
+TEST(PoseSearch, IsBoundedHoweverUncertainThePredictionIs)
+{
+  EXPECT_LE(candidateOffsets(predictionWithStd(1e6, 1e6, 1e6)).size(), 2000U);
+}
+
+TEST(PoseSearch, FindsThePlaceThatMatches)
+{
+  const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
+  const Vec3 truth(1.3, -0.8, 0.05);
+  const auto result = searchPose(s, someScan(1000), {}, matcherWith({{truth, 0.8}}));
+  ASSERT_TRUE(result.accepted);
+  EXPECT_EQ(result.best->T_world_imu.p, truth);
+  EXPECT_DOUBLE_EQ(result.best->inlier_ratio, 0.8);
+}
+
+TEST(PoseSearch, RefusesFewMatches)
+{
+  const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
+  const auto result = searchPose(s, someScan(1000), {}, matcherWith({{{1, 1, 0}, 0.2}}));
+  EXPECT_FALSE(result.accepted);
+  ASSERT_TRUE(result.best);
+  EXPECT_DOUBLE_EQ(result.best->inlier_ratio, 0.2);
+}
+
+TEST(PoseSearch, RefusesToChooseBetweenRivals)
+{
+  const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
+  const auto two = [&](double second)
+  {
+    return searchPose(
+        s, someScan(1000), {}, matcherWith({{{1.5, 0, 0}, 0.8}, {{-1.5, 0, 0}, second}}));
+  };
+  EXPECT_FALSE(two(0.75).accepted);
+  EXPECT_TRUE(two(0.4).accepted);
+}
+
+TEST(PoseSearch, FindsNothingInAnEmptyScanOrMap)
+{
+  const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
+  EXPECT_FALSE(searchPose(s, someScan(0), {}, matcherWith({{{0, 0, 0}, 1.0}})).best);
+  EXPECT_FALSE(searchPose(s, someScan(100), {}, matcherWith({})).best);
+}
+
+TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
+{
+  FilterState s = predictionWithStd(0.01, 0.01, 0.01);
+  const StateMatrix before = s.P;
+  considerUnmodelledAcceleration(s, 0.1);
+  EXPECT_EQ(s.P, before);
+  considerUnmodelledAcceleration(s, 10.0);
+  // 0.05 m/s^2 for 10 s.
+  EXPECT_NEAR(std::sqrt(s.P(kPosition, kPosition)), 2.5, 0.01);
+  EXPECT_NEAR(std::sqrt(s.P(kVelocity, kVelocity)), 0.5, 0.01);
+  EXPECT_TRUE(needsPoseSearch(s));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(s.P)};
+  EXPECT_GE(solver.eigenvalues().minCoeff(), 0.0);
+}
+
+TEST(CorrectedByPose, CorrectsTheVelocityThatMadeTheError)
+{
+  FilterState s;
+  s.P.diagonal().setConstant(1e-8);
+  considerUnmodelledAcceleration(s, 4.0);
+  const Vec3 off(0.4, 0.0, 0.0);  // 0.05 m/s^2 for 4 s
+  const FilterState corrected = correctedByPose(s, {s.x.R, s.x.p + off});
+  EXPECT_NEAR(corrected.x.p.x(), 0.4, 0.01);
+  EXPECT_NEAR(corrected.x.v.x(), 0.2, 0.01);
+  EXPECT_LT(corrected.P(kPosition, kPosition), 0.04 * 0.04);
+  EXPECT_LT(corrected.P(kVelocity, kVelocity), 0.1 * s.P(kVelocity, kVelocity));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(corrected.P)};
+  EXPECT_GE(solver.eigenvalues().minCoeff(), -1e-12);
+}
+
+TEST(CorrectedByPose, IsTheKalmanUpdateWithDenseMatrices)
+{
+  FilterState s = predictionWithStd(0.5, 0.7, 0.2);
+  considerUnmodelledAcceleration(s, 2.0);
+  s.P(kPosition, kGyroBias) = s.P(kGyroBias, kPosition) = 1e-5;
+  const Pose found{expSO3({0.002, -0.001, 0.003}), {0.3, -0.2, 0.1}};
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(6, kStateDim);
+  H.leftCols(6).setIdentity();
+  Eigen::VectorXd r(6);
+  r << 1e-4, 1e-4, 1e-4, 9e-4, 9e-4, 9e-4;
+  const Eigen::MatrixXd P = s.P, R = r.asDiagonal();
+  const Eigen::MatrixXd K = P * H.transpose() * (H * P * H.transpose() + R).inverse();
+  const Eigen::MatrixXd expected = (Eigen::MatrixXd::Identity(kStateDim, kStateDim) - K * H) * P;
+  const FilterState corrected = correctedByPose(s, found);
+  EXPECT_TRUE(corrected.P.isApprox(StateMatrix(expected), 1e-9));
+}
+
+}  // namespace
+}  // namespace fastlio
