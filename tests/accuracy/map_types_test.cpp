@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file map_types_test.cpp The fast map of planes against the reference, exact neighbours by
- * nanoflann: speed is not bought with accuracy. */
+/** \file map_types_test.cpp The fast map of planes against the paper's exact neighbours: speed is
+ * not bought with accuracy. */
 
 #include "simulated_run.h"
 
@@ -60,9 +60,9 @@ TEST_P(MapTypes, PlanesAreAsAccurateAsExactNeighbors)
   settings.seed = 1;
   const Simulation simulation(settings);
   const double planes = positionError(simulation, MapType::Planes);
-  const double reference = positionError(simulation, MapType::KdTree);
+  const double reference = positionError(simulation, MapType::Knn);
   RecordProperty("planes_mm", std::to_string(1e3 * planes));
-  RecordProperty("kdtree_mm", std::to_string(1e3 * reference));
+  RecordProperty("knn_mm", std::to_string(1e3 * reference));
   // A millimetre is chance: the errors of two seeds differ by more.
   EXPECT_LT(planes, 1.1 * reference + 0.001) << "m";
 }

@@ -105,7 +105,7 @@ TEST_F(Plugin, LetsIcpSlamBuildOurMaps)
           "verbosity_level=ERROR\nfastlio::CIncrementalPointsMap_count=1\n"
           "fastlio::CVoxelPlanesMap_count=1\n"
           "[MappingApplication_fastlio::CIncrementalPointsMap_00_creationOpts]\n"
-          "min_spacing=0.05\ncell_size=0.3\n"
+          "min_spacing=0.05\n"
           "[MappingApplication_fastlio::CIncrementalPointsMap_00_insertOpts]\nisPlanarMap=0\n"
           "minDistBetweenLaserPoints=0.05\n"
           "[MappingApplication_fastlio::CVoxelPlanesMap_00_creationOpts]\nvoxel_size=0.5\n"

@@ -17,8 +17,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr float kFarthest = 1e7F;      // [m]: tiles are numbered by int
-constexpr double kCellSpacings = 3.0;  // edge of the index cells, in spacings
+constexpr float kFarthest = 1e7F;  // [m]: tiles are numbered by int
 
 bool usable(float x, float y, float z)
 {
@@ -146,10 +145,7 @@ void OutputMap::insert(const OutputPoints& points)
 void OutputMap::restore(Tile& tile)
 {
   if (tile.index) return;
-  CIncrementalPointsMap::TCreationOptions options;
-  options.min_spacing = options_.spacing;
-  if (options_.spacing > 0.0) options.cell_size = kCellSpacings * options_.spacing;
-  tile.index = std::make_unique<CIncrementalPointsMap>(options);
+  tile.index = std::make_unique<CIncrementalPointsMap>(options_.spacing);
   if (tile.size == 0) return;
   tile.points = readTile(tile.path, tile.size);
   tile.index->insertPoints(

@@ -1,7 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "point_index.h"
+#include "map_definition.h"
+#include "point_forest.h"
 #include <fastlio/compat/bounded_read.h>
 #include <fastlio/map/incremental_points_map.h>
 
@@ -59,13 +60,12 @@ void readOptions(CArchive& in, CPointsMap::TInsertionOptions& i, CPointsMap::TLi
 
 std::uint8_t CIncrementalPointsMap::serializeGetVersion() const
 {
-  return 0;
+  return 1;
 }
 
 void CIncrementalPointsMap::serializeTo(CArchive& out) const
 {
-  out << creation_options_.cell_size << creation_options_.min_spacing;
-  out << static_cast<std::uint32_t>(size());
+  out << min_spacing_ << static_cast<std::uint32_t>(size());
   writeColumn(out, m_x);
   writeColumn(out, m_y);
   writeColumn(out, m_z);
@@ -76,19 +76,18 @@ void CIncrementalPointsMap::serializeTo(CArchive& out) const
 
 void CIncrementalPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  TCreationOptions options;
-  std::uint32_t count = 0;
-  in >> options.cell_size >> options.min_spacing >> count;
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version == 0) (void)in.ReadAs<double>();  // edge of the cells of an index that is gone
+  const auto min_spacing = in.ReadAs<double>();
+  const auto count = in.ReadAs<std::uint32_t>();
   auto x = readColumn<Column>(in, count, kName);
   auto y = readColumn<Column>(in, count, kName);
   auto z = readColumn<Column>(in, count, kName);
-  setCreationOptions(options);
+  *this = CIncrementalPointsMap(min_spacing);
   m_x.swap(x);
   m_y.swap(y);
   m_z.swap(z);
-  totals_ = {};
-  mark_as_modified();
+  rebuildIndex();
   in >> genericMapParams;
   readOptions(in, insertionOptions, likelihoodOptions);
   renderOptions.readFromStream(in);
@@ -99,13 +98,11 @@ void CIncrementalPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
 void CIncrementalPointsMap::TCreationOptions::loadFromConfigFile(
     const mrpt::config::CConfigFileBase& source, const std::string& section)
 {
-  cell_size = source.read_double(section, "cell_size", cell_size);
   min_spacing = source.read_double(section, "min_spacing", min_spacing);
 }
 
 void CIncrementalPointsMap::TCreationOptions::dumpToTextStream(std::ostream& out) const
 {
-  out << "cell_size   = " << cell_size << " m\n";
   out << "min_spacing = " << min_spacing << " m\n";
 }
 
@@ -114,33 +111,20 @@ CIncrementalPointsMap::TMapDefinition::TMapDefinition() = default;
 void CIncrementalPointsMap::TMapDefinition::loadFromConfigFile_map_specific(
     const mrpt::config::CConfigFileBase& source, const std::string& sectionNamePrefix)
 {
-  creationOpts.loadFromConfigFile(source, sectionNamePrefix + "_creationOpts");
-  insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
-  likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
-  renderOpts.loadFromConfigFile(source, sectionNamePrefix + "_renderOpts");
+  loadSections(*this, source, sectionNamePrefix);
 }
 
 void CIncrementalPointsMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
 {
-  creationOpts.dumpToTextStream(out);
-  insertionOpts.dumpToTextStream(out);
-  likelihoodOpts.dumpToTextStream(out);
-  renderOpts.dumpToTextStream(out);
+  dumpSections(*this, out);
 }
 
 CreatedMap CIncrementalPointsMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& def)
 {
   const auto& definition = dynamic_cast<const TMapDefinition&>(def);
-  auto map = std::make_unique<CIncrementalPointsMap>(definition.creationOpts);
-  map->insertionOptions = definition.insertionOpts;
-  map->likelihoodOptions = definition.likelihoodOpts;
-  map->renderOptions = definition.renderOpts;
-#if FASTLIO_MRPT_HAS_NN_INTERFACE
-  return CreatedMap(std::move(map));
-#else
-  return map.release();
-#endif
+  return withOptionsOf(
+      definition, std::make_unique<CIncrementalPointsMap>(definition.creationOpts.min_spacing));
 }
 
 }  // namespace fastlio

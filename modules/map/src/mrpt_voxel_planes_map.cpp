@@ -6,6 +6,9 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace fastlio
@@ -48,6 +51,31 @@ WorldPoints pointsOf(
   map.insertionOptions.minDistBetweenLaserPoints = 0;
   map.insertObservation(observation, T_map_vehicle);
   return transformed(map, CPose3D());
+}
+
+std::vector<Neighbor> nearestOf(
+    const CIncrementalPointsMap& map, const mrpt::math::TPoint3Df& query, std::size_t count,
+    double radius)
+{
+  std::vector<Neighbor> found(std::min(count, map.size()));
+  found.resize(map.nearest(query.x, query.y, query.z, found.size(), radius, found.data()));
+  return found;
+}
+
+/** Neighbours in the three columns that MRPT's interface wants. */
+void unpack(
+    const std::vector<Neighbor>& neighbors, std::vector<mrpt::math::TPoint3Df>& points,
+    std::vector<float>& distances_sqr, std::vector<std::uint64_t>& indices)
+{
+  points.clear();
+  distances_sqr.clear();
+  indices.clear();
+  for (const Neighbor& n : neighbors)
+  {
+    points.emplace_back(n.x, n.y, n.z);
+    distances_sqr.push_back(n.distance_sqr);
+    indices.push_back(n.point_index);
+  }
 }
 }  // namespace
 
@@ -133,13 +161,7 @@ const CIncrementalPointsMap& CVoxelPlanesMap::points() const
   const std::lock_guard lock(points_mutex_);
   if (!points_)
   {
-    CIncrementalPointsMap::TCreationOptions options;
-    options.cell_size = 2.0 * planes_.options().voxel_size;
-    auto made = std::make_unique<CIncrementalPointsMap>(options);
-    const auto means = planes_.toPointsMap();
-    made->insertPoints(
-        means->getPointsBufferRef_x().data(), means->getPointsBufferRef_y().data(),
-        means->getPointsBufferRef_z().data(), means->size());
+    auto made = std::make_unique<CIncrementalPointsMap>(*planes_.toPointsMap());
     made->likelihoodOptions = likelihoodOptions;
     points_ = std::move(made);
   }
@@ -184,27 +206,21 @@ float CVoxelPlanesMap::compute3DMatchingRatio(
 
 // ---- Nearest neighbours ----
 
-void CVoxelPlanesMap::nn_prepare_for_2d_queries() const
-{
-  points().nn_prepare_for_2d_queries();
-}
 void CVoxelPlanesMap::nn_prepare_for_3d_queries() const
 {
-  points().nn_prepare_for_3d_queries();
+  (void)points();
 }
 
 bool CVoxelPlanesMap::nn_single_search(
     const mrpt::math::TPoint3Df& query, mrpt::math::TPoint3Df& result, float& out_dist_sqr,
     std::uint64_t& result_index) const
 {
-  return points().nn_single_search(query, result, out_dist_sqr, result_index);
-}
-
-bool CVoxelPlanesMap::nn_single_search(
-    const mrpt::math::TPoint2Df& query, mrpt::math::TPoint2Df& result, float& out_dist_sqr,
-    std::uint64_t& result_index) const
-{
-  return points().nn_single_search(query, result, out_dist_sqr, result_index);
+  const NeighborSet found = points().nearest(query.x, query.y, query.z, 1);
+  if (found.empty()) return false;
+  result = {found[0].x, found[0].y, found[0].z};
+  out_dist_sqr = found[0].distance_sqr;
+  result_index = found[0].point_index;
+  return true;
 }
 
 void CVoxelPlanesMap::nn_multiple_search(
@@ -212,7 +228,32 @@ void CVoxelPlanesMap::nn_multiple_search(
     std::vector<mrpt::math::TPoint3Df>& results, std::vector<float>& out_dists_sqr,
     std::vector<std::uint64_t>& result_indices) const
 {
-  points().nn_multiple_search(query, count, results, out_dists_sqr, result_indices);
+  constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+  unpack(nearestOf(points(), query, count, kEverywhere), results, out_dists_sqr, result_indices);
+}
+
+void CVoxelPlanesMap::nn_radius_search(
+    const mrpt::math::TPoint3Df& query, const float search_radius_sqr,
+    std::vector<mrpt::math::TPoint3Df>& results, std::vector<float>& out_dists_sqr,
+    std::vector<std::uint64_t>& result_indices, std::size_t max_points) const
+{
+  const std::size_t count = max_points == 0 ? points().size() : max_points;
+  const double radius = std::sqrt(static_cast<double>(search_radius_sqr));
+  unpack(nearestOf(points(), query, count, radius), results, out_dists_sqr, result_indices);
+}
+
+#if FASTLIO_MRPT_HAS_NN_INTERFACE
+// In the plane, MRPT's own k-d tree of the points searches.
+void CVoxelPlanesMap::nn_prepare_for_2d_queries() const
+{
+  points().nn_prepare_for_2d_queries();
+}
+
+bool CVoxelPlanesMap::nn_single_search(
+    const mrpt::math::TPoint2Df& query, mrpt::math::TPoint2Df& result, float& out_dist_sqr,
+    std::uint64_t& result_index) const
+{
+  return points().nn_single_search(query, result, out_dist_sqr, result_index);
 }
 
 void CVoxelPlanesMap::nn_multiple_search(
@@ -224,15 +265,6 @@ void CVoxelPlanesMap::nn_multiple_search(
 }
 
 void CVoxelPlanesMap::nn_radius_search(
-    const mrpt::math::TPoint3Df& query, const float search_radius_sqr,
-    std::vector<mrpt::math::TPoint3Df>& results, std::vector<float>& out_dists_sqr,
-    std::vector<std::uint64_t>& result_indices, std::size_t max_points) const
-{
-  points().nn_radius_search(
-      query, search_radius_sqr, results, out_dists_sqr, result_indices, max_points);
-}
-
-void CVoxelPlanesMap::nn_radius_search(
     const mrpt::math::TPoint2Df& query, const float search_radius_sqr,
     std::vector<mrpt::math::TPoint2Df>& results, std::vector<float>& out_dists_sqr,
     std::vector<std::uint64_t>& result_indices, std::size_t max_points) const
@@ -240,5 +272,6 @@ void CVoxelPlanesMap::nn_radius_search(
   points().nn_radius_search(
       query, search_radius_sqr, results, out_dists_sqr, result_indices, max_points);
 }
+#endif
 
 }  // namespace fastlio

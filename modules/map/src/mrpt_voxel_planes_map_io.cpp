@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "map_definition.h"
 #include <fastlio/compat/bounded_read.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
@@ -92,7 +93,7 @@ void CVoxelPlanesMap::loadFromFile(const std::string& path)
 
 void CVoxelPlanesMap::saveMetricMapRepresentationToFile(const std::string& prefix) const
 {
-  if (!CIncrementalPointsMap(points()).saveToPlyFile(prefix + ".ply", true))
+  if (!mrpt::maps::CSimplePointsMap(points()).saveToPlyFile(prefix + ".ply", true))
     throw std::runtime_error("'" + prefix + ".ply' cannot be written; check the folder");
   saveToFile(prefix + ".metricmap");
 }
@@ -149,33 +150,19 @@ CVoxelPlanesMap::TMapDefinition::TMapDefinition() = default;
 void CVoxelPlanesMap::TMapDefinition::loadFromConfigFile_map_specific(
     const CConfigFileBase& source, const std::string& sectionNamePrefix)
 {
-  creationOpts.loadFromConfigFile(source, sectionNamePrefix + "_creationOpts");
-  insertionOpts.loadFromConfigFile(source, sectionNamePrefix + "_insertOpts");
-  likelihoodOpts.loadFromConfigFile(source, sectionNamePrefix + "_likelihoodOpts");
-  renderOpts.loadFromConfigFile(source, sectionNamePrefix + "_renderOpts");
+  loadSections(*this, source, sectionNamePrefix);
 }
 
 void CVoxelPlanesMap::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const
 {
-  creationOpts.dumpToTextStream(out);
-  insertionOpts.dumpToTextStream(out);
-  likelihoodOpts.dumpToTextStream(out);
-  renderOpts.dumpToTextStream(out);
+  dumpSections(*this, out);
 }
 
 CreatedMap CVoxelPlanesMap::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& def)
 {
   const auto& definition = dynamic_cast<const TMapDefinition&>(def);
-  auto map = std::make_unique<CVoxelPlanesMap>(definition.creationOpts);
-  map->insertionOptions = definition.insertionOpts;
-  map->likelihoodOptions = definition.likelihoodOpts;
-  map->renderOptions = definition.renderOpts;
-#if FASTLIO_MRPT_HAS_NN_INTERFACE
-  return CreatedMap(std::move(map));
-#else
-  return map.release();
-#endif
+  return withOptionsOf(definition, std::make_unique<CVoxelPlanesMap>(definition.creationOpts));
 }
 
 }  // namespace fastlio

@@ -30,7 +30,7 @@ namespace
 /** A map whose every option differs from its default. */
 CIncrementalPointsMap unusualMap()
 {
-  CIncrementalPointsMap map(options(0.7, 0.2));
+  CIncrementalPointsMap map(0.2);
   insertAll(map, roomCloud(1, 5000));
   map.genericMapParams.enableObservationInsertion = false;
   map.insertionOptions.minDistBetweenLaserPoints = 0.123F;
@@ -55,8 +55,7 @@ void expectSamePoints(const mrpt::maps::CPointsMap& a, const mrpt::maps::CPoints
 void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& b)
 {
   expectSamePoints(a, b);
-  EXPECT_EQ(a.creationOptions().cell_size, b.creationOptions().cell_size);
-  EXPECT_EQ(a.creationOptions().min_spacing, b.creationOptions().min_spacing);
+  EXPECT_EQ(a.minSpacing(), b.minSpacing());
   EXPECT_EQ(
       a.genericMapParams.enableObservationInsertion, b.genericMapParams.enableObservationInsertion);
   EXPECT_EQ(
@@ -76,6 +75,25 @@ void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& 
       ASSERT_EQ(found[i].point_index, expected[i].point_index);
     }
   }
+}
+
+// Header: flag, class name, version; then the spacing; then the number of points.
+constexpr std::size_t kSpacingAt = 1 + 30 + 1;
+
+std::vector<std::uint8_t> archived(const CIncrementalPointsMap& map)
+{
+  mrpt::io::CMemoryStream stream;
+  archiveFrom(stream) << map;
+  const auto* bytes = static_cast<const std::uint8_t*>(stream.getRawBufferData());
+  return {bytes, bytes + stream.getTotalBytesCount()};
+}
+
+CIncrementalPointsMap load(const std::vector<std::uint8_t>& content)
+{
+  mrpt::io::CMemoryStream stream(content.data(), content.size());
+  CIncrementalPointsMap map;
+  archiveFrom(stream) >> map;
+  return map;
 }
 
 /** A file that is gone when the test ends. */
@@ -122,47 +140,44 @@ TEST(MapIo, EmptyMapRoundTrip)
 {
   mrpt::io::CMemoryStream stream;
   auto archive = archiveFrom(stream);
-  archive << CIncrementalPointsMap(options(0.7, 0.2));
+  archive << CIncrementalPointsMap(0.2);
   stream.Seek(0);
   CIncrementalPointsMap loaded;
   insertAll(loaded, roomCloud(1, 10));
   archive >> loaded;
   EXPECT_TRUE(loaded.empty());
-  EXPECT_EQ(loaded.creationOptions().cell_size, 0.7);
+  EXPECT_EQ(loaded.minSpacing(), 0.2);
+}
+
+TEST(MapIo, ReadsArchivesOfTheFirstVersion)
+{
+  std::vector<std::uint8_t> first = archived(unusualMap());
+  first[kSpacingAt - 1] = 0;
+  const double cell_size = 0.7;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(&cell_size);
+  first.insert(first.begin() + std::ptrdiff_t(kSpacingAt), bytes, bytes + sizeof(cell_size));
+  expectSameMap(unusualMap(), load(first));
 }
 
 TEST(MapIo, CorruptArchivesThrowAndDoNotExhaustMemory)
 {
-  mrpt::io::CMemoryStream whole;
-  auto archive = archiveFrom(whole);
-  archive << unusualMap();
-  const auto size = static_cast<std::size_t>(whole.getTotalBytesCount());
-  const auto* bytes = static_cast<const std::uint8_t*>(whole.getRawBufferData());
-  const std::vector<std::uint8_t> original(bytes, bytes + size);
-  const auto load = [](const std::vector<std::uint8_t>& content)
-  {
-    mrpt::io::CMemoryStream stream(content.data(), content.size());
-    auto in = archiveFrom(stream);
-    CIncrementalPointsMap map;
-    in >> map;
-  };
+  const std::vector<std::uint8_t> original = archived(unusualMap());
+  const std::size_t size = original.size();
   EXPECT_NO_THROW(load(original));
   for (const std::size_t length : {size / 100, size / 4, size / 2, size - 20})
   {
     EXPECT_ANY_THROW(load({original.begin(), original.begin() + std::ptrdiff_t(length)})) << length;
   }
-  // Header: flag, class name, version; then two doubles; then the number of points.
-  const std::size_t options_at = 1 + std::strlen("fastlio::CIncrementalPointsMap") + 1;
   std::vector<std::uint8_t> huge = original;
   for (std::size_t i = 0; i < 4; ++i)
-    huge[options_at + 16 + i] = 0xFF;
+    huge[kSpacingAt + 8 + i] = 0xFF;
   EXPECT_ANY_THROW(load(huge));
-  std::vector<std::uint8_t> no_cells = original;
+  std::vector<std::uint8_t> no_spacing = original;
   for (std::size_t i = 0; i < 8; ++i)
-    no_cells[options_at + i] = 0;
-  EXPECT_ANY_THROW(load(no_cells));
+    no_spacing[kSpacingAt + i] = 0xFF;
+  EXPECT_ANY_THROW(load(no_spacing));
   std::vector<std::uint8_t> future = original;
-  future[options_at - 1] = 99;
+  future[kSpacingAt - 1] = 99;
   EXPECT_ANY_THROW(load(future));
 }
 
@@ -201,7 +216,7 @@ TEST(MapIo, PlyAndTextFilesHoldTheLivePointsOnly)
   ASSERT_GT(map.size(), 100U);
   const TemporaryFile ply, text;
   ASSERT_TRUE(map.saveToPlyFile(ply.name(), true));
-  CIncrementalPointsMap loaded(options(0.7, 0.2));
+  CIncrementalPointsMap loaded(0.2);
   insertAll(loaded, roomCloud(3, 100));
   ASSERT_TRUE(loaded.loadFromPlyFile(ply.name()));
   expectSamePoints(map, loaded);
@@ -234,7 +249,6 @@ TEST(MapIo, IsMadeFromAMapDefinition)
   {
     mrpt::config::CConfigFileMemory config;
     config.write("Maps", name + "_count", 1);
-    config.write("Maps_" + name + "_00_creationOpts", "cell_size", 0.9);
     config.write("Maps_" + name + "_00_creationOpts", "min_spacing", 0.25);
     config.write("Maps_" + name + "_00_insertOpts", "minDistBetweenLaserPoints", 0.07);
     config.write("Maps_" + name + "_00_likelihoodOpts", "decimation", 4);
@@ -245,8 +259,7 @@ TEST(MapIo, IsMadeFromAMapDefinition)
     maps.setListOfMaps(definitions);
     const auto map = maps.mapByClass<CIncrementalPointsMap>();
     ASSERT_TRUE(map) << name;
-    EXPECT_EQ(map->creationOptions().cell_size, 0.9);
-    EXPECT_EQ(map->creationOptions().min_spacing, 0.25);
+    EXPECT_EQ(map->minSpacing(), 0.25);
     EXPECT_NEAR(map->insertionOptions.minDistBetweenLaserPoints, 0.07, 1e-6);
     EXPECT_EQ(map->likelihoodOptions.decimation, 4U);
   }
@@ -256,17 +269,17 @@ TEST(MapIo, SenselessMapDefinitionSaysWhatIsWrong)
 {
   mrpt::config::CConfigFileMemory config;
   config.write("Maps", "incrementalPointsMap_count", 1);
-  config.write("Maps_incrementalPointsMap_00_creationOpts", "cell_size", -1.0);
+  config.write("Maps_incrementalPointsMap_00_creationOpts", "min_spacing", -1.0);
   mrpt::maps::TSetOfMetricMapInitializers definitions;
   definitions.loadFromConfigFile(config, "Maps");
   mrpt::maps::CMultiMetricMap maps;
   try
   {
     maps.setListOfMaps(definitions);
-    FAIL() << "a negative cell size went through";
+    FAIL() << "a negative spacing went through";
   }
   catch (const std::exception& e)
   {
-    EXPECT_NE(std::string(e.what()).find("cell_size"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("min_spacing"), std::string::npos) << e.what();
   }
 }

@@ -34,14 +34,6 @@ struct Cloud
   [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
-inline CIncrementalPointsMap::TCreationOptions options(double cell_size, double min_spacing)
-{
-  CIncrementalPointsMap::TCreationOptions o;
-  o.cell_size = cell_size;
-  o.min_spacing = min_spacing;
-  return o;
-}
-
 inline Cloud randomCloud(unsigned seed, std::size_t n, float extent)
 {
   std::mt19937 rng(seed);
@@ -76,8 +68,7 @@ inline Cloud shuffled(Cloud cloud, unsigned seed)
   return cloud;
 }
 
-inline CIncrementalPointsMap::InsertionReport insertAll(
-    CIncrementalPointsMap& map, const Cloud& cloud)
+inline std::size_t insertAll(CIncrementalPointsMap& map, const Cloud& cloud)
 {
   std::vector<float> x, y, z;
   for (const Xyz& p : cloud.points)

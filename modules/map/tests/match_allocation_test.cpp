@@ -46,6 +46,26 @@ WorldPoints street(double x, unsigned seed)
   }
   return worldPoints(cloud);
 }
+
+void expectNoMoreMemoryAfterALongDrive(SurfaceMap& map)
+{
+  std::size_t bytes_in_first_km = 0, points_in_first_km = 0;
+  for (int i = 0; i < 3000; ++i)  // metres
+  {
+    const Vec3 position(i, 0.0, 0.0);
+    map.insert(street(i, static_cast<unsigned>(i)), position);
+    map.removeOutside(position, 40.0);
+    if (i >= 1000)
+    {
+      EXPECT_LE(map.pointCount(), 1.1 * double(points_in_first_km)) << i;
+      EXPECT_LE(double(allocatedBytes()), 1.05 * double(bytes_in_first_km)) << i;
+      continue;
+    }
+    bytes_in_first_km = std::max(bytes_in_first_km, allocatedBytes());
+    points_in_first_km = std::max(points_in_first_km, map.pointCount());
+  }
+  EXPECT_GT(points_in_first_km, 10000U);
+}
 }  // namespace
 
 TEST(KnnSurfaceMap, MatchAllocatesNothing)
@@ -60,23 +80,16 @@ TEST(VoxelPlaneMap, MatchAllocatesNothing)
   expectMatchAllocatesNothing(map);
 }
 
+TEST(KnnSurfaceMap, HoldsNoMoreMemoryAfterALongDrive)
+{
+  KnnSurfaceMapOptions options;
+  options.min_spacing = 0.2;
+  KnnSurfaceMap map(options);
+  expectNoMoreMemoryAfterALongDrive(map);
+}
+
 TEST(VoxelPlaneMap, HoldsNoMoreMemoryAfterALongDrive)
 {
   VoxelPlaneMap map{VoxelPlaneOptions{}};
-  std::size_t after_first_km = 0, voxels_in_first_km = 0;
-  for (int i = 0; i < 3000; ++i)  // metres
-  {
-    const Vec3 position(i, 0.0, 0.0);
-    map.insert(street(i, static_cast<unsigned>(i)), position);
-    map.removeOutside(position, 40.0);
-    if (i >= 1000)
-    {
-      EXPECT_LE(map.pointCount(), 1.1 * double(voxels_in_first_km)) << i;
-      continue;
-    }
-    after_first_km = allocatedBytes();
-    voxels_in_first_km = std::max(voxels_in_first_km, map.pointCount());
-  }
-  EXPECT_GT(voxels_in_first_km, 10000U);
-  EXPECT_LE(double(allocatedBytes()), 1.05 * double(after_first_km));
+  expectNoMoreMemoryAfterALongDrive(map);
 }

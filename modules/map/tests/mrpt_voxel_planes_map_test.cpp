@@ -128,6 +128,11 @@ TEST(VoxelPlanesMap, NeighborsAreExactAndFollowChanges)
       map.nn_radius_search({q.x, q.y, q.z}, 4.0F, points, distances, indices);
       ASSERT_TRUE(sameColumns(
           map.points(), points, distances, indices, bruteForce(map.points(), q, 9999, 2.0)));
+      map.nn_radius_search({q.x, q.y, q.z}, 4.0F, points, distances, indices, 7);
+      ASSERT_TRUE(sameColumns(
+          map.points(), points, distances, indices, bruteForce(map.points(), q, 7, 2.0)));
+      map.nn_multiple_search({q.x, q.y, q.z}, 0, points, distances, indices);
+      ASSERT_TRUE(points.empty() && distances.empty() && indices.empty());
       mrpt::math::TPoint3Df single;
       float distance = 0;
       std::uint64_t index = 0;
@@ -141,6 +146,7 @@ TEST(VoxelPlanesMap, NeighborsAreExactAndFollowChanges)
   EXPECT_EQ(map.nn_index_count(), 0U);
 }
 
+#if FASTLIO_MRPT_HAS_NN_INTERFACE
 TEST(VoxelPlanesMap, PlanarNeighborsIgnoreHeight)
 {
   CVoxelPlanesMap map;
@@ -153,6 +159,7 @@ TEST(VoxelPlanesMap, PlanarNeighborsIgnoreHeight)
   EXPECT_NEAR(single.x, 0.0F, 1e-6F);
   EXPECT_NEAR(distance, 0.01F, 1e-5F);
 }
+#endif
 
 TEST(VoxelPlanesMap, TheTruePoseIsTheLikeliest)
 {

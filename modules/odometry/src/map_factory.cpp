@@ -12,12 +12,11 @@ namespace fastlio
 {
 namespace
 {
-std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters, NeighborEngine engine)
+std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters)
 {
   KnnSurfaceMapOptions options;
   options.min_spacing = parameters.map.min_spacing;
   options.point_noise = parameters.measurement.range_noise;
-  options.engine = engine;
   return std::make_unique<KnnSurfaceMap>(options);
 }
 
@@ -36,15 +35,7 @@ std::unique_ptr<SurfaceMap> makePlaneMap(
 std::unique_ptr<SurfaceMap> makeSurfaceMap(
     const Parameters& parameters, std::shared_ptr<const Workers> workers)
 {
-  switch (parameters.map.type)
-  {
-    case MapType::Knn:
-      return makeKnnMap(parameters, NeighborEngine::Incremental);
-    case MapType::KdTree:
-      return makeKnnMap(parameters, NeighborEngine::KdTree);
-    case MapType::Planes:
-      break;
-  }
+  if (parameters.map.type == MapType::Knn) return makeKnnMap(parameters);
   return makePlaneMap(parameters, std::move(workers));
 }
 

@@ -14,7 +14,6 @@ namespace
 {
 constexpr std::size_t kNeighbors = 8;
 constexpr double kFarthestNeighbor = 1.0;  // [m]
-constexpr double kCell = 0.3;              // [m]
 // A surface is thinner than this share of its extent.
 constexpr double kMaxThicknessRatio = 0.2;
 // A sensor so far away sees all points of a group from one direction.
@@ -92,9 +91,7 @@ WorldPoints finitePoints(const WorldPoints& points)
 void insertSavedPoints(const WorldPoints& points, SurfaceMap& map)
 {
   const WorldPoints finite = finitePoints(points);
-  CIncrementalPointsMap::TCreationOptions options;
-  options.cell_size = kCell;
-  CIncrementalPointsMap index(options);
+  CIncrementalPointsMap index;
   index.insertPoints(finite.x.data(), finite.y.data(), finite.z.data(), finite.size());
   const std::vector<Vec3> directions = viewingDirections();
   std::vector<WorldPoints> groups(directions.size());

@@ -34,7 +34,7 @@ void expectTracked(const Results& results, const RoomRecording& recording)
 
 TEST(Odometry, FollowsTheTruthWithEachTypeOfMap)
 {
-  for (const MapType type : {MapType::Planes, MapType::Knn, MapType::KdTree})
+  for (const MapType type : {MapType::Planes, MapType::Knn})
   {
     SCOPED_TRACE(static_cast<int>(type));
     Parameters p = roomParameters();
@@ -135,7 +135,7 @@ TEST(Odometry, BothFormsOfTheGainGiveTheSameTrajectory)
 
 TEST(Odometry, ThreadsChangeNoBit)
 {
-  for (const MapType type : {MapType::Planes, MapType::Knn, MapType::KdTree})
+  for (const MapType type : {MapType::Planes, MapType::Knn})
   {
     Parameters p = roomParameters();
     p.map.type = type;

@@ -42,9 +42,6 @@ struct EdgeMapOptions
   double point_noise = 0.02;
   /** Observations that point_noise is worth against the fit's own residuals. */
   double point_noise_weight = 4.0;
-  /** removeOutside() acts once the centre moved by this fraction of the radius since it last did.
-   */
-  double removal_step = 0.1;
 };
 
 /** Edge points of earlier scans, and the line through the nearest ones of a query.
@@ -73,7 +70,8 @@ class EdgeMap
   /** Adds the edge points of a scan, world frame (eq. 21). */
   void insert(const WorldPoints& points);
 
-  /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
+  /** Drops what lies farther than \a radius [m] from \a center, once the centre has moved by a
+   * tenth of the radius since it last did. */
   void removeOutside(const Vec3& center, double radius);
 
   [[nodiscard]] std::size_t pointCount() const { return map_.size(); }

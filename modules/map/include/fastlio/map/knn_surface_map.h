@@ -12,13 +12,6 @@
 
 namespace fastlio
 {
-/** How neighbours are found; both are exact and give the same planes. */
-enum class NeighborEngine
-{
-  Incremental,  //!< the map's own cell index: fast, grows point by point
-  KdTree        //!< MRPT's nanoflann kd-tree, rebuilt after every change: the reference
-};
-
 /** What configures a KnnSurfaceMap. */
 struct KnnSurfaceMapOptions
 {
@@ -30,16 +23,10 @@ struct KnnSurfaceMapOptions
   double max_plane_distance = 0.1;
   /** Points of the map are at least this far apart [m]; 0 keeps every point. */
   double min_spacing = 0.4;
-  /** Edge of the index cells [m]; 0 chooses it from min_spacing. */
-  double cell_size = 0.0;
   /** Standard deviation of a map point about its surface before its neighbours are seen [m]. */
   double point_noise = 0.02;
   /** Observations that point_noise is worth against the fit's own residuals. */
   double point_noise_weight = 4.0;
-  /** removeOutside() acts once the centre moved by this fraction of the radius since it last did.
-   */
-  double removal_step = 0.1;
-  NeighborEngine engine = NeighborEngine::Incremental;
 };
 
 /** SurfaceMap over a CIncrementalPointsMap: plane through the nearest points of each query.
@@ -50,7 +37,7 @@ struct KnnSurfaceMapOptions
  * observations, and the squared residuals SSR of the n neighbours, which have n - 3 degrees of
  * freedom. With five neighbours the residuals alone would now and then claim a perfect plane.
  *
- * match() is const, allocates nothing with the incremental engine, and may run in several threads
+ * match() is const, allocates nothing, and may run in several threads
  * at once; the other methods may not run beside it. */
 class KnnSurfaceMap : public SurfaceMap
 {
@@ -64,20 +51,16 @@ class KnnSurfaceMap : public SurfaceMap
       std::vector<PlaneMatch>& matches) const override;
   /** The origin is not needed: neighbours, not sides, make the planes. */
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
+  /** Acts once the centre has moved by a tenth of the radius since it last did. */
   void removeOutside(const Vec3& center, double radius) override;
   [[nodiscard]] std::size_t pointCount() const override { return map_.size(); }
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;
 
   [[nodiscard]] const CIncrementalPointsMap& pointsMap() const { return map_; }
   [[nodiscard]] const KnnSurfaceMapOptions& options() const { return options_; }
-  /** Bytes held by the points and their index. */
-  [[nodiscard]] std::size_t memoryBytes() const { return map_.memoryBytes(); }
 
  private:
-  [[nodiscard]] NeighborSet neighborsOf(float x, float y, float z) const;
-  [[nodiscard]] NeighborSet kdTreeNeighborsOf(float x, float y, float z) const;
   [[nodiscard]] PlaneMatch matchPoint(float x, float y, float z) const;
-  void prepareEngine();
 
   KnnSurfaceMapOptions options_;
   CIncrementalPointsMap map_;

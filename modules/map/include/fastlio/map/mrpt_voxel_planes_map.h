@@ -106,36 +106,38 @@ class CVoxelPlanesMap : public mrpt::maps::CMetricMap, public NearestNeighborsIn
       const mrpt::maps::CMetricMap* other, const mrpt::poses::CPose3D& other_pose,
       const mrpt::maps::TMatchingRatioParams& params) const override;
 
-  /** @name Nearest neighbours among points(), by MRPT's names; indices are those of points().
+  /** @name Nearest neighbours among points(), by MRPT's names; indices are those of points(). Plain
+   * methods, and none in the plane, before MRPT 2.11.3.
    * @{ */
   [[nodiscard]] bool nn_has_indices_or_ids() const FASTLIO_NN_OVERRIDE { return true; }
   [[nodiscard]] std::size_t nn_index_count() const FASTLIO_NN_OVERRIDE { return points().size(); }
-  void nn_prepare_for_2d_queries() const FASTLIO_NN_OVERRIDE;
   void nn_prepare_for_3d_queries() const FASTLIO_NN_OVERRIDE;
   [[nodiscard]] bool nn_single_search(
       const mrpt::math::TPoint3Df& query, mrpt::math::TPoint3Df& result, float& out_dist_sqr,
       std::uint64_t& result_index) const FASTLIO_NN_OVERRIDE;
-  [[nodiscard]] bool nn_single_search(
-      const mrpt::math::TPoint2Df& query, mrpt::math::TPoint2Df& result, float& out_dist_sqr,
-      std::uint64_t& result_index) const FASTLIO_NN_OVERRIDE;
   void nn_multiple_search(
       const mrpt::math::TPoint3Df& query, const std::size_t count,
       std::vector<mrpt::math::TPoint3Df>& results, std::vector<float>& out_dists_sqr,
-      std::vector<std::uint64_t>& result_indices) const FASTLIO_NN_OVERRIDE;
-  void nn_multiple_search(
-      const mrpt::math::TPoint2Df& query, const std::size_t count,
-      std::vector<mrpt::math::TPoint2Df>& results, std::vector<float>& out_dists_sqr,
       std::vector<std::uint64_t>& result_indices) const FASTLIO_NN_OVERRIDE;
   void nn_radius_search(
       const mrpt::math::TPoint3Df& query, const float search_radius_sqr,
       std::vector<mrpt::math::TPoint3Df>& results, std::vector<float>& out_dists_sqr,
       std::vector<std::uint64_t>& result_indices,
       std::size_t max_points = 0) const FASTLIO_NN_OVERRIDE;
+#if FASTLIO_MRPT_HAS_NN_INTERFACE
+  void nn_prepare_for_2d_queries() const override;
+  [[nodiscard]] bool nn_single_search(
+      const mrpt::math::TPoint2Df& query, mrpt::math::TPoint2Df& result, float& out_dist_sqr,
+      std::uint64_t& result_index) const override;
+  void nn_multiple_search(
+      const mrpt::math::TPoint2Df& query, const std::size_t count,
+      std::vector<mrpt::math::TPoint2Df>& results, std::vector<float>& out_dists_sqr,
+      std::vector<std::uint64_t>& result_indices) const override;
   void nn_radius_search(
       const mrpt::math::TPoint2Df& query, const float search_radius_sqr,
       std::vector<mrpt::math::TPoint2Df>& results, std::vector<float>& out_dists_sqr,
-      std::vector<std::uint64_t>& result_indices,
-      std::size_t max_points = 0) const FASTLIO_NN_OVERRIDE;
+      std::vector<std::uint64_t>& result_indices, std::size_t max_points = 0) const override;
+#endif
   /** @} */
 
   TInsertionOptions insertionOptions;

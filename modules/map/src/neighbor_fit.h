@@ -1,0 +1,96 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file neighbor_fit.h What the maps that fit planes and lines to nearest points have in common.
+ */
+#pragma once
+
+#include <fastlio/map/incremental_points_map.h>
+#include <fastlio/math/so3.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace fastlio
+{
+/** \exception std::invalid_argument the option \a name of a \a map does not hold its rule */
+inline void requireOption(
+    bool holds, const std::string& map, const char* name, const char* rule, double value)
+{
+  if (holds) return;
+  throw std::invalid_argument(
+      map + ": " + name + " must be " + rule + ", but is " + std::to_string(value));
+}
+
+/** Checks the options that both maps have. */
+template <typename Options>
+void requireCommonOptions(const std::string& map, const Options& o)
+{
+  static_assert(kMaxNeighbors == 16, "as the message says");
+  requireOption(
+      o.neighbors >= 3 && o.neighbors <= kMaxNeighbors, map, "neighbors", "from 3 to 16",
+      static_cast<double>(o.neighbors));
+  requireOption(
+      o.max_neighbor_distance > 0.0, map, "max_neighbor_distance", "above zero",
+      o.max_neighbor_distance);
+  requireOption(o.min_spacing >= 0.0, map, "min_spacing", "zero or more", o.min_spacing);
+  requireOption(o.point_noise > 0.0, map, "point_noise", "above zero", o.point_noise);
+  requireOption(
+      o.point_noise_weight > 0.0, map, "point_noise_weight", "above zero", o.point_noise_weight);
+}
+
+/** \exception std::invalid_argument points [first, last) or their matches do not exist */
+inline void requireMatchRange(
+    const std::string& map, std::size_t first, std::size_t last, std::size_t points,
+    std::size_t matches)
+{
+  if (first <= last && last <= points && last <= matches) return;
+  throw std::invalid_argument(
+      map + "::match: the range [" + std::to_string(first) + ", " + std::to_string(last) +
+      ") does not fit " + std::to_string(points) + " points and " + std::to_string(matches) +
+      " matches; resize the matches first");
+}
+
+/** A query's neighbours, relative to the query so that single precision loses nothing. */
+struct LocalPoints
+{
+  std::array<Vec3, kMaxNeighbors> items;
+  std::size_t count = 0;
+
+  [[nodiscard]] const Vec3* begin() const { return items.data(); }
+  [[nodiscard]] const Vec3* end() const { return items.data() + count; }
+};
+
+inline LocalPoints localPoints(const NeighborSet& neighbors, float x, float y, float z)
+{
+  LocalPoints local;
+  for (const Neighbor& n : neighbors)
+    local.items[local.count++] = {
+        static_cast<double>(n.x) - x, static_cast<double>(n.y) - y, static_cast<double>(n.z) - z};
+  return local;
+}
+
+/** Weighted mean of the prior variance of a point and of the squared residuals of a fit. */
+template <typename Options>
+[[nodiscard]] double pointVariance(
+    double squared_residuals, double degrees_of_freedom, const Options& o)
+{
+  return (o.point_noise_weight * o.point_noise * o.point_noise + squared_residuals) /
+         (o.point_noise_weight + degrees_of_freedom);
+}
+
+/** Removes what is outside of the radius [m], unless the centre has hardly moved since the last
+ * time, as each removal indexes the map anew. */
+inline void removeOutsideNowAndThen(
+    CIncrementalPointsMap& map, std::optional<Vec3>& last_center, const Vec3& center, double radius)
+{
+  constexpr double kStep = 0.1;  // of the radius
+  if (last_center && (center - *last_center).norm() <= kStep * radius) return;
+  last_center = center;
+  map.removeOutside(center.x(), center.y(), center.z(), radius);
+}
+
+}  // namespace fastlio
