@@ -3,6 +3,7 @@
 
 #include "pose_parsing.h"
 #include <fastlio/evaluation/trajectory_io.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/LU>
 
@@ -47,7 +48,7 @@ std::vector<std::int64_t> timesAtRate(double rate, std::size_t count)
 {
   std::vector<std::int64_t> times(count);
   for (std::size_t i = 0; i < count; ++i)
-    times[i] = std::llround(static_cast<double>(i) / rate * 1e9);
+    times[i] = toNanoseconds(static_cast<double>(i) / rate);
   return times;
 }
 

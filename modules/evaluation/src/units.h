@@ -4,13 +4,13 @@
 /** \file units.h From the units of the library to those of reports. */
 #pragma once
 
-#include <cmath>
+#include <fastlio/math/angles.h>
 
 namespace fastlio
 {
 [[nodiscard]] inline double toDegrees(double radians)
 {
-  return radians * 180.0 / M_PI;
+  return radians * 180.0 / kPi;
 }
 [[nodiscard]] inline double toPercent(double ratio)
 {

@@ -3,22 +3,20 @@
 
 // The map as any MRPT map: archives, files, copies, factories, visualisation.
 
+#include "map_class_tools.h"
 #include "map_test_tools.h"
 #include <fastlio/map/register_classes.h>
 
 #include <gtest/gtest.h>
-#include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/opengl/CPointCloud.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/filesystem.h>
 
-#include <cstring>
 #include <unistd.h>
 
 using namespace fastlio;
@@ -80,19 +78,10 @@ void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& 
 // Header: flag, class name, version; then the spacing; then the number of points.
 constexpr std::size_t kSpacingAt = 1 + 30 + 1;
 
-std::vector<std::uint8_t> archived(const CIncrementalPointsMap& map)
+CIncrementalPointsMap loadedFrom(const std::vector<std::uint8_t>& content)
 {
-  mrpt::io::CMemoryStream stream;
-  archiveFrom(stream) << map;
-  const auto* bytes = static_cast<const std::uint8_t*>(stream.getRawBufferData());
-  return {bytes, bytes + stream.getTotalBytesCount()};
-}
-
-CIncrementalPointsMap load(const std::vector<std::uint8_t>& content)
-{
-  mrpt::io::CMemoryStream stream(content.data(), content.size());
   CIncrementalPointsMap map;
-  archiveFrom(stream) >> map;
+  load(content, map);
   return map;
 }
 
@@ -156,29 +145,30 @@ TEST(MapIo, ReadsArchivesOfTheFirstVersion)
   const double cell_size = 0.7;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(&cell_size);
   first.insert(first.begin() + std::ptrdiff_t(kSpacingAt), bytes, bytes + sizeof(cell_size));
-  expectSameMap(unusualMap(), load(first));
+  expectSameMap(unusualMap(), loadedFrom(first));
 }
 
 TEST(MapIo, CorruptArchivesThrowAndDoNotExhaustMemory)
 {
   const std::vector<std::uint8_t> original = archived(unusualMap());
   const std::size_t size = original.size();
-  EXPECT_NO_THROW(load(original));
+  EXPECT_NO_THROW(loadedFrom(original));
   for (const std::size_t length : {size / 100, size / 4, size / 2, size - 20})
   {
-    EXPECT_ANY_THROW(load({original.begin(), original.begin() + std::ptrdiff_t(length)})) << length;
+    EXPECT_ANY_THROW(loadedFrom({original.begin(), original.begin() + std::ptrdiff_t(length)}))
+        << length;
   }
   std::vector<std::uint8_t> huge = original;
   for (std::size_t i = 0; i < 4; ++i)
     huge[kSpacingAt + 8 + i] = 0xFF;
-  EXPECT_ANY_THROW(load(huge));
+  EXPECT_ANY_THROW(loadedFrom(huge));
   std::vector<std::uint8_t> no_spacing = original;
   for (std::size_t i = 0; i < 8; ++i)
     no_spacing[kSpacingAt + i] = 0xFF;
-  EXPECT_ANY_THROW(load(no_spacing));
+  EXPECT_ANY_THROW(loadedFrom(no_spacing));
   std::vector<std::uint8_t> future = original;
   future[kSpacingAt - 1] = 99;
-  EXPECT_ANY_THROW(load(future));
+  EXPECT_ANY_THROW(loadedFrom(future));
 }
 
 TEST(MapIo, CopiesAreIndependent)
@@ -247,17 +237,10 @@ TEST(MapIo, IsMadeFromAMapDefinition)
 {
   for (const std::string name : {"fastlio::CIncrementalPointsMap", "incrementalPointsMap"})
   {
-    mrpt::config::CConfigFileMemory config;
-    config.write("Maps", name + "_count", 1);
-    config.write("Maps_" + name + "_00_creationOpts", "min_spacing", 0.25);
-    config.write("Maps_" + name + "_00_insertOpts", "minDistBetweenLaserPoints", 0.07);
-    config.write("Maps_" + name + "_00_likelihoodOpts", "decimation", 4);
-    mrpt::maps::TSetOfMetricMapInitializers definitions;
-    definitions.loadFromConfigFile(config, "Maps");
-    ASSERT_EQ(definitions.size(), 1U);
-    mrpt::maps::CMultiMetricMap maps;
-    maps.setListOfMaps(definitions);
-    const auto map = maps.mapByClass<CIncrementalPointsMap>();
+    const auto map = mapFromDefinition<CIncrementalPointsMap>(
+        name, {{"creationOpts", "min_spacing", 0.25},
+               {"insertOpts", "minDistBetweenLaserPoints", 0.07},
+               {"likelihoodOpts", "decimation", 4}});
     ASSERT_TRUE(map) << name;
     EXPECT_EQ(map->minSpacing(), 0.25);
     EXPECT_NEAR(map->insertionOptions.minDistBetweenLaserPoints, 0.07, 1e-6);
@@ -267,19 +250,11 @@ TEST(MapIo, IsMadeFromAMapDefinition)
 
 TEST(MapIo, SenselessMapDefinitionSaysWhatIsWrong)
 {
-  mrpt::config::CConfigFileMemory config;
-  config.write("Maps", "incrementalPointsMap_count", 1);
-  config.write("Maps_incrementalPointsMap_00_creationOpts", "min_spacing", -1.0);
-  mrpt::maps::TSetOfMetricMapInitializers definitions;
-  definitions.loadFromConfigFile(config, "Maps");
-  mrpt::maps::CMultiMetricMap maps;
-  try
-  {
-    maps.setListOfMaps(definitions);
-    FAIL() << "a negative spacing went through";
-  }
-  catch (const std::exception& e)
-  {
-    EXPECT_NE(std::string(e.what()).find("min_spacing"), std::string::npos) << e.what();
-  }
+  const std::string message = messageOf(
+      []
+      {
+        (void)mapFromDefinition<CIncrementalPointsMap>(
+            "incrementalPointsMap", {{"creationOpts", "min_spacing", -1.0}});
+      });
+  EXPECT_NE(message.find("min_spacing"), std::string::npos) << message;
 }

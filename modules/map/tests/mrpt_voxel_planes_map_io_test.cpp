@@ -3,14 +3,13 @@
 
 // The map of planes in archives, files, copies and map definitions.
 
+#include "map_class_tools.h"
 #include "surface_map_test_tools.h"
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/map/register_classes.h>
 
 #include <gtest/gtest.h>
-#include <mrpt/config/CConfigFileMemory.h>
 #include <mrpt/io/CMemoryStream.h>
-#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <array>
@@ -76,36 +75,6 @@ void expectSameMap(CVoxelPlanesMap a, CVoxelPlanesMap b)
   for (auto* map : {&a, &b})
     map->insertPoints(worldPoints(roomCloud(20, 3000)), Vec3::Zero());
   expectSameMatches(a, b);
-}
-
-std::vector<std::uint8_t> archived(const CVoxelPlanesMap& map)
-{
-  mrpt::io::CMemoryStream stream;
-  archiveFrom(stream) << map;
-  const auto* bytes = static_cast<const std::uint8_t*>(stream.getRawBufferData());
-  return {bytes, bytes + stream.getTotalBytesCount()};
-}
-
-void load(const std::vector<std::uint8_t>& content, CVoxelPlanesMap& map)
-{
-  mrpt::io::CMemoryStream stream(content.data(), content.size());
-  auto in = archiveFrom(stream);
-  in >> map;
-}
-
-/** The message of what it throws. */
-template <typename Action>
-std::string messageOf(const Action& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const std::exception& e)
-  {
-    return e.what();
-  }
-  return "";
 }
 
 class VoxelPlanesMapFile : public ::testing::Test
@@ -258,18 +227,11 @@ TEST(VoxelPlanesMapIo, IsMadeFromAMapDefinition)
 {
   for (const std::string name : {"fastlio::CVoxelPlanesMap", "voxelPlanesMap"})
   {
-    mrpt::config::CConfigFileMemory config;
-    config.write("Maps", name + "_count", 1);
-    config.write("Maps_" + name + "_00_creationOpts", "voxel_size", 0.9);
-    config.write("Maps_" + name + "_00_creationOpts", "min_points", 9);
-    config.write("Maps_" + name + "_00_insertOpts", "radius", 70.0);
-    config.write("Maps_" + name + "_00_renderOpts", "planes", false);
-    mrpt::maps::TSetOfMetricMapInitializers definitions;
-    definitions.loadFromConfigFile(config, "Maps");
-    ASSERT_EQ(definitions.size(), 1U);
-    mrpt::maps::CMultiMetricMap maps;
-    maps.setListOfMaps(definitions);
-    const auto map = maps.mapByClass<CVoxelPlanesMap>();
+    const auto map = mapFromDefinition<CVoxelPlanesMap>(
+        name, {{"creationOpts", "voxel_size", 0.9},
+               {"creationOpts", "min_points", 9},
+               {"insertOpts", "radius", 70.0},
+               {"renderOpts", "planes", 0}});
     ASSERT_TRUE(map) << name;
     EXPECT_EQ(map->planes().options().voxel_size, 0.9);
     EXPECT_EQ(map->planes().options().rules.min_points, 9.0F);

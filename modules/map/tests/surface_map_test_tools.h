@@ -6,11 +6,23 @@
 
 #include "map_test_tools.h"
 #include <fastlio/map/surface_map.h>
+#include <fastlio/map/voxel_plane_map.h>
 
 #include <vector>
 
 namespace fastlio::testing
 {
+constexpr float kSize = 0.5F;  // exact in binary, as are its multiples
+
+/** Finest voxels of kSize. */
+inline VoxelPlaneOptions halfMetre()
+{
+  VoxelPlaneOptions o;
+  o.voxel_size = kSize;
+  o.rules.point_noise = 0.01F;
+  return o;
+}
+
 inline WorldPoints worldPoints(const Cloud& cloud)
 {
   WorldPoints points;

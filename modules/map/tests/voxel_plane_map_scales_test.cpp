@@ -4,7 +4,6 @@
 // Blocks, slots and hashing against plain voxel grids of the three sizes.
 
 #include "surface_map_test_tools.h"
-#include <fastlio/map/voxel_plane_map.h>
 
 #include <gtest/gtest.h>
 
@@ -16,16 +15,6 @@ using namespace fastlio::testing;
 
 namespace
 {
-constexpr float kSize = 0.5F;  // exact in binary, as are its multiples
-
-VoxelPlaneOptions halfMetre()
-{
-  VoxelPlaneOptions o;
-  o.voxel_size = kSize;
-  o.rules.point_noise = 0.01F;
-  return o;
-}
-
 /** Voxels of one scale, found by sorting all points into cells. */
 class BruteForceScale
 {

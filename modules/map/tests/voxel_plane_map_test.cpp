@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "surface_map_test_tools.h"
-#include <fastlio/map/voxel_plane_map.h>
 
 #include <gtest/gtest.h>
 
@@ -14,16 +13,6 @@ using namespace fastlio::testing;
 
 namespace
 {
-constexpr float kSize = 0.5F;  // exact in binary, as are its multiples
-
-VoxelPlaneOptions halfMetre()
-{
-  VoxelPlaneOptions o;
-  o.voxel_size = kSize;
-  o.rules.point_noise = 0.01F;
-  return o;
-}
-
 /** Points on z = height, |x - x0|, |y - y0| < half, seen from 3 m above the middle with noise along
  * the beams. */
 Cloud patch(float x0, float y0, float height, float half, std::size_t n, float noise = 0.01F)

@@ -14,17 +14,11 @@ namespace fastlio
 {
 namespace
 {
-
 /** Direction of a spinning sensor's laser; the azimuth grows clockwise seen from above. */
 Vec3 spinningDirection(double azimuth, double elevation)
 {
   const double c = std::cos(elevation);
   return {c * std::cos(azimuth), -c * std::sin(azimuth), std::sin(elevation)};
-}
-
-std::int64_t roundedNs(double seconds)
-{
-  return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
 }
 
 /** Packets follow each other without a pause; a sweep is the packets that begin in one revolution.
@@ -88,7 +82,7 @@ class SpinningModel : public LidarModel
 
   [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
   {
-    return zero_ns_ + roundedNs(static_cast<double>(index) / settings_.rate);
+    return zero_ns_ + toNanoseconds(static_cast<double>(index) / settings_.rate);
   }
 
   [[nodiscard]] Sweep sweep(std::size_t index) const override
@@ -100,7 +94,7 @@ class SpinningModel : public LidarModel
     for (int column = 0; column < settings_.columns; ++column)
     {
       const double turn = static_cast<double>(column) / settings_.columns;
-      const auto offset_ns = static_cast<std::int32_t>(roundedNs(turn / settings_.rate));
+      const auto offset_ns = static_cast<std::int32_t>(toNanoseconds(turn / settings_.rate));
       for (int line = 0; line < settings_.lines; ++line)
         sweep.shots.push_back(
             {spinningDirection(kTwoPi * turn, elevation(line)), offset_ns,
@@ -133,7 +127,7 @@ class RosetteModel : public LidarModel
 
   [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
   {
-    return zero_ns_ + roundedNs(static_cast<double>(firstShot(index)) / settings_.point_rate);
+    return zero_ns_ + toNanoseconds(static_cast<double>(firstShot(index)) / settings_.point_rate);
   }
 
   [[nodiscard]] Sweep sweep(std::size_t index) const override
@@ -167,7 +161,8 @@ class RosetteModel : public LidarModel
     const double up = kDeflection * (std::sin(kFirstPrism * t) + std::sin(kSecondPrism * t)) +
                       kLaserSpacing * (static_cast<double>(laser) - 0.5 * (kLasers - 1));
     return {
-        spinningDirection(-left, up), static_cast<std::int32_t>(zero_ns_ + roundedNs(t) - sweep_ns),
+        spinningDirection(-left, up),
+        static_cast<std::int32_t>(zero_ns_ + toNanoseconds(t) - sweep_ns),
         static_cast<std::uint32_t>(in_sweep / kLasers), static_cast<std::uint16_t>(laser)};
   }
 
