@@ -144,6 +144,8 @@ class PointForest
   /** A result set of nanoflann. */
   struct TreeResults
   {
+    using DistanceType = float;  // newer versions ask for both
+    using IndexType = std::uint32_t;
     NearestPoints& nearest;
     std::uint32_t first;  //!< the tree's first point
 
@@ -156,9 +158,9 @@ class PointForest
     [[nodiscard]] bool full() const { return nearest.full(); }
     [[nodiscard]] std::size_t size() const { return nearest.count(); }
     void sort() {}
-    bool addPoint(float distance_sqr, std::size_t i)
+    bool addPoint(DistanceType distance_sqr, IndexType i)
     {
-      nearest.offer(distance_sqr, first + static_cast<std::uint32_t>(i));
+      nearest.offer(distance_sqr, first + i);
       return !nearest.areEnough();
     }
   };
