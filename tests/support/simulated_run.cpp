@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace fastlio::testing
 {
@@ -49,6 +50,13 @@ void drain(Odometry& odometry, const Simulation& simulation, SimulatedRun& run)
 
 SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters)
 {
+  return runOdometryWithScans(simulation, parameters, [](LidarScan&) { return true; });
+}
+
+SimulatedRun runOdometryWithScans(
+    const Simulation& simulation, const Parameters& parameters,
+    const std::function<bool(LidarScan&)>& filter)
+{
   SimulatedRun run;
   run.gravity = {0.0, 0.0, -simulation.settings().gravity};
   run.T_est_sim =
@@ -58,7 +66,9 @@ SimulatedRun runOdometry(const Simulation& simulation, const Parameters& paramet
     odometry.addImu(sample);
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
   {
-    odometry.addScan(simulation.scan(i));
+    LidarScan scan = simulation.scan(i);
+    if (!filter(scan)) continue;
+    odometry.addScan(std::move(scan));
     drain(odometry, simulation, run);
   }
   return run;

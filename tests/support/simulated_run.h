@@ -10,6 +10,7 @@
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/simulation.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct SimulatedRun
 /** Feeds a whole recording to an odometry of its own. \param parameters mostly
  * matchingParameters() */
 [[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters);
+
+/** The same with scans as they come out of \a filter, which may change them; false: the scan does
+ * not arrive. */
+[[nodiscard]] SimulatedRun runOdometryWithScans(
+    const Simulation& simulation, const Parameters& parameters,
+    const std::function<bool(LidarScan&)>& filter);
 
 /** The same for what is left of a recording \a begin seconds after its start, when the platform may
  * be in motion. The filter's world is fixed by the true pose at the end of the first scan with a

@@ -1,0 +1,148 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Scans are missing for a while in motion: the odometry finds its pose again, or says that it has
+// lost it. What it must never do is to go on from a wrong pose and to be sure of it.
+
+#include "simulated_run.h"
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/math/time.h>
+#include <fastlio/simulation/scenario.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <tuple>
+
+namespace fastlio::testing
+{
+namespace
+{
+struct Outage
+{
+  double begin_s, length_s;
+};
+
+/** A scan that the outage leaves nothing of, or that is not touched, or what is left of it. */
+enum class Missing
+{
+  Scans,  //!< no scan arrives
+  Points  //!< scans arrive, nearly without points
+};
+
+PointColumns firstOf(const PointColumns& points, std::size_t count)
+{
+  PointColumns first;
+  for (std::size_t i = 0; i < count && i < points.size(); ++i)
+    first.push_back(
+        points.x[i], points.y[i], points.z[i], points.intensity[i], points.time_offset_ns[i],
+        points.ring[i]);
+  return first;
+}
+
+SimulatedRun runWithOutage(const Simulation& simulation, const Outage& outage, Missing missing)
+{
+  Parameters options = matchingParameters(simulation.settings());
+  options.threads = 2;
+  SimulatedRun run = runOdometryWithScans(
+      simulation, options,
+      [&](LidarScan& scan)
+      {
+        const double t = toSeconds(scan.stamp_ns - simulation.settings().start_ns);
+        if (t < outage.begin_s || t >= outage.begin_s + outage.length_s) return true;
+        if (missing == Missing::Points) scan.points = firstOf(scan.points, 5);
+        return missing == Missing::Points;
+      });
+  return run;
+}
+
+double positionError(const SimulatedRun& run, const JudgedScan& scan)
+{
+  return stateError(run, scan).segment<3>(kPosition).norm();
+}
+
+double positionStd(const JudgedScan& scan)
+{
+  return std::sqrt(scan.result.filter.P.diagonal().segment<3>(kPosition).sum());
+}
+
+/** \return the number of scans that claim to track and are off by more than 0.3 m and 5 sigma */
+int confidentlyWrong(const SimulatedRun& run)
+{
+  int wrong = 0;
+  for (const JudgedScan& scan : run.scans)
+  {
+    if (scan.result.status != ScanStatus::Tracking) continue;
+    const double error = positionError(run, scan);
+    if (error > 0.3 && error > 5.0 * positionStd(scan)) ++wrong;
+  }
+  return wrong;
+}
+
+SimulationSettings walk(const std::string& scenario)
+{
+  SimulationSettings settings = defaultSettings(scenario);
+  settings.duration = 30.0;
+  return settings;
+}
+
+class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<const char*, double>>
+{
+};
+
+TEST_P(OutageOfTheLidar, IsNeverFollowedByAWrongPoseThatIsSureOfItself)
+{
+  const auto& [scenario, length] = GetParam();
+  const Simulation simulation(walk(scenario));
+  // Every second begins an outage in the full grid, every sixth here.
+  const double step = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr ? 1.0 : 6.0;
+  for (double begin = 5.0; begin + length < 29.0; begin += step)
+  {
+    const SimulatedRun run = runWithOutage(simulation, {begin, length}, Missing::Scans);
+    EXPECT_EQ(confidentlyWrong(run), 0) << length << " s from " << begin << " s on";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sample, OutageOfTheLidar,
+    ::testing::Combine(
+        ::testing::Values("office", "campus", "uav"), ::testing::Values(2.0, 5.0, 10.0)),
+    [](const auto& instance)
+    {
+      return std::string(std::get<0>(instance.param)) + "For" +
+             std::to_string(static_cast<int>(std::get<1>(instance.param))) + "Seconds";
+    });
+
+TEST(OutageOfTheLidar, OfASecondIsForgottenAfterwards)
+{
+  const Simulation simulation(walk("campus"));
+  const SimulatedRun run = runWithOutage(simulation, {12.0, 1.0}, Missing::Scans);
+  EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
+  EXPECT_LT(positionError(run, run.scans.back()), 0.1);
+}
+
+TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
+{
+  const Simulation simulation(walk("campus"));
+  const SimulatedRun run = runWithOutage(simulation, {12.0, 5.0}, Missing::Scans);
+  EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
+  EXPECT_LT(positionError(run, run.scans.back()), 0.1);
+  const auto found = std::find_if(
+      run.scans.begin(), run.scans.end(),
+      [](const JudgedScan& scan)
+      { return scan.result.message.find("found again") != std::string::npos; });
+  EXPECT_NE(found, run.scans.end());
+}
+
+TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
+{
+  const Simulation simulation(walk("office"));
+  const SimulatedRun run = runWithOutage(simulation, {10.0, 6.0}, Missing::Points);
+  EXPECT_EQ(confidentlyWrong(run), 0);
+}
+
+}  // namespace
+}  // namespace fastlio::testing
