@@ -5,8 +5,6 @@
 #include <fastlio/math/time.h>
 #include <fastlio/odometry/map_error.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 
 namespace fastlio
@@ -23,10 +21,10 @@ double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
 Matrix6 positivePart(const Matrix6& m)
 {
   using Aligned = Eigen::Matrix<double, 6, 6>;
-  const Aligned symmetric = 0.5 * (m + m.transpose());
-  const Eigen::SelfAdjointEigenSolver<Aligned> solver(symmetric);
-  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
-         solver.eigenvectors().transpose();
+  const Matrix6 symmetric = 0.5 * (m + m.transpose());
+  const Eigensystem6 system = symmetricEigensystem(symmetric);
+  const Aligned V = system.vectors;
+  return V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
 }
 
 /** Derivatives of the relative pose by the errors of a and b. */

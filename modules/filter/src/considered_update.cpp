@@ -62,17 +62,18 @@ UpdateStep consideringStep(
 {
   const StateVector d = boxminus(iterate, prior.x);
   const Square J_inv = priorJacobianInverse(iterate, prior.x);
-  const Square P = J_inv * prior.P * J_inv.transpose();
+  const Square P = transformedCovariance(J_inv, prior.P);
   const Square projection = estimatedPart(evaluation.unconstrained, evaluation.by_state, iterate.R);
   const Eigen::Matrix<double, 6, kStateDim> B = evaluation.by_state;
   const Eigen::Matrix<double, 6, 6> S = evaluation.sums.HtRinvH;
-  const Eigen::Matrix<double, kStateDim, 6> gain = projection * step.gain;
-  const Square keep = Square::Identity() - gain * S * B;
+  const Eigen::Matrix<double, kStateDim, 6> gain = product(projection, step.gain);
+  const Eigen::Matrix<double, kStateDim, 6> gain_S = gain * S;
+  const Square keep = Square::Identity() - product(gain_S, B);
 
   UpdateStep partial;
-  partial.dx = -d + projection * (step.dx + d);
+  partial.dx = -d + product(projection, StateVector(step.dx + d));
   partial.gain = gain;
-  partial.P = keep * P * keep.transpose() + gain * S * gain.transpose();
+  partial.P = transformedCovariance(keep, P) + productByTransposed(gain_S, gain);
   partial.P = 0.5 * (partial.P + partial.P.transpose()).eval();
   return partial;
 }

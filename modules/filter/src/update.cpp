@@ -66,10 +66,10 @@ void requireIterations(const IterationLimits& limits)
       " but must be at least 1");
 }
 
-/** H (m x 6), z and R of the stacked measurements. */
+/** H^T (6 x m), z and R of the stacked measurements. */
 struct StackedMatrices
 {
-  Eigen::Matrix<double, Eigen::Dynamic, kPoseDim> H;
+  Eigen::MatrixXd Ht;
   Eigen::VectorXd z;
   Eigen::VectorXd R;
 };
@@ -78,12 +78,11 @@ StackedMatrices stack(const StackedMeasurements& measurements)
 {
   const auto m = static_cast<Eigen::Index>(measurements.h.size());
   StackedMatrices s{
-      Eigen::Matrix<double, Eigen::Dynamic, kPoseDim>(m, kPoseDim),
-      Eigen::Map<const Eigen::VectorXd>(measurements.z.data(), m),
+      Eigen::MatrixXd(kPoseDim, m), Eigen::Map<const Eigen::VectorXd>(measurements.z.data(), m),
       Eigen::Map<const Eigen::VectorXd>(measurements.variance.data(), m)};
   for (Eigen::Index i = 0; i < m; ++i)
   {
-    s.H.row(i) = measurements.h[static_cast<std::size_t>(i)].transpose();
+    s.Ht.col(i) = measurements.h[static_cast<std::size_t>(i)];
   }
   return s;
 }
@@ -197,7 +196,8 @@ UpdateStep informationStep(
   return step;
 }
 
-// Eq. 18: K = P H^T (H P H^T + R)^-1, an m x m system for m measurements.
+// Eq. 18: K = P H^T (H P H^T + R)^-1, an m x m system for m measurements. Matrices of one type
+// only: each mixture of fixed and dynamic sizes would take a second to compile.
 UpdateStep standardStep(
     const FilterState& prior, const NavState& iterate, const StackedMeasurements& measurements,
     const ScanPoseJacobian& by_state)
@@ -206,18 +206,19 @@ UpdateStep standardStep(
   const auto [d, P] = priorAt(prior, iterate);
   if (measurements.h.empty()) return {-d, P, ScanGain::Zero()};
   const StackedMatrices s = stack(measurements);
-  using Wide = Eigen::Matrix<double, kStateDim, Eigen::Dynamic>;
-  const Wide Ht = by_state.transpose() * s.H.transpose();
-  const Wide PHt = P * Ht;
-  Eigen::MatrixXd innovation = Ht.transpose() * PHt;
+  using Dense = Eigen::MatrixXd;
+  const Dense Ht = Dense(by_state.transpose()) * s.Ht;
+  const Dense PHt = Dense(P) * Ht;
+  const Dense H = Ht.transpose(), HP = PHt.transpose();
+  Dense innovation = H * PHt;
   innovation.diagonal() += s.R;
-  const Wide K = innovation.llt().solve(PHt.transpose()).transpose();
+  const Dense K = Dense(innovation.llt().solve(HP)).transpose();
 
   UpdateStep step;
-  step.dx = -d - K * (s.z - Ht.transpose() * d);
-  step.P = P - K * PHt.transpose();
+  step.dx = -d - StateVector(K * Eigen::VectorXd(s.z - H * Eigen::VectorXd(d)));
+  step.P = P - StateMatrix(K * HP);
   step.P = 0.5 * (step.P + step.P.transpose()).eval();
-  step.gain = step.P * by_state.transpose();
+  step.gain = productByTransposed(step.P, by_state);
   return step;
 }
 

@@ -3,7 +3,7 @@
 
 #include "carried_pose.h"
 
-#include <Eigen/Geometry>
+#include <fastlio/math/linear_algebra.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@ StateMatrix turned(const StateMatrix& P, const Mat3& W)
   StateMatrix T = StateMatrix::Identity();
   for (const int block : {kPosition, kVelocity, kGravity})
     T.block<3, 3>(block, block) = W;
-  const StateMatrix product = T * P * T.transpose();
-  return 0.5 * (product + product.transpose());
+  const StateMatrix P_turned = transformedCovariance(T, P);
+  return 0.5 * (P_turned + P_turned.transpose());
 }
 
 /** No knowledge shared with other blocks, and this covariance. */
@@ -39,8 +39,7 @@ void replaceBlock(StateMatrix& P, int block, const Mat3& covariance)
 Mat3 worldRotation(const NavState& start, const NavState& carried)
 {
   const Mat3 R = carried.R * start.R.transpose();
-  const auto level = Eigen::Quaterniond::FromTwoVectors(R * start.g, carried.g);
-  return level.toRotationMatrix() * R;
+  return rotationBetween(R * start.g, carried.g) * R;
 }
 }  // namespace
 

@@ -5,8 +5,6 @@
 #include "measurement_lanes.h"
 #include <fastlio/odometry/degeneracy.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 namespace fastlio
@@ -35,8 +33,6 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
   m.leftCols<3>() /= lever_arm;
   return m;
 }
-
-using Solver = Eigen::SelfAdjointEigenSolver<Square6>;
 
 /** (p, 1) of the points that count; the others may be no numbers. */
 void homogeneous(
@@ -90,8 +86,8 @@ Matrix6 normalNoiseInformation(
 
 bool mayBeDegenerate(const Matrix6& information)
 {
-  const Solver solver(inLengths(information, leverArmOf(information)), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()[0] < kClearlyConstrained * solver.eigenvalues()[5];
+  const Vector6 values = symmetricEigenvalues(inLengths(information, leverArmOf(information)));
+  return values[0] < kClearlyConstrained * values[5];
 }
 
 ScanConstraints scanConstraints(
@@ -99,11 +95,12 @@ ScanConstraints scanConstraints(
 {
   ScanConstraints c;
   c.lever_arm = leverArmOf(information);
-  const Solver solver(inLengths(information, c.lever_arm));
+  const Matrix6 scaled = inLengths(information, c.lever_arm);
+  const Eigensystem6 system = symmetricEigensystem(scaled);
   const Square6 noise = inLengths(noise_information, c.lever_arm);
-  const Square6& V = solver.eigenvectors();
+  const Square6 V = system.vectors;
   c.directions = V;
-  c.information = solver.eigenvalues();
+  c.information = system.values;
   Vector6 keep = Vector6::Ones();
   for (int i = 0; i < 6; ++i)
   {

@@ -56,7 +56,7 @@ AlignedStateBy6 gainOf(const LinearizedUpdate& update)
 {
   const Eigen::Matrix<double, 6, kStateDim> B = update.by_state;
   AlignedStateBy6 gain = update.gain;
-  const AlignedMatrix6 scan_pose = B * gain;
+  const AlignedMatrix6 scan_pose = product(B, gain);
   gain.topRows<6>() = AlignedMatrix6(B.leftCols<6>()).partialPivLu().solve(scan_pose);
   gain.bottomRows<kCalibrationDim>().setZero();
   return gain * update.constrained.transpose();
@@ -68,16 +68,16 @@ struct Keeping
   AlignedStateBy6 G;
   Aligned6ByState SB;
 
-  template <typename Columns>
-  [[nodiscard]] Columns times(const Columns& m) const
+  [[nodiscard]] AlignedStateBy6 times(const AlignedStateBy6& m) const
   {
-    return m - G * (SB * m);
+    const AlignedMatrix6 seen = product(SB, m);
+    return m - G * seen;
   }
 
   [[nodiscard]] AlignedStateMatrix onBothSidesOf(const AlignedStateMatrix& m) const
   {
-    const AlignedStateMatrix left = times(m);
-    return left - (left * SB.transpose()) * G.transpose();
+    const AlignedStateMatrix left = m - product(G, product(SB, m));
+    return left - productByTransposed(productByTransposed(left, SB), G);
   }
 
   /** Of the rows and columns of the pose. */
@@ -148,9 +148,9 @@ void MapErrorModel::thinOut()
 void MapErrorModel::propagate(const StateMatrix& transition)
 {
   const AlignedStateMatrix Phi = transition;
-  addition_ = Phi * addition_ * Phi.transpose();
-  Y_planes_ = Phi * Y_planes_;
-  Y_founding_ = Phi * Y_founding_;
+  addition_ = transformedCovariance(Phi, addition_);
+  Y_planes_ = product(Phi, Y_planes_);
+  Y_founding_ = product(Phi, Y_founding_);
 }
 
 void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurements& scan)
@@ -172,9 +172,12 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
   const AlignedStateBy6 kept_founding = keep.times(AlignedStateBy6(Y_founding_));
 
   // One half of all that comes in; its transpose is the other.
-  const AlignedStateMatrix half = (kept_planes + 0.5 * in_planes) * in_planes.transpose() +
-                                  (kept_founding + 0.5 * in_founding) * in_founding.transpose() -
-                                  (0.5 * gain * scan.shared_noise) * gain.transpose();
+  const AlignedStateBy6 planes = kept_planes + 0.5 * in_planes;
+  const AlignedStateBy6 founding = kept_founding + 0.5 * in_founding;
+  const AlignedStateBy6 noise = 0.5 * gain * scan.shared_noise;
+  const AlignedStateMatrix half = productByTransposed(planes, in_planes) +
+                                  productByTransposed(founding, in_founding) -
+                                  productByTransposed(noise, gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
   Y_planes_ = kept_planes + in_planes;
   Y_founding_ = kept_founding + in_founding;
@@ -188,7 +191,7 @@ StateMatrix MapErrorModel::addition() const
 StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const
 {
   const AlignedStateMatrix Phi = transition;
-  return Phi * addition() * Phi.transpose();
+  return transformedCovariance(Phi, addition());
 }
 
 void MapErrorModel::recordInsertion(

@@ -47,7 +47,7 @@ StateMatrix covarianceBefore(const StateMatrix& P1, NavState x0, const Inputs& i
   {
     const double dt = inputs.duration(i);
     const ImuSample& u = inputs.samples[i];
-    Phi = processJacobians(x0, u.gyro, u.accel, dt).Fx * Phi;
+    Phi = product(processJacobians(x0, u.gyro, u.accel, dt).Fx, Phi);
     x0 = propagateMean(x0, u.gyro, u.accel, dt);
   }
   const Eigen::PartialPivLU<Square> lu(Phi);
@@ -84,8 +84,7 @@ NavState startState(
 {
   NavState x;
   const Vec3 down = g_imu.normalized();
-  if (p.align_with_gravity)
-    x.R = Eigen::Quaterniond::FromTwoVectors(-down, Vec3::UnitZ()).toRotationMatrix();
+  if (p.align_with_gravity) x.R = rotationBetween(-down, Vec3::UnitZ());
   x.g = x.R * (p.gravity * down);
   x.v = x.R * v_imu;
   x.gyro_bias = gyro_bias;

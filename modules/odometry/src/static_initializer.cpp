@@ -3,7 +3,6 @@
 
 #include <fastlio/odometry/static_initializer.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -156,8 +155,7 @@ FilterState initialState(const RestStatistics& rest, const InitializationOptions
 {
   const BiasAndGravity at_rest = estimateBiasAndGravity(rest, parameters);
   FilterState s;
-  if (parameters.align_with_gravity)
-    s.x.R = Eigen::Quaterniond::FromTwoVectors(-at_rest.g, Vec3::UnitZ()).toRotationMatrix();
+  if (parameters.align_with_gravity) s.x.R = rotationBetween(-at_rest.g, Vec3::UnitZ());
   const Mat3& R = s.x.R;
   s.x.gyro_bias = rest.gyro_mean;
   s.x.accel_bias = at_rest.accel_bias;

@@ -38,8 +38,8 @@ std::optional<ZeroVelocityUpdate> zeroVelocityUpdate(
   update.kept.middleCols<6>(kVelocity) -= K;
   // The attitude moves so little that its tangent space stays the same.
   update.posterior.x = boxplus(prior.x, K * innovation);
-  const Square P =
-      update.kept * prior.P * update.kept.transpose() + K * variance.asDiagonal() * K.transpose();
+  const By6 K_R = K * variance.asDiagonal();
+  const Square P = transformedCovariance(update.kept, prior.P) + productByTransposed(K_R, K);
   update.posterior.P = 0.5 * (P + P.transpose());
   if (!isFinite(update.posterior.x) || !update.posterior.P.allFinite()) return std::nullopt;
   return update;

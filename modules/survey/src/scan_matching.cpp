@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/filter/state.h>
 #include <fastlio/survey/motion_check.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <mrpt/maps/CSimplePointsMap.h>
 
 #include <cmath>
@@ -93,11 +93,11 @@ class PlaneFinder
     Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
     for (const std::size_t i : indices)
       scatter += (point(i) - center) * (point(i) - center).transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
-    const Eigen::Vector3d values = solver.eigenvalues();
+    const Eigensystem3 axes = symmetricEigensystem(scatter);
+    const Vec3& values = axes.values;
     const bool is_plane = values[0] < kThin * values[1] && values[1] > kWide * values[2];
     if (!is_plane) return std::nullopt;
-    return Plane{center, solver.eigenvectors().col(0)};
+    return Plane{center, axes.vectors.col(0)};
   }
 
   mrpt::maps::CSimplePointsMap map_;
@@ -128,7 +128,7 @@ Step stepFrom(const Pose& T, const PlaneFinder& planes, const std::vector<Vec3>&
     gradient += weight * residual * row;
     ++step.matches;
   }
-  step.change = -information.ldlt().solve(gradient);
+  step.change = -solveSymmetric(information, gradient);
   return step;
 }
 

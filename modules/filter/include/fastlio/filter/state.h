@@ -5,6 +5,7 @@
  * on SO(3) x R^4, and its boxplus/boxminus (section III of the paper). */
 #pragma once
 
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/pose.h>
 
 namespace fastlio
@@ -33,8 +34,6 @@ enum StateBlock : int
 };
 
 // Unaligned, so that size and alignment of public types do not depend on compiler flags.
-using Vector6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
-using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
 using StateVector = Eigen::Matrix<double, kStateDim, 1, Eigen::DontAlign>;
 using StateMatrix = Eigen::Matrix<double, kStateDim, kStateDim, Eigen::DontAlign>;
 
