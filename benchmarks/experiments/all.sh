@@ -1,5 +1,5 @@
 #!/bin/sh
-# mrpt_fastlio: all experiments; writes their tables into docs/experiments.md.
+# mrpt_fastlio: all experiments; writes their tables into docs/experiments.md, all at once when the last one is done.
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: benchmarks/experiments/all.sh BUILD_DIR OUTPUT_DIR [NAME...]     (default: all of them)
@@ -37,8 +37,15 @@ for name in conditions "$@"; do
   echo "$name" >&2
   table "$name" >"$output/tables/$name.md.tmp"
   mv "$output/tables/$name.md.tmp" "$output/tables/$name.md"
-  awk -v name="$name" -v table="$output/tables/$name.md" -f "$here/replace_table.awk" \
-    "$document" >"$output/document.md"
-  cp "$output/document.md" "$document"
   cat "$output/tables/$name.md"
 done
+
+# A run that is cut short leaves the document as it was: its conditions belong to all of its tables.
+trap 'rm -f "$document.tmp" "$document.new"' EXIT
+cp "$document" "$document.tmp"
+for name in conditions "$@"; do
+  awk -v name="$name" -v table="$output/tables/$name.md" -f "$here/replace_table.awk" \
+    "$document.tmp" >"$document.new"
+  mv "$document.new" "$document.tmp"
+done
+mv "$document.tmp" "$document"
