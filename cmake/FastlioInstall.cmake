@@ -6,21 +6,50 @@ include(CMakePackageConfigHelpers)
 
 set(FASTLIO_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/mrpt_fastlio)
 
-# Found relative to the program or library itself, so that an installed tree may be moved.
-if(NOT CMAKE_INSTALL_RPATH)
-  file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+# Found relative to the program or library itself, so that an installed tree may be moved. The build tree is laid out
+# alike and what is installed has the same RUNPATH there: one that CMake changes when it installs would end in an empty
+# element in the build tree, which stands for the current directory, whose libraries would be loaded.
+file(RELATIVE_PATH bin_to_lib ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+set(FASTLIO_PROGRAM_DIR ${PROJECT_BINARY_DIR}/bin)
+get_filename_component(FASTLIO_LIBRARY_DIR ${FASTLIO_PROGRAM_DIR}/${bin_to_lib} ABSOLUTE)
+set(FASTLIO_OWN_RPATH OFF)
+if(MRPT_FASTLIO_INSTALL AND NOT CMAKE_INSTALL_RPATH)
+  set(FASTLIO_OWN_RPATH ON)
   set(CMAKE_INSTALL_RPATH "$ORIGIN" "$ORIGIN/${bin_to_lib}")
+  set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 endif()
+
+# fastlio_lay_out(TARGET): puts TARGET where the installed tree has it.
+function(fastlio_lay_out TARGET)
+  if(FASTLIO_OWN_RPATH)
+    set_target_properties(${TARGET} PROPERTIES BUILD_WITH_INSTALL_RPATH ON
+      LIBRARY_OUTPUT_DIRECTORY ${FASTLIO_LIBRARY_DIR} RUNTIME_OUTPUT_DIRECTORY ${FASTLIO_PROGRAM_DIR})
+  endif()
+endfunction()
 
 # fastlio_install_module(TARGET): library, headers under include/ and the export.
 function(fastlio_install_module TARGET)
+  if(NOT MRPT_FASTLIO_INSTALL)
+    return()
+  endif()
+  fastlio_lay_out(${TARGET})
   install(TARGETS ${TARGET} EXPORT mrpt_fastlioTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 endfunction()
 
-# fastlio_install_program(TARGET): program and, where help2man is, its manual page.
+# fastlio_install_program(TARGET): program and, where help2man is, its manual page. The build tree has a link to it in
+# its own folder.
 function(fastlio_install_program TARGET)
+  if(NOT MRPT_FASTLIO_INSTALL)
+    return()
+  endif()
+  fastlio_lay_out(${TARGET})
+  if(FASTLIO_OWN_RPATH)
+    add_custom_command(TARGET ${TARGET} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E create_symlink $<TARGET_FILE:${TARGET}> ${CMAKE_CURRENT_BINARY_DIR}/${TARGET}
+      VERBATIM)
+  endif()
   install(TARGETS ${TARGET} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
   find_program(HELP2MAN_PROGRAM help2man)
   if(NOT HELP2MAN_PROGRAM)

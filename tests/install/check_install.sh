@@ -26,6 +26,8 @@ for path in "$build" "$source/"{modules,apps,plugins,docs,build} "$work/first"; 
   fi
 done
 
+"$(dirname "$0")/check_runpath.sh" "$tree" || fail "RUNPATH of the installed tree"
+
 for program in "$tree"/bin/*; do
   "$program" --version >/dev/null || fail "$program does not start from the moved tree"
 done

@@ -16,7 +16,7 @@ for program in icp-slam rbpf-slam observations2map graph-slam rawlog-edit; do
 done
 
 export PATH="$build/apps/fastlio-sim:$build/apps/fastlio-replay:$PATH"
-export LD_LIBRARY_PATH="$build/plugins/mrpt_fastlio_plugin:${LD_LIBRARY_PATH:-}"
+export LD_LIBRARY_PATH="$build/lib:${LD_LIBRARY_PATH:-}"
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
 
 # A program that is built without a sanitizer can load the plugin that is built with one after the sanitizer's runtime

@@ -17,7 +17,7 @@ sources_of() {
 }
 
 scripts_of() {
-  find cmake tests benchmarks .ci -type f \( -name '*.sh' -o -name '*.awk' -o -name '*.cmake' \) | sort
+  find cmake tests benchmarks -type f \( -name '*.sh' -o -name '*.awk' -o -name '*.cmake' \) | sort
 }
 
 check_length() {
