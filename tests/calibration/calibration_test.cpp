@@ -157,26 +157,6 @@ TEST(Calibration, StaysAsGivenUnlessAskedFor)
   EXPECT_EQ(end.x.time_offset, 0.0);
 }
 
-TEST(GravityOnSphere, KeepsItsMagnitudeAllAlong)
-{
-  SimulationSettings settings = officeWalk();
-  settings.duration = 8.0;
-  Parameters parameters = unawareParameters(settings);
-  parameters.initialization.gravity_model = GravityModel::Sphere;
-  const SimulatedRun on_sphere = runOdometry(Simulation(settings), parameters);
-  parameters.initialization.gravity_model = GravityModel::Free;
-  const SimulatedRun free = runOdometry(Simulation(settings), parameters);
-  double moved = 0.0;
-  for (const JudgedScan& scan : free.scans)
-    moved = std::max(moved, std::abs(scan.result.filter.x.g.norm() - settings.gravity));
-  EXPECT_GT(moved, 1e-5) << "m/s^2: a free vector does not";
-  for (const JudgedScan& scan : on_sphere.scans)
-  {
-    const double magnitude = scan.result.filter.x.g.norm();
-    EXPECT_NEAR(magnitude, parameters.initialization.gravity, 1e-9);
-  }
-}
-
 TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
 {
   SimulationSettings settings = defaultSettings("tunnel");

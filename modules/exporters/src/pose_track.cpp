@@ -61,10 +61,10 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   relative.T_a_b = a.T_world_body.inverse() * b.T_world_body;
   const Matrix6 by_a = byFormer(a.T_world_body, relative.T_a_b);
   const Matrix6 by_b = byLatter(a.T_world_body);
-  const Matrix6 own_a = positivePart(a.covariance - a.map_share);
-  const Matrix6 own_b = positivePart(b.covariance - b.map_share);
+  const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
+  const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
   const TwistCovariance growth = positivePart(
-      twistCovariance(b.map_share, b.T_world_body) - twistCovariance(a.map_share, a.T_world_body));
+      twistCovariance(b.map_covariance, b.T_world_body) - twistCovariance(a.map_covariance, a.T_world_body));
   const Matrix6 of_b = own_b + poseCovariance(growth, b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
@@ -79,7 +79,7 @@ void PoseTrack::add(const ScanResult& result)
   pose.stamp_ns = result.stamp_ns;
   pose.T_world_body = estimate.T_world_body;
   pose.covariance = estimate.covariance;
-  pose.map_share = poseEstimateOf(result.filter.x.pose(), result.map_share, T_imu_body).covariance;
+  pose.map_covariance = poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
   if (poses_.empty())
     begin_ns_ = result.begin_ns;
   else
@@ -111,7 +111,7 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
   pose.T_world_body = {
       a.R * expSO3(share * logSO3(a.R.transpose() * b.R)), a.p + share * (b.p - a.p)};
   pose.covariance = (1.0 - share) * before.covariance + share * next->covariance;
-  pose.map_share = (1.0 - share) * before.map_share + share * next->map_share;
+  pose.map_covariance = (1.0 - share) * before.map_covariance + share * next->map_covariance;
   setVelocity(pose, before, *next);
   return pose;
 }

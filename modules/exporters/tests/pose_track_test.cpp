@@ -38,8 +38,8 @@ TrackedPose tracked(const Pose& pose, double own, double shared)
   Matrix6 L = Matrix6::Identity();
   L.topLeftCorner<3, 3>() = pose.R.transpose();
   L.bottomLeftCorner<3, 3>() = -skew(pose.p);
-  t.map_share = L * twist * L.transpose();
-  t.covariance = t.map_share + own * (A.transpose() * A + 1e-5 * Matrix6::Identity());
+  t.map_covariance = L * twist * L.transpose();
+  t.covariance = t.map_covariance + own * (A.transpose() * A + 1e-5 * Matrix6::Identity());
   return t;
 }
 

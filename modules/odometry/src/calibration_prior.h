@@ -10,7 +10,7 @@
 namespace fastlio
 {
 /** The state at the start with the prior of the extrinsic; what is not estimated is known exactly,
- * and so is the time offset until the map can tell it (ScanPipeline::releaseTimeOffset).
+ * and so is the time offset until the map can tell it (Estimator::releaseTimeOffset).
  *
  * The map begins with the first scan, so that scan's pose has no error, whatever that of the
  * extrinsic: attitude and position of the body bear its opposite, and gravity, known in the body

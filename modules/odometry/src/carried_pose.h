@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file carried_pose.h The run is split: what is carried over to the new start. */
+/** \file carried_pose.h The run is re-initialised: what is carried over to the new start. */
 #pragma once
 
 #include <fastlio/filter/state.h>

@@ -43,9 +43,6 @@ std::size_t weigh(
   for (auto& row : m.h)
     for (std::size_t l = 0; l < N; ++l)
       row[l] = counts[l] ? row[l] : 0.0;
-  if (model.kernel == RobustKernel::None) return count;
-  for (std::size_t l = 0; l < N; ++l)
-    weight[l] *= robustWeight(model.kernel, m.z[l] * m.z[l] * weight[l], model.kernel_scale);
   return count;
 }
 

@@ -93,7 +93,7 @@ StartDecision startedInMotion(const MotionStart& start, std::int64_t stamp_ns)
   StartDecision decision;
   decision.state = start.state;
   decision.stamp_ns = stamp_ns;
-  decision.young_map = start.young_map;
+  decision.motion_window = start.motion_window;
   return decision;
 }
 

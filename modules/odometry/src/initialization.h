@@ -4,8 +4,8 @@
 /** \file initialization.h When and with what state the filter starts. */
 #pragma once
 
+#include "motion_window.h"
 #include "queued_scan.h"
-#include "young_map.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/static_initializer.h>
@@ -19,10 +19,10 @@ namespace fastlio
 struct StartDecision
 {
   std::optional<FilterState> state;
-  std::int64_t stamp_ns = 0;  //!< instant of the state
-  YoungMap young_map;
-  bool drop_oldest = false;  //!< no start is possible with the oldest scan
-  std::string message;       //!< without a state: why
+  std::int64_t stamp_ns = 0;                  //!< instant of the state
+  std::optional<MotionWindow> motion_window;  //!< of a start in motion
+  bool drop_oldest = false;                   //!< no start is possible with the oldest scan
+  std::string message;                        //!< without a state: why
 };
 
 /** Looks for a start in the oldest scans and samples, in the way of initialization.mode.
@@ -33,7 +33,7 @@ struct StartDecision
 class StartFinder
 {
  public:
-  explicit StartFinder(const Parameters& parameters) : parameters_(parameters) {}
+  explicit StartFinder(const OdometryOptions& parameters) : parameters_(parameters) {}
 
   /** \param scans not empty \param imu not empty; samples that no start needs any more are
    * forgotten \param at_end nothing more will come */
@@ -48,7 +48,7 @@ class StartFinder
   [[nodiscard]] StartDecision confirmRest(
       StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const;
 
-  Parameters parameters_;
+  OdometryOptions parameters_;
   std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below
   std::string refusal_;
 };

@@ -12,9 +12,9 @@ namespace fastlio
 {
 namespace
 {
-// So many founding covariances are kept; beyond it every second one is dropped, as they change
+// So many insertion covariances are kept; beyond it every second one is dropped, as they change
 // slowly.
-constexpr std::size_t kMaxFoundings = 256;
+constexpr std::size_t kMaxInsertions = 256;
 
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
 using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
@@ -109,27 +109,27 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
   return L * covariance * L.transpose();
 }
 
-TwistCovariance MapErrorModel::foundingCovariance(const std::vector<PlaneGroup>& groups)
+TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>& groups)
 {
   double total = 0.0;
   for (const PlaneGroup& group : groups)
   {
     total += group.weight;
-    // The last founding at or before the plane's own; older ones may have been thinned out.
+    // The last insertion at or before the plane's own; older ones may have been thinned out.
     const auto next = std::upper_bound(
-        foundings_.begin(), foundings_.end(), group.born,
-        [](std::uint32_t scan, const Founding& f) { return scan < f.scan; });
-    if (next != foundings_.begin()) std::prev(next)->share += group.weight;
+        insertions_.begin(), insertions_.end(), group.born,
+        [](std::uint32_t scan, const Insertion& f) { return scan < f.scan; });
+    if (next != insertions_.begin()) std::prev(next)->weight += group.weight;
   }
   TwistCovariance mean = TwistCovariance::Zero();
   TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
-  for (Founding& founding : foundings_)
+  for (Insertion& insertion : insertions_)
   {
-    const double share = total > 0.0 ? founding.share / total : 0.0;
-    founding.share = 0.0;
-    remembered *= founding.memory;
-    mean += share * (founding.inherited + share * founding.own + 2.0 * remembered);
-    remembered += share * founding.own;
+    const double part = total > 0.0 ? insertion.weight / total : 0.0;
+    insertion.weight = 0.0;
+    remembered *= insertion.memory;
+    mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
+    remembered += part * insertion.own;
   }
   return mean;
 }
@@ -137,12 +137,12 @@ TwistCovariance MapErrorModel::foundingCovariance(const std::vector<PlaneGroup>&
 void MapErrorModel::thinOut()
 {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < foundings_.size(); i += 2)
+  for (std::size_t i = 0; i < insertions_.size(); i += 2)
   {
-    if (i > 0) foundings_[i].memory *= foundings_[i - 1].memory;
-    foundings_[kept++] = foundings_[i];
+    if (i > 0) insertions_[i].memory *= insertions_[i - 1].memory;
+    insertions_[kept++] = insertions_[i];
   }
-  foundings_.resize(kept);
+  insertions_.resize(kept);
 }
 
 void MapErrorModel::propagate(const StateMatrix& transition)
@@ -150,7 +150,7 @@ void MapErrorModel::propagate(const StateMatrix& transition)
   const AlignedStateMatrix Phi = transition;
   addition_ = transformedCovariance(Phi, addition_);
   Y_planes_ = product(Phi, Y_planes_);
-  Y_founding_ = product(Phi, Y_founding_);
+  Y_poses_ = product(Phi, Y_poses_);
 }
 
 void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurements& scan)
@@ -161,26 +161,26 @@ void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurem
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
-  const AlignedMatrix6 C_founding = M * squareRoot(foundingCovariance(scan.groups));
+  const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(scan.groups));
 
   const AlignedStateBy6 gain = gainOf(update);
   const Keeping keep{gain, scan.information * (update.constrained * update.by_state)};
   memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
-  const AlignedStateBy6 in_planes = G * C_planes, in_founding = G * C_founding;
+  const AlignedStateBy6 in_planes = G * C_planes, in_poses = G * C_poses;
   const AlignedStateBy6 kept_planes = scan.persistence * keep.times(AlignedStateBy6(Y_planes_));
-  const AlignedStateBy6 kept_founding = keep.times(AlignedStateBy6(Y_founding_));
+  const AlignedStateBy6 kept_poses = keep.times(AlignedStateBy6(Y_poses_));
 
   // One half of all that comes in; its transpose is the other.
   const AlignedStateBy6 planes = kept_planes + 0.5 * in_planes;
-  const AlignedStateBy6 founding = kept_founding + 0.5 * in_founding;
+  const AlignedStateBy6 poses = kept_poses + 0.5 * in_poses;
   const AlignedStateBy6 noise = 0.5 * gain * scan.shared_noise;
   const AlignedStateMatrix half = productByTransposed(planes, in_planes) +
-                                  productByTransposed(founding, in_founding) -
+                                  productByTransposed(poses, in_poses) -
                                   productByTransposed(noise, gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
   Y_planes_ = kept_planes + in_planes;
-  Y_founding_ = kept_founding + in_founding;
+  Y_poses_ = kept_poses + in_poses;
 }
 
 StateMatrix MapErrorModel::addition() const
@@ -195,10 +195,10 @@ StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const
 }
 
 void MapErrorModel::recordInsertion(
-    std::uint32_t scan, const FoundingError& pose_error, const Pose& T_world_scan)
+    std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan)
 {
-  if (foundings_.size() >= kMaxFoundings) thinOut();
-  foundings_.push_back(
+  if (insertions_.size() >= kMaxInsertions) thinOut();
+  insertions_.push_back(
       {scan, twistCovariance(pose_error.inherited, T_world_scan),
        twistCovariance(pose_error.own, T_world_scan), memory_, 0.0});
   memory_ = 1.0;

@@ -12,7 +12,7 @@ namespace fastlio
 {
 namespace
 {
-std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters)
+std::unique_ptr<SurfaceMap> makeKnnMap(const OdometryOptions& parameters)
 {
   KnnSurfaceMapOptions options;
   options.min_spacing = parameters.map.min_spacing;
@@ -21,7 +21,7 @@ std::unique_ptr<SurfaceMap> makeKnnMap(const Parameters& parameters)
 }
 
 std::unique_ptr<SurfaceMap> makePlaneMap(
-    const Parameters& parameters, std::shared_ptr<const Workers> workers)
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers)
 {
   VoxelPlaneOptions options;
   options.voxel_size = parameters.map.voxel_size;
@@ -33,7 +33,7 @@ std::unique_ptr<SurfaceMap> makePlaneMap(
 }  // namespace
 
 std::unique_ptr<SurfaceMap> makeSurfaceMap(
-    const Parameters& parameters, std::shared_ptr<const Workers> workers)
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers)
 {
   if (parameters.map.type == MapType::Knn) return makeKnnMap(parameters);
   return makePlaneMap(parameters, std::move(workers));

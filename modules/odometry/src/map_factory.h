@@ -14,6 +14,6 @@ namespace fastlio
 {
 /** \param workers who share the map's insertions */
 [[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
-    const Parameters& parameters, std::shared_ptr<const Workers> workers);
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers);
 
 }  // namespace fastlio

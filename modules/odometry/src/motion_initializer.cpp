@@ -3,9 +3,9 @@
 
 #include "motion_initializer.h"
 
+#include "estimator.h"
 #include "motion_fit.h"
 #include "motion_prior.h"
-#include "scan_pipeline.h"
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 
@@ -23,8 +23,7 @@ constexpr std::size_t kMinScans = 4;
 constexpr int kPasses = 8;  // at most
 // Normals are known to about so much; what leaks over to a direction that no plane faces is no
 // information.
-constexpr double kNormalStd = 0.015;   // [rad]
-constexpr int kPullInIterations = 15;  // of the first pass, which starts far off
+constexpr double kNormalStd = 0.015;  // [rad]
 // What the prior leaves open narrows from pass to pass, down to several times what a window tells:
 // far-off planes are no match then.
 constexpr double kSecondVelocityStd = 1.0;  // [m/s]
@@ -39,10 +38,11 @@ constexpr double kAgreedVelocity = 0.08;  // [m/s]
 constexpr double kAgreedTilt = 0.008;     // [rad]
 
 /** The first pass searches for planes longer, as its scans lie far from the map. */
-Parameters pullingIn(Parameters p)
+OdometryOptions pullingIn(OdometryOptions p)
 {
-  p.measurement.association_iterations = kPullInIterations;
-  p.update.max_iterations = kPullInIterations;
+  const MatchOptions pull_in = pullInMatching(p);
+  p.measurement = pull_in.measurement;
+  p.update = pull_in.limits;
   return p;
 }
 
@@ -60,16 +60,17 @@ class Window
 {
  public:
   Window(
-      const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters)
+      const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
+      const OdometryOptions& parameters)
       : scans_(scans), count_(count), imu_(imu), parameters_(parameters)
   {
     const std::int64_t begin_ns = scans.front().span.begin_ns;
     all_ = inputsOf(imu, begin_ns, scans[count - 1].span.end_ns, parameters.imu.hold);
-    young_map_ = youngMap(parameters.initialization.motion_points, all_.end_ns);
+    window_ = motionWindowUntil(all_.end_ns, parameters.initialization.motion_points);
     first_scan_ = inputsOf(imu, begin_ns, scans.front().span.end_ns, parameters.imu.hold);
   }
 
-  [[nodiscard]] const YoungMap& youngMapOfWindow() const { return young_map_; }
+  [[nodiscard]] const MotionWindow& motionWindow() const { return window_; }
 
   [[nodiscard]] NavState guess() const { return firstGuess(all_, parameters_.initialization); }
 
@@ -78,18 +79,18 @@ class Window
     return startPrior(x0, width, first_scan_, parameters_.initialization);
   }
 
-  [[nodiscard]] Pass run(const FilterState& start, const Parameters& parameters) const
+  [[nodiscard]] Pass run(const FilterState& start, const OdometryOptions& parameters) const
   {
-    ScanPipeline pipeline(parameters);
-    pipeline.start(start, scans_.front().span.begin_ns, young_map_);
+    Estimator estimator(parameters);
+    estimator.start(start, scans_.front().span.begin_ns, window_);
     ScanResult last;
     std::size_t unmatched = 0;
     std::vector<double> contrast;  // of the least known direction to others
     std::vector<TimedPose> poses;
     for (std::size_t i = 0; i < count_; ++i)
     {
-      if (scans_[i].span.end_ns <= pipeline.stamp()) continue;  // out of order
-      last = pipeline.process(scans_[i].scan, scans_[i].span, imu_);
+      if (scans_[i].span.end_ns <= estimator.stamp()) continue;  // out of order
+      last = estimator.process(scans_[i].scan, scans_[i].span, imu_);
       const Vector6& information = last.statistics.information_eigenvalues;
       if (information[2] > 0.0) contrast.push_back(information[0] / information[2]);
       poses.push_back({last.stamp_ns, last.filter.x.pose()});
@@ -138,9 +139,9 @@ class Window
   const ScanQueue& scans_;
   std::size_t count_;
   const ImuBuffer& imu_;
-  const Parameters& parameters_;
+  const OdometryOptions& parameters_;
   Inputs all_, first_scan_;
-  YoungMap young_map_;
+  MotionWindow window_;
 };
 
 bool agree(const NavState& a, const NavState& b)
@@ -194,11 +195,12 @@ std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double du
 }
 
 MotionStart startInMotion(
-    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters)
+    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
+    const OdometryOptions& parameters)
 {
   const InitializationOptions& p = parameters.initialization;
   const Window window(scans, count, imu, parameters);
-  Parameters pass_parameters = parameters;
+  OdometryOptions pass_parameters = parameters;
   pass_parameters.output.imu_rate = false;
   pass_parameters.health.freeze_map = false;  // a pass may begin far off
   // A second of motion does not tell a velocity from an offset of the clocks.
@@ -231,7 +233,7 @@ MotionStart startInMotion(
   result.message = refusal(pass, agreed, p);
   if (!result.message.empty()) return result;
   result.state = window.prior(pass.start, {kLeastVelocityStd, kLeastTiltStd});
-  result.young_map = window.youngMapOfWindow();
+  result.motion_window = window.motionWindow();
   return result;
 }
 

@@ -16,8 +16,8 @@
  */
 #pragma once
 
+#include "motion_window.h"
 #include "queued_scan.h"
-#include "young_map.h"
 #include <fastlio/filter/state.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/parameters.h>
@@ -31,7 +31,7 @@ namespace fastlio
 struct MotionStart
 {
   std::optional<FilterState> state;  //!< at the first scan's begin; velocity etc. with wide prior
-  YoungMap young_map;                //!< for the scans of the window
+  MotionWindow motion_window;        //!< the scans of the window
   double velocity_std = 0.0;         //!< of the velocity's least known direction, at the end [m/s]
   std::string message;
 };
@@ -43,6 +43,7 @@ struct MotionStart
 
 /** The start from the first \a count scans. \param imu covers them */
 [[nodiscard]] MotionStart startInMotion(
-    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu, const Parameters& parameters);
+    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
+    const OdometryOptions& parameters);
 
 }  // namespace fastlio

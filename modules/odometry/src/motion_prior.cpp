@@ -19,8 +19,8 @@ namespace
 constexpr double kFirstMapPositionStd = 0.05;  // [m]
 constexpr double kFirstMapAttitudeStd = 0.01;  // [rad]
 // ... and the poses of the scans that join it in the window.
-constexpr double kYoungMapPositionStd = 0.02;    // [m]
-constexpr double kYoungMapAttitudeStd = 0.0015;  // [rad]
+constexpr double kWindowMapPositionStd = 0.02;    // [m]
+constexpr double kWindowMapAttitudeStd = 0.0015;  // [rad]
 
 /** Where the world is fixed: pose exact, velocity and biases as wide as configured, gravity known
  * by its magnitude only. */
@@ -124,16 +124,15 @@ FilterState startPrior(
   return {x0, covarianceBefore(openPrior(x0, width, p), x0, first_scan)};
 }
 
-YoungMap youngMap(int target_points, std::int64_t until_ns)
+MotionWindow motionWindowUntil(std::int64_t end_ns, int target_points)
 {
-  YoungMap young;
-  young.open_after_first_scan = poseVariances(kFirstMapAttitudeStd, kFirstMapPositionStd);
-  young.founding_covariance =
-      poseVariances(kYoungMapAttitudeStd, kYoungMapPositionStd).topLeftCorner<6, 6>();
-  young.in_motion = true;
-  young.target_points = target_points;
-  young.until_ns = until_ns;
-  return young;
+  MotionWindow window;
+  window.end_ns = end_ns;
+  window.target_points = target_points;
+  window.covariance_after_first_scan = poseVariances(kFirstMapAttitudeStd, kFirstMapPositionStd);
+  window.insertion_covariance =
+      poseVariances(kWindowMapAttitudeStd, kWindowMapPositionStd).topLeftCorner<6, 6>();
+  return window;
 }
 
 }  // namespace fastlio

@@ -4,7 +4,7 @@
 /** \file motion_prior.h What is known of a platform in motion before its scans are looked at. */
 #pragma once
 
-#include "young_map.h"
+#include "motion_window.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/parameters.h>
 
@@ -52,7 +52,7 @@ struct PriorWidth
     const NavState& x0, const PriorWidth& width, const Inputs& first_scan,
     const InitializationOptions& p);
 
-/** For scans that end by until_ns. */
-[[nodiscard]] YoungMap youngMap(int target_points, std::int64_t until_ns);
+/** For scans that end by end_ns. */
+[[nodiscard]] MotionWindow motionWindowUntil(std::int64_t end_ns, int target_points);
 
 }  // namespace fastlio

@@ -8,7 +8,7 @@
 
 namespace fastlio
 {
-Odometry::Odometry(const Parameters& parameters) : impl_(std::make_unique<Impl>(parameters)) {}
+Odometry::Odometry(const OdometryOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 Odometry::~Odometry() = default;
 Odometry::Odometry(Odometry&&) noexcept = default;
 Odometry& Odometry::operator=(Odometry&&) noexcept = default;
@@ -17,9 +17,9 @@ void Odometry::startIn(const SavedMap& map)
 {
   if (map.empty())
     throw std::invalid_argument("Odometry::startIn: the map has no points; was it saved?");
-  if (impl_->pipeline_.started())
+  if (impl_->estimator_.started())
     throw std::logic_error("Odometry::startIn: call it before the first scan.");
-  impl_->pipeline_.useSavedMap(map);
+  impl_->estimator_.useSavedMap(map);
 }
 
 void Odometry::addImu(const ImuSample& sample)
@@ -40,27 +40,27 @@ std::optional<ScanResult> Odometry::flush()
 }
 const SurfaceMap& Odometry::map() const
 {
-  return impl_->pipeline_.map();
+  return impl_->estimator_.map();
 }
 const WorldPoints& Odometry::registeredPoints() const
 {
-  return impl_->pipeline_.registeredPoints();
+  return impl_->estimator_.registered().points;
 }
 const RegisteredFields& Odometry::registeredFields() const
 {
-  return impl_->pipeline_.registeredFields();
+  return impl_->estimator_.registered().fields;
 }
 const std::vector<ImuRateState>& Odometry::imuRateStates() const
 {
-  return impl_->pipeline_.imuRateStates();
+  return impl_->estimator_.imuRateStates();
 }
 std::optional<ImuRateState> Odometry::stateAtNewestSample()
 {
   return impl_->stateAtNewestSample();
 }
-const Parameters& Odometry::parameters() const
+const OdometryOptions& Odometry::parameters() const
 {
-  return impl_->parameters_;
+  return impl_->options_;
 }
 const InputStatistics& Odometry::inputStatistics() const
 {

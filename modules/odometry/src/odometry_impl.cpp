@@ -15,29 +15,29 @@ namespace fastlio
 namespace
 {
 
-const Parameters& validated(const Parameters& parameters)
+const OdometryOptions& validated(const OdometryOptions& parameters)
 {
   validate(parameters);
   return parameters;
 }
 }  // namespace
 
-Odometry::Impl::Impl(const Parameters& parameters)
-    : parameters_(validated(parameters)),
-      pipeline_(parameters),
-      conditioner_(parameters.imu, parameters.initialization.gravity),
-      intake_(parameters.imu.max_gap, parameters.lidar.max_waiting),
-      start_finder_(parameters),
-      health_(parameters.health)
+Odometry::Impl::Impl(const OdometryOptions& options)
+    : options_(validated(options)),
+      estimator_(options),
+      conditioner_(options.imu, options.initialization.gravity),
+      intake_(options.imu.max_gap, options.lidar.max_waiting),
+      start_finder_(options),
+      reinitialization_(options)
 {
 }
 
 void Odometry::Impl::addImu(const ImuSample& sample)
 {
-  ++statistics_.imu_in;
+  ++counted_.imu_in;
   if (!sample.gyro.allFinite() || !sample.accel.allFinite())
   {
-    ++statistics_.imu_not_finite;
+    ++counted_.imu_not_finite;
     return;
   }
   take(conditioner_.add(sample));
@@ -58,41 +58,41 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
   if (conditioned.rescale_gyro != 1.0)
   {
     imu_.scaleGyro(conditioned.rescale_gyro);
-    breaks_.push_back({sample.stamp_ns, sample.stamp_ns, true});
+    reinitialization_.addBreak({sample.stamp_ns, sample.stamp_ns, true});
   }
   if (conditioned.after_break && !imu_.empty())
-    breaks_.push_back({imu_.newestStamp(), sample.stamp_ns, false});
+    reinitialization_.addBreak({imu_.newestStamp(), sample.stamp_ns, false});
   if (conditioned.inflation) imu_.addInflation(*conditioned.inflation);
   switch (imu_.add(sample))
   {
     case ImuBuffer::Verdict::Accepted:
       break;
     case ImuBuffer::Verdict::NotFinite:
-      ++statistics_.imu_not_finite;
+      ++counted_.imu_not_finite;
       break;
     case ImuBuffer::Verdict::OutOfOrder:
-      ++imu_out_of_order_;
+      ++counted_.imu_out_of_order;
       break;
     case ImuBuffer::Verdict::Duplicate:
-      ++statistics_.imu_duplicate;
+      ++counted_.imu_duplicate;
       break;
   }
 }
 
 void Odometry::Impl::addScan(LidarScan scan)
 {
-  ++statistics_.scans_in;
+  ++counted_.scans_in;
   if (scan.points.size() == 0)
   {
-    ++statistics_.scans_empty;
+    ++counted_.scans_empty;
     return;
   }
   if (!isTime(scan.stamp_ns))
   {
-    ++scans_without_time_;
+    ++counted_.scans_bad_stamp;
     return;
   }
-  scan.stamp_ns += toNanoseconds(parameters_.lidar.time_offset);
+  scan.stamp_ns += toNanoseconds(options_.lidar.time_offset);
   const auto inertial_ns =
       imu_.empty() ? std::nullopt : std::optional<std::int64_t>(imu_.newestStamp());
   intake_.add(std::move(scan), conditioner_.clockOffset(), inertial_ns);
@@ -107,11 +107,12 @@ void Odometry::Impl::finishInputs()
 const InputStatistics& Odometry::Impl::inputStatistics()
 {
   const ImuReport imu = conditioner_.report();
+  statistics_ = counted_;
   statistics_.imu_spikes = imu.spikes;
   statistics_.imu_bad_stamps = imu.bad_stamps;
-  statistics_.imu_out_of_order = imu_out_of_order_ + imu.late;
-  statistics_.scans_out_of_order = scans_out_of_order_ + intake_.late();
-  statistics_.scans_bad_stamp = scans_without_time_ + intake_.badStamps();
+  statistics_.imu_out_of_order += imu.late;
+  statistics_.scans_out_of_order += intake_.late();
+  statistics_.scans_bad_stamp += intake_.badStamps();
   return statistics_;
 }
 
@@ -125,9 +126,9 @@ QueuedScan Odometry::Impl::popScan()
 bool Odometry::Impl::usable(const ScanSpan& span)
 {
   const double missing_s = toSeconds(span.end_ns - imu_.newestStamp());
-  if (missing_s > parameters_.imu.max_gap || span.end_ns <= pipeline_.stamp())
+  if (missing_s > options_.imu.max_gap || span.end_ns <= estimator_.stamp())
   {
-    ++(missing_s > 0.0 ? statistics_.scans_without_imu : scans_out_of_order_);
+    ++(missing_s > 0.0 ? counted_.scans_without_imu : counted_.scans_out_of_order);
     return false;
   }
   return true;
@@ -136,12 +137,13 @@ bool Odometry::Impl::usable(const ScanSpan& span)
 std::optional<ScanResult> Odometry::Impl::processOldest()
 {
   QueuedScan queued = popScan();
-  pipeline_.applyCalibration(queued.scan, queued.span);
+  estimator_.applyCalibration(queued.scan, queued.span);
   if (!usable(queued.span)) return std::nullopt;
-  ScanResult result = pipeline_.process(queued.scan, queued.span, imu_);
-  health_.judge(imu_.inflations(), result);
+  ScanResult result = estimator_.process(queued.scan, queued.span, imu_);
   imu_.forgetBefore(queued.span.end_ns);
-  noticeLoss(result);
+  const auto loss =
+      reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
+  if (loss) reinitialise(*loss, result.stamp_ns);
   return result;
 }
 
@@ -156,13 +158,13 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
   {
     if (auto in_gap = passBreaks()) return in_gap;
     if (scans.empty()) break;
-    if (!pipeline_.started())
+    if (!estimator_.started())
     {
       if (auto waiting = waitForStart(at_end)) return waiting;
-      if (!pipeline_.started()) break;
+      if (!estimator_.started()) break;
       continue;
     }
-    if (scans.front().span.end_ns + pipeline_.timeShift() > imu_.newestStamp() && !at_end) break;
+    if (scans.front().span.end_ns + estimator_.timeShift() > imu_.newestStamp() && !at_end) break;
     if (auto result = processOldest()) return result;
   }
   return std::nullopt;
@@ -171,8 +173,8 @@ std::optional<ScanResult> Odometry::Impl::next(bool at_end)
 std::optional<ImuRateState> Odometry::Impl::stateAtNewestSample()
 {
   const StackAnchor anchor;
-  if (imu_.empty() || !pipeline_.started()) return std::nullopt;
-  return pipeline_.stateAtNewestSample(imu_);
+  if (imu_.empty() || !estimator_.started()) return std::nullopt;
+  return estimator_.stateAtNewestSample(imu_);
 }
 
 }  // namespace fastlio

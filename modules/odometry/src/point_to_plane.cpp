@@ -42,11 +42,6 @@ bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
   return withinGate(m.z, m.variance, m.h.head<3>().squaredNorm(), model);
 }
 
-double weightOf(const PlaneMeasurement& m, const ResidualModel& model)
-{
-  return robustWeight(model.kernel, m.z * m.z / m.variance, model.kernel_scale) / m.variance;
-}
-
 InformationSums accumulate(
     const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last)
@@ -83,7 +78,7 @@ StackedMeasurements stack(
     if (!isConsistent(m, model)) continue;
     stacked.h.push_back(m.h);
     stacked.z.push_back(m.z);
-    stacked.variance.push_back(1.0 / weightOf(m, model));
+    stacked.variance.push_back(m.variance);
   }
   return stacked;
 }

@@ -28,8 +28,16 @@ const char* toString(ScanStatus status)
 const char* toString(HealthCause cause)
 {
   constexpr std::array<const char*, 10> kNames{
-      "none",           "starting",       "lost",          "no_match", "few_matches",
-      "large_residual", "open_direction", "inertial_data", "bias",     "scan_timing"};
+      "none",
+      "starting",
+      "lost",
+      "no_match",
+      "few_matches",
+      "large_residual",
+      "degenerate_direction",
+      "inertial_data",
+      "bias",
+      "scan_timing"};
   return kNames.at(static_cast<std::size_t>(cause));
 }
 

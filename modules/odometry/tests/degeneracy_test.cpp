@@ -121,7 +121,7 @@ TEST(Degeneracy, noiseIsTheSumOfTheRowsCovariances)
     by_normal << skew(p) * pose.R.transpose(), Mat3::Identity();
     const Mat3 covariance =
         0.5 * static_cast<double>(match.normal_variance) * (Mat3::Identity() - n * n.transpose());
-    const double weight = weightOf(planeMeasurement(pose, scan.body, i, match, model), model);
+    const double weight = 1.0 / planeMeasurement(pose, scan.body, i, match, model).variance;
     expected += weight * by_normal * covariance * by_normal.transpose();
   }
   const std::size_t half = scan.body.size() / 2;

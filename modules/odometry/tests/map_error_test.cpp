@@ -14,16 +14,16 @@ namespace
 {
 constexpr double kInformation = 1e4;
 
-/** Half of the weight on planes of each founding; planes without errors of their own. */
-GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> foundings)
+/** Half of the weight on planes of each insertion; planes without errors of their own. */
+GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> insertions)
 {
   GroupedMeasurements scan;
   scan.information = kInformation * Matrix6::Identity();
-  for (const std::uint32_t born : foundings)
+  for (const std::uint32_t insertion : insertions)
   {
     PlaneGroup& group = scan.groups.emplace_back();
     group.weight = 1.0;
-    group.born = born;
+    group.born = insertion;
   }
   return scan;
 }
@@ -36,9 +36,9 @@ LinearizedUpdate fullTrust()
   return update;
 }
 
-FoundingError ownError(double variance)
+InsertionError ownError(double variance)
 {
-  FoundingError error;
+  InsertionError error;
   error.own = variance * Matrix6::Identity();
   return error;
 }
@@ -48,7 +48,7 @@ Matrix6 poseAddition(const MapErrorModel& model)
   return model.addition().topLeftCorner<6, 6>();
 }
 
-TEST(MapError, isTheFoundingPosesWhereTheMapIsTrusted)
+TEST(MapError, IsThatOfTheCreatingPosesWhereTheMapIsTrusted)
 {
   MapErrorModel model;
   model.recordInsertion(1, ownError(4e-6), {});
@@ -57,7 +57,7 @@ TEST(MapError, isTheFoundingPosesWhereTheMapIsTrusted)
   EXPECT_LT((poseAddition(model) - 4e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
-TEST(MapError, ownErrorsOfScansThatForgetAverageOut)
+TEST(MapError, OwnErrorsOfScansThatForgetAverageOut)
 {
   MapErrorModel model;
   model.recordInsertion(1, ownError(4e-6), {});
@@ -67,7 +67,7 @@ TEST(MapError, ownErrorsOfScansThatForgetAverageOut)
   EXPECT_LT((poseAddition(model) - 2e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
-TEST(MapError, ownErrorsThatAreRememberedDoNot)
+TEST(MapError, OwnErrorsThatAreRememberedDoNot)
 {
   MapErrorModel model;
   model.recordInsertion(1, ownError(4e-6), {});
@@ -76,9 +76,9 @@ TEST(MapError, ownErrorsThatAreRememberedDoNot)
   EXPECT_LT((poseAddition(model) - 4e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
-TEST(MapError, inheritedErrorsAreCommonToAllFoundings)
+TEST(MapError, InheritedErrorsAreCommonToAllInsertions)
 {
-  FoundingError inherited;
+  InsertionError inherited;
   inherited.inherited = 4e-6 * Matrix6::Identity();
   MapErrorModel model;
   model.recordInsertion(1, inherited, {});
@@ -88,7 +88,7 @@ TEST(MapError, inheritedErrorsAreCommonToAllFoundings)
   EXPECT_LT((poseAddition(model) - 4e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
-TEST(MapError, staysBoundedOverMoreFoundingsThanAreKept)
+TEST(MapError, StaysBoundedOverMoreInsertionsThanAreKept)
 {
   MapErrorModel model;
   for (std::uint32_t scan = 1; scan <= 1000; ++scan)
@@ -110,11 +110,11 @@ class DenseRecursion
     E_ = Phi * E_ * Phi.transpose();
     D_ = Phi * D_ * Phi.transpose();
     Y_planes_ = Phi * Y_planes_;
-    Y_founding_ = Phi * Y_founding_;
+    Y_poses_ = Phi * Y_poses_;
   }
 
   void update(
-      const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& founding)
+      const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& insertion)
   {
     const StateBy6 G = update.gain;
     const StateMatrix keep =
@@ -124,14 +124,14 @@ class DenseRecursion
     for (const PlaneGroup& group : scan.groups)
       planes += group.shared_variance * group.g * group.g.transpose();
     const StateBy6 in_planes = G * squareRoot(planes);
-    const StateBy6 in_founding = G * scan.information * squareRoot(founding);
+    const StateBy6 in_poses = G * scan.information * squareRoot(insertion);
     const StateMatrix cross = scan.persistence * keep * Y_planes_ * in_planes.transpose() +
-                              keep * Y_founding_ * in_founding.transpose();
+                              keep * Y_poses_ * in_poses.transpose();
     E_ = keep * E_ * keep.transpose() + in_planes * in_planes.transpose() +
-         in_founding * in_founding.transpose() + cross + cross.transpose();
+         in_poses * in_poses.transpose() + cross + cross.transpose();
     D_ = keep * D_ * keep.transpose() + G * scan.shared_noise * G.transpose();
     Y_planes_ = scan.persistence * keep * Y_planes_ + in_planes;
-    Y_founding_ = keep * Y_founding_ + in_founding;
+    Y_poses_ = keep * Y_poses_ + in_poses;
   }
 
   [[nodiscard]] StateMatrix addition() const { return E_ - D_; }
@@ -141,7 +141,7 @@ class DenseRecursion
   static Matrix6 squareRoot(const Matrix6& m) { return m.llt().matrixL(); }
 
   StateMatrix E_ = StateMatrix::Zero(), D_ = StateMatrix::Zero();
-  StateBy6 Y_planes_ = StateBy6::Zero(), Y_founding_ = StateBy6::Zero();
+  StateBy6 Y_planes_ = StateBy6::Zero(), Y_poses_ = StateBy6::Zero();
 };
 
 Matrix6 randomCovariance(double scale)
@@ -150,13 +150,13 @@ Matrix6 randomCovariance(double scale)
   return scale * (m * m.transpose() + 0.1 * Matrix6::Identity());
 }
 
-TEST(MapError, isTheRecursionWithDenseMatrices)
+TEST(MapError, IsTheRecursionWithDenseMatrices)
 {
   std::srand(1);  // of Eigen's random matrices
-  FoundingError founding;
-  founding.inherited = randomCovariance(1e-6);
+  InsertionError insertion;
+  insertion.inherited = randomCovariance(1e-6);
   MapErrorModel model;
-  model.recordInsertion(1, founding, {});
+  model.recordInsertion(1, insertion, {});
   DenseRecursion dense;
   for (int i = 0; i < 30; ++i)
   {
@@ -177,7 +177,7 @@ TEST(MapError, isTheRecursionWithDenseMatrices)
     update.gain = 0.2 / kInformation * ScanGain::Random();
     update.gain.bottomRows<kCalibrationDim>().setZero();
     model.update(update, scan);
-    dense.update(update, scan, founding.inherited);
+    dense.update(update, scan, insertion.inherited);
     const StateMatrix expected = dense.addition();
     ASSERT_GT(expected.norm(), 0.0);
     EXPECT_LT((model.addition() - expected).norm(), 1e-9 * expected.norm()) << "update " << i;

@@ -74,8 +74,8 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
   const std::string diagnostics = textOf(odometry.diagnostics());
-  EXPECT_NE(diagnostics.find("the run is split"), std::string::npos) << diagnostics;
-  EXPECT_NE(diagnostics.find("started anew"), std::string::npos) << diagnostics;
+  EXPECT_NE(diagnostics.find("the run is re-initialised"), std::string::npos) << diagnostics;
+  EXPECT_NE(diagnostics.find("re-initialised with"), std::string::npos) << diagnostics;
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
   EXPECT_EQ(countOf(results, ScanStatus::FirstScan), 1U) << "the old map is found again";
   // What was found of the clocks outlasts the gap.

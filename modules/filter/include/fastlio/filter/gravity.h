@@ -5,8 +5,6 @@
  */
 #pragma once
 
-#include <fastlio/filter/state.h>
-
 namespace fastlio
 {
 /** How gravity is part of the state. */
@@ -15,9 +13,5 @@ enum class GravityModel
   Free,   //!< any vector of R^3, as in the paper
   Sphere  //!< direction only, the length is known
 };
-
-/** The state with gravity brought back to the given length [m/s^2], and without uncertainty of the
- * length: to first order an update on the sphere S^2, whose tangent space is the plane across g. */
-[[nodiscard]] FilterState withGravityOnSphere(const FilterState& state, double length);
 
 }  // namespace fastlio

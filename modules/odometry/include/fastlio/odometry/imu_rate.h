@@ -22,13 +22,13 @@ struct ImuRateState
   NavState x;                                 //!< IMU body in the world
   Vec3 angular_rate = Vec3::Zero();           //!< IMU frame, gyro bias removed [rad/s]
   Matrix6 pose_covariance = Matrix6::Zero();  //!< attitude (IMU frame) [rad], position (world) [m];
-                                              //!< with the share of the map's errors
+                                              //!< with what the map's errors add
 };
 
 /** The propagated state at \a stamp_ns as an ImuRateState; nothing when \a imu has no sample with
- * this very stamp. \param map_share what the map's errors add to the covariance */
+ * this very stamp. \param map_covariance what the map's errors add to the covariance */
 [[nodiscard]] std::optional<ImuRateState> imuRateState(
-    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_share,
+    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_covariance,
     const ImuBuffer& imu);
 
 }  // namespace fastlio

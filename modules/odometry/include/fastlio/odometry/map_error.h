@@ -1,12 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file map_error.h The share of the state's error that comes from the map: errors that do not
+/** \file map_error.h The part of the state's error that comes from the map: errors that do not
  * average out.
  *
  * The iterated update takes the map's planes as known up to noise that is new for every point. It
  * is not: the error of a plane is shared by all points on it and stays while the plane is in view,
- * and planes founded from an uncertain pose inherit that pose's error together. Such errors are
+ * and planes created from an uncertain pose inherit that pose's error together. Such errors are
  * *considered* (Schmidt): they do not change the estimate, but they belong to its covariance.
  *
  * The filter's update with gain K passes the planes' errors b on to the state's error,
@@ -21,10 +21,10 @@
  *     cov q = Q_s + Q_a = sum_i s_i g_i g_i^T + M A M
  *
  * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, M = sum
- * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were founded,
+ * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were created,
  * averaged with their weights. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
- * founding poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
- * eta), E = cov(e) follows without any approximation. The share D of it that the filter has counted
+ * creating poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
+ * eta), E = cov(e) follows without any approximation. The part D of it that the filter has counted
  * as noise of the points is taken off. See docs/covariance.md. */
 #pragma once
 
@@ -54,8 +54,8 @@ struct LinearizedUpdate
   ScanGain gain = ScanGain::Zero();           //!< G of the filter's gain
 };
 
-/** Covariance of a scan pose from which planes were founded, as Matrix6 of scanPoseCovariance(). */
-struct FoundingError
+/** Covariance of a scan pose from which planes were created, as Matrix6 of scanPoseCovariance(). */
+struct InsertionError
 {
   Matrix6 inherited = Matrix6::Zero();  //!< by the map's own error: common to all scans
   Matrix6 own = Matrix6::Zero();        //!< by the noise of this scan and of those shortly before
@@ -71,7 +71,7 @@ class MapErrorModel
   /** Takes in an update of the filter with the measurements \a scan. */
   void update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
 
-  /** What is to be added to the filter's own covariance: the map's error, less the share of it that
+  /** What is to be added to the filter's own covariance: the map's error, less the part of it that
    * the filter has counted as noise of the points. */
   [[nodiscard]] StateMatrix addition() const;
 
@@ -80,27 +80,27 @@ class MapErrorModel
 
   /** Remembers how well the scan pose was known when insertion number \a scan was made. */
   void recordInsertion(
-      std::uint32_t scan, const FoundingError& pose_error, const Pose& T_world_scan);
+      std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan);
 
  private:
-  struct Founding
+  struct Insertion
   {
     std::uint32_t scan = 0;
     TwistCovariance inherited = TwistCovariance::Zero();
     TwistCovariance own = TwistCovariance::Zero();
-    double memory = 0.0;  // how much of the own error of the founding before is in this one's
-    double share = 0.0;
+    double memory = 0.0;  // how much of the own error of the insertion before is in this one's
+    double weight = 0.0;  // of a scan on its planes
   };
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
   void thinOut();
-  [[nodiscard]] TwistCovariance foundingCovariance(const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] TwistCovariance insertionCovariance(const std::vector<PlaneGroup>& groups);
 
   StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
   StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors
-  StateBy6 Y_founding_ = StateBy6::Zero();      //!< the same of the founding poses'
+  StateBy6 Y_poses_ = StateBy6::Zero();         //!< the same of the creating poses'
   double memory_ = 0.0;                         // since the last insertion
-  std::vector<Founding> foundings_;             // ascending by scan
+  std::vector<Insertion> insertions_;           // ascending by scan
 };
 
 }  // namespace fastlio

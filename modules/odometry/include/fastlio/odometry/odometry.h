@@ -42,7 +42,7 @@ class Odometry
 {
  public:
   /** \exception std::invalid_argument a parameter is out of its range (the message names it) */
-  explicit Odometry(const Parameters& parameters);
+  explicit Odometry(const OdometryOptions& options);
   ~Odometry();
   Odometry(Odometry&&) noexcept;
   Odometry& operator=(Odometry&&) noexcept;
@@ -88,12 +88,12 @@ class Odometry
    * the start and while the pose is not trusted. Each call propagates anew from that scan. */
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
 
-  [[nodiscard]] const Parameters& parameters() const;
+  [[nodiscard]] const OdometryOptions& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;
   /** Units, rate and faults of the inertial sensor so far. */
   [[nodiscard]] ImuReport imuReport() const;
-  /** What the user should know, in the order in which it was found out: units, mounting, splits of
-   * the run. */
+  /** What the user should know, in the order in which it was found out: units, mounting,
+   * re-initialisations. */
   [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const;
 
  private:

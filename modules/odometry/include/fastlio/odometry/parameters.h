@@ -149,4 +149,6 @@ struct Parameters
   int threads = 0;  //!< worker threads; 0 = all cores
 };
 
+using OdometryOptions = Parameters;
+
 }  // namespace fastlio

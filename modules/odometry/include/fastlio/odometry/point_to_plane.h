@@ -9,7 +9,6 @@
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/parameters.h>
-#include <fastlio/odometry/robust_kernel.h>
 
 #include <cstddef>
 #include <vector>
@@ -36,8 +35,6 @@ struct ResidualModel
   double gate = 3.0;                     //!< in standard deviations
   double prior_position_variance = 0.0;  //!< of the prediction [m^2]
   double prior_attitude_variance = 0.0;  //!< of the prediction [rad^2]
-  RobustKernel kernel = RobustKernel::None;
-  double kernel_scale = 2.0;  //!< in standard deviations of the measurement
 };
 
 /** Eq. 14 for point i of the scan at the attitude and position of an iterate. The variance is that
@@ -58,9 +55,6 @@ struct ResidualModel
 
 /** The same for a measurement. */
 [[nodiscard]] bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model);
-
-/** 1 / variance, times the robust kernel's weight of the residual. */
-[[nodiscard]] double weightOf(const PlaneMeasurement& m, const ResidualModel& model);
 
 /** Sums over the consistent matches among the points [first, last), in the points' order. */
 [[nodiscard]] InformationSums accumulate(

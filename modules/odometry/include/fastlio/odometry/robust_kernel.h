@@ -4,8 +4,6 @@
 /** \file robust_kernel.h Weights that make the update (eq. 15-20) trust large residuals less. */
 #pragma once
 
-#include <cmath>
-
 namespace fastlio
 {
 /** A kernel rho of the residual r in standard deviations; its weight is rho'(r) / r. */
@@ -16,25 +14,5 @@ enum class RobustKernel
   Cauchy,        //!< 1/(1 + (r/k)^2)
   GemanMcClure,  //!< 1/(1 + (r/k)^2)^2: large residuals hardly pull at all
 };
-
-/** Weight of a residual, 1 at zero. \param normalized_square r^2 = z^2 / variance
- * \param scale k, in standard deviations, positive */
-[[nodiscard]] inline double robustWeight(
-    RobustKernel kernel, double normalized_square, double scale)
-{
-  const double x = normalized_square / (scale * scale);
-  switch (kernel)
-  {
-    case RobustKernel::None:
-      break;
-    case RobustKernel::Huber:
-      return x <= 1.0 ? 1.0 : 1.0 / std::sqrt(x);
-    case RobustKernel::Cauchy:
-      return 1.0 / (1.0 + x);
-    case RobustKernel::GemanMcClure:
-      return 1.0 / ((1.0 + x) * (1.0 + x));
-  }
-  return 1.0;
-}
 
 }  // namespace fastlio

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scan_result.h What the odometry says about each scan: state, covariance and the evidence.
+/** \file scan_result.h The result of each scan: state, covariance and the evidence.
  */
 #pragma once
 
@@ -32,15 +32,15 @@ enum class ScanStatus
 enum class HealthCause
 {
   None,
-  Starting,       //!< no pose yet
-  Lost,           //!< the pose is not trusted
-  NoMatch,        //!< the scan did not correct the prediction
-  FewMatches,     //!< a small share of its points match the map
-  LargeResidual,  //!< the matches do not agree with the map
-  OpenDirection,  //!< the matches leave a direction open
-  InertialData,   //!< gaps, clipping or spikes of the inertial sensor
-  Bias,           //!< a bias runs away
-  ScanTiming      //!< a long time since the scan before
+  Starting,             //!< no pose yet
+  Lost,                 //!< the pose is not trusted
+  NoMatch,              //!< the scan did not correct the prediction
+  FewMatches,           //!< its inlier ratio is small
+  LargeResidual,        //!< the matches do not agree with the map
+  DegenerateDirection,  //!< the matches do not constrain a direction
+  InertialData,         //!< gaps, clipping or spikes of the inertial sensor
+  Bias,                 //!< a bias runs away
+  ScanTiming            //!< a long time since the scan before
 };
 
 /** Printable name of a cause ("few_matches", ...). */
@@ -64,25 +64,26 @@ struct StageTimings
 /** Counts and measures of one scan. */
 struct ScanStatistics
 {
-  std::size_t points_in = 0;           //!< points delivered by the bridge
+  std::size_t points_in = 0;           //!< points of the scan as delivered
   std::size_t dropped_invalid = 0;     //!< no echo, NaN or zero
   std::size_t dropped_near = 0;        //!< nearer than lidar.min_range
   std::size_t dropped_far = 0;         //!< farther than lidar.max_range
-  std::size_t points_downsampled = 0;  //!< after the voxel grid
+  std::size_t points_downsampled = 0;  //!< that were matched with the map
   std::size_t points_effective = 0;    //!< matched with a plane in the last iteration
-  double usual_share = 0.0;     //!< of the points that matched in the scans before; 0: none did
-  std::size_t imu_samples = 0;  //!< inertial samples of this scan's interval
-  std::size_t map_points = 0;   //!< points in the map after the scan
+  double usual_inlier_ratio = 0.0;     //!< of the scans before, with this map; 0: none matched
+  std::size_t imu_samples = 0;         //!< inertial samples of this scan's interval
+  std::size_t map_points = 0;          //!< points in the map after the scan
   int iterations = 0;
   bool converged = false;
   bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
-  ScanConstraints constraints;  //!< directions that the scan did not constrain, and left alone
+  ScanConstraints constraints;  //!< degenerate directions, which the update left alone
 };
 
-/** What the LiDAR told about the points of Odometry::registeredPoints(), in their order. */
+/** What the LiDAR measured besides the positions of Odometry::registeredPoints(), in their order.
+ */
 struct RegisteredFields
 {
   std::vector<float> intensity;        //!< sensor's own scale
@@ -97,9 +98,9 @@ struct ScanResult
   ScanStatus status = ScanStatus::Initializing;
   std::string message;  //!< why, when the status is not Tracking
   FilterState filter;   //!< state and covariance, IMU body in the world frame
-  /** The share of filter.P's pose block that comes from the map's errors: nearly the same for
+  /** The part of filter.P's pose block that comes from the map's errors: nearly the same for
    * scans that follow each other, so it tells little about the motion between them. */
-  Matrix6 map_share = Matrix6::Zero();
+  Matrix6 map_covariance = Matrix6::Zero();
   ScanStatistics statistics;
   ScanHealth health;
   StageTimings milliseconds;

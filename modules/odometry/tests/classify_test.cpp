@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "health_monitor.h"
+#include "classify.h"
 
 #include "odometry_runs.h"
 
@@ -29,31 +29,52 @@ ScanResult goodScan(std::int64_t index = 1)
   r.status = ScanStatus::Tracking;
   r.statistics.points_downsampled = 1000;
   r.statistics.points_effective = 600;
-  r.statistics.usual_share = 0.5;
+  r.statistics.usual_inlier_ratio = 0.5;
   r.statistics.normalized_innovation = 0.9;
   r.statistics.information_eigenvalues.setConstant(1e5);
   return r;
 }
 
 template <typename Change>
-ScanHealth healthAfter(Change change, const std::vector<NoiseInflation>& inflations = {})
+ScanHealth healthAfter(Change change, double inflated_ratio = 0.0)
 {
-  HealthMonitor monitor{HealthOptions{}};
   ScanResult r = goodScan();
   change(r);
-  monitor.judge(inflations, r);
-  return r.health;
+  HealthContext context;
+  context.since_ns = r.begin_ns;
+  context.inflated_ratio = inflated_ratio;
+  return healthOf(r, context, HealthOptions{});
+}
+
+/** The outcome of a scan that tracks. */
+ScanOutcome goodOutcome()
+{
+  ScanOutcome outcome;
+  outcome.updated = true;
+  outcome.points = 1000;
+  outcome.unaided_s = 0.0;
+  outcome.position_std = 0.01;
+  return outcome;
+}
+
+ScanResult classified(
+    const ScanOutcome& outcome, ScanResult r = goodScan(),
+    const std::vector<NoiseInflation>& inflations = {})
+{
+  ScanClassifier classifier{OdometryOptions{}};
+  classifier.classify(outcome, inflations, r);
+  return r;
 }
 }  // namespace
 
-TEST(HealthMonitor, AGoodScanIsHealthy)
+TEST(Classify, AGoodScanIsHealthy)
 {
   const ScanHealth health = healthAfter([](ScanResult&) {});
   EXPECT_GT(health.value, 0.8);
   EXPECT_EQ(health.reason, "");
 }
 
-TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
+TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
 {
   const HealthOptions limits;
   struct Case
@@ -72,7 +93,7 @@ TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
       {HealthCause::LargeResidual, "health.max_innovation",
        [&](ScanResult& r, double k)
        { r.statistics.normalized_innovation = k * limits.max_innovation; }},
-      {HealthCause::OpenDirection, "health.min_information",
+      {HealthCause::DegenerateDirection, "health.min_information",
        [&](ScanResult& r, double k)
        { r.statistics.information_eigenvalues[0] = limits.min_information / k; }},
       {HealthCause::Bias, "health.max_gyro_bias",
@@ -99,15 +120,15 @@ TEST(HealthMonitor, EachMeasureIsHalfAtItsLimitAndNamesItself)
   }
 }
 
-TEST(HealthMonitor, InflatedInertialDataAreTheirShareOfTheScan)
+TEST(Classify, InflatedInertialDataAreTheirPartOfTheScan)
 {
   const std::vector<NoiseInflation> inflations{{kStamp, kStamp + kScan / 2, 1.0, 1.0}};
-  const ScanHealth health = healthAfter([](ScanResult&) {}, inflations);
+  const ScanHealth health = classified(goodOutcome(), goodScan(), inflations).health;
   EXPECT_EQ(health.cause, HealthCause::InertialData);
   EXPECT_NE(health.reason.find("50 %"), std::string::npos) << health.reason;
 }
 
-TEST(HealthMonitor, ADirectionThatIsKnownToBeOpenIsNoTrouble)
+TEST(Classify, ADirectionThatIsKnownToBeDegenerateIsNoTrouble)
 {
   const ScanHealth health = healthAfter(
       [](ScanResult& r)
@@ -115,11 +136,11 @@ TEST(HealthMonitor, ADirectionThatIsKnownToBeOpenIsNoTrouble)
         r.statistics.information_eigenvalues[0] = 0.0;
         r.statistics.constraints.unconstrained = 1;
       });
-  EXPECT_EQ(health.cause, HealthCause::OpenDirection);
+  EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
   EXPECT_GT(health.value, 0.5);
 }
 
-TEST(HealthMonitor, ScansWithoutUpdateAreInTrouble)
+TEST(Classify, ScansWithoutUpdateAreInTrouble)
 {
   const ScanHealth predicted =
       healthAfter([](ScanResult& r) { r.status = ScanStatus::PredictionOnly; });
@@ -130,7 +151,103 @@ TEST(HealthMonitor, ScansWithoutUpdateAreInTrouble)
   EXPECT_EQ(lost.value, 0.0);
 }
 
-TEST(HealthMonitor, AGoodRunIsHealthyAllAlong)
+TEST(Classify, FewMatchesAreNoTroubleWhileTheMapIsSparse)
+{
+  ScanClassifier classifier{OdometryOptions{}};
+  const auto next = [&](const ScanOutcome& outcome, std::int64_t index)
+  {
+    ScanResult r = goodScan(index);
+    r.statistics.points_effective = 50;
+    classifier.classify(outcome, {}, r);
+    return r;
+  };
+  ScanOutcome first = goodOutcome();
+  first.map_was_empty = true;
+  first.updated = false;
+  EXPECT_EQ(next(first, 1).status, ScanStatus::FirstScan);
+  std::int64_t index = 2;
+  for (; index <= 21; ++index)
+    EXPECT_NE(next(goodOutcome(), index).health.cause, HealthCause::FewMatches) << index;
+  EXPECT_EQ(next(goodOutcome(), index).health.cause, HealthCause::FewMatches);
+}
+
+TEST(Classify, AnUpdatedScanTracksWithoutAMessage)
+{
+  const ScanResult r = classified(goodOutcome());
+  EXPECT_EQ(r.status, ScanStatus::Tracking);
+  EXPECT_EQ(r.message, "");
+  EXPECT_GT(r.health.value, 0.5);
+}
+
+TEST(Classify, AScanWithoutUpdateIsPredictedAndThenDiverged)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.updated = false;
+  outcome.unaided_s = 0.1;
+  const ScanResult predicted = classified(outcome);
+  EXPECT_EQ(predicted.status, ScanStatus::PredictionOnly);
+  EXPECT_NE(predicted.message.find("measurement.min_effective_points"), std::string::npos);
+  EXPECT_EQ(predicted.health.reason, predicted.message);
+  outcome.unaided_s = 2.0 * OdometryOptions{}.measurement.max_unaided_time;
+  EXPECT_EQ(classified(outcome).status, ScanStatus::Diverged);
+}
+
+TEST(Classify, MatchesThatDoNotConvinceForLongAreNamed)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.unaided_s = 2.0 * OdometryOptions{}.measurement.max_unaided_time;
+  const ScanResult r = classified(outcome);
+  EXPECT_EQ(r.status, ScanStatus::Diverged);
+  EXPECT_NE(r.message.find("no convincing match"), std::string::npos) << r.message;
+}
+
+TEST(Classify, AnOverflowOfThePredictionDivergesWhateverMatches)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.prediction_finite = false;
+  EXPECT_EQ(classified(outcome).status, ScanStatus::Diverged);
+  outcome.updated = false;
+  const ScanResult r = classified(outcome);
+  EXPECT_EQ(r.status, ScanStatus::Diverged);
+  EXPECT_NE(r.message.find("overflowed"), std::string::npos) << r.message;
+}
+
+TEST(Classify, ABridgedGapIsReportedWhileTheScanTracks)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.imu_gap_s = 2.0 * OdometryOptions{}.imu.max_gap;
+  const ScanResult r = classified(outcome);
+  EXPECT_EQ(r.status, ScanStatus::Tracking);
+  EXPECT_NE(r.message.find("bridged"), std::string::npos) << r.message;
+}
+
+TEST(Classify, OutsideAGivenMapAScanIsInitializing)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.place = ScanOutcome::Place::OutsideGivenMap;
+  outcome.updated = false;
+  const ScanResult r = classified(outcome);
+  EXPECT_EQ(r.status, ScanStatus::Initializing);
+  EXPECT_EQ(r.health.cause, HealthCause::Starting);
+  EXPECT_NE(r.message.find("60 % of the points"), std::string::npos) << r.message;
+}
+
+TEST(Classify, AfterAReinitialisationAScanIsDivergedUntilItMatchesOrBeginsAMap)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.place = ScanOutcome::Place::Reinitialised;
+  outcome.updated = false;
+  EXPECT_EQ(classified(outcome).status, ScanStatus::Diverged);
+  outcome.map_was_empty = true;
+  EXPECT_EQ(classified(outcome).status, ScanStatus::FirstScan);
+  outcome.map_was_empty = false;
+  outcome.updated = true;
+  const ScanResult found = classified(outcome);
+  EXPECT_EQ(found.status, ScanStatus::Tracking);
+  EXPECT_NE(found.message.find("found again"), std::string::npos) << found.message;
+}
+
+TEST(Classify, AGoodRunIsHealthyAllAlong)
 {
   const RoomRecording recording = recordRoom();
   const Results results = runInOrder(roomParameters(), recording);
@@ -138,7 +255,7 @@ TEST(HealthMonitor, AGoodRunIsHealthyAllAlong)
     EXPECT_GE(r.health.value, 0.5) << r.stamp_ns << " " << r.health.reason;
 }
 
-TEST(HealthMonitor, TheMapDoesNotGrowWhileThePoseIsLost)
+TEST(Classify, TheMapDoesNotGrowWhileThePoseIsLost)
 {
   RoomSettings settings;
   settings.duration = 7.0;

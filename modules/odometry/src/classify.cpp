@@ -1,0 +1,271 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "classify.h"
+
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kTrouble = 0.5;
+constexpr double kKnownDegeneracy = 0.6;  // a direction that is left to the inertial data
+constexpr double kPredicted = 0.25;
+constexpr int kSparseMapScans = 20;
+
+/** Health of a measure that must not exceed a limit: 1 at zero, 1/2 at the limit. */
+double below(double measure, double limit)
+{
+  return std::clamp(1.0 - 0.5 * measure / limit, 0.0, 1.0);
+}
+
+/** Health of a measure that must reach a limit: 1/2 there, 1 at twice as much. */
+double above(double measure, double limit)
+{
+  return limit > 0.0 ? std::clamp(0.5 * measure / limit, 0.0, 1.0) : 1.0;
+}
+
+double inlierRatio(const ScanStatistics& s, std::size_t points)
+{
+  return points > 0 ? static_cast<double>(s.points_effective) / static_cast<double>(points) : 0.0;
+}
+
+/** Keeps the worst. \param reason makes the text, which is needed in trouble only */
+template <typename Reason>
+void consider(ScanHealth& health, double value, HealthCause cause, const Reason& reason)
+{
+  if (value >= health.value) return;
+  health.value = value;
+  health.cause = cause;
+  health.reason = value < kTrouble ? reason() : std::string();
+}
+
+void considerInlierRatio(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
+{
+  consider(
+      health, above(inlierRatio(s, s.points_downsampled), limits.min_share * s.usual_inlier_ratio),
+      HealthCause::FewMatches,
+      [&]
+      {
+        return mrpt::format(
+            "%zu of %zu points match the map, less than %g of the share that matched before, %.3f "
+            "(health.min_share)",
+            s.points_effective, s.points_downsampled, limits.min_share, s.usual_inlier_ratio);
+      });
+}
+
+void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
+{
+  consider(
+      health, below(s.normalized_innovation, limits.max_innovation), HealthCause::LargeResidual,
+      [&]
+      {
+        return mrpt::format(
+            "the residuals are %.1f times what their noise explains, more than %g "
+            "(health.max_innovation): wrong pose, extrinsic, time offset or point times?",
+            s.normalized_innovation, limits.max_innovation);
+      });
+  const double information = above(s.information_eigenvalues[0], limits.min_information);
+  const bool known = s.constraints.unconstrained > 0;
+  consider(
+      health, known ? std::max(information, kKnownDegeneracy) : information,
+      HealthCause::DegenerateDirection,
+      [&]
+      {
+        return mrpt::format(
+            "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
+            "less than %g (health.min_information)",
+            s.information_eigenvalues[0], limits.min_information);
+      });
+}
+
+void considerInertialData(
+    double inflated, const NavState& x, const HealthOptions& limits, ScanHealth& health)
+{
+  consider(
+      health, below(inflated, limits.max_inflated), HealthCause::InertialData,
+      [&]
+      {
+        return mrpt::format(
+            "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
+            "more than %.0f %% (health.max_inflated)",
+            100.0 * inflated, 100.0 * limits.max_inflated);
+      });
+  consider(
+      health, below(x.gyro_bias.norm(), limits.max_gyro_bias), HealthCause::Bias,
+      [&]
+      {
+        return mrpt::format(
+            "the gyro's bias has run to %.2f deg/s, more than %.2f (health.max_gyro_bias)",
+            kDegPerRad * x.gyro_bias.norm(), kDegPerRad * limits.max_gyro_bias);
+      });
+  consider(
+      health, below(x.accel_bias.norm(), limits.max_accel_bias), HealthCause::Bias,
+      [&]
+      {
+        return mrpt::format(
+            "the accelerometer's bias has run to %.2f m/s^2, more than %.2f "
+            "(health.max_accel_bias)",
+            x.accel_bias.norm(), limits.max_accel_bias);
+      });
+}
+
+std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s, int needed)
+{
+  return mrpt::format(
+      "%zu of %zu points match the map, at least %i are needed "
+      "(measurement.min_effective_points); "
+      "%.2f s on inertial data alone, position uncertain by %.3f m%s",
+      s.points_effective, outcome.points, needed, outcome.unaided_s, outcome.position_std,
+      outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
+}
+
+std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
+{
+  return mrpt::format(
+      "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match "
+      "(health.min_share); the last one was %.2f s ago",
+      s.points_effective, outcome.points, s.normalized_innovation, outcome.unaided_s);
+}
+
+std::string bridgedGap(double gap_s, double max_gap)
+{
+  return mrpt::format(
+      "%.2f s without inertial samples (imu.max_gap is %.2f s): bridged with the last rate and "
+      "acceleration",
+      gap_s, max_gap);
+}
+
+std::string relocalisationFailure(
+    const ScanOutcome& outcome, const ScanStatistics& s, const InitializationOptions& p)
+{
+  return mrpt::format(
+      "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
+      "needed (initialization.map_share); is the pose within initialization.pose_position_std "
+      "(%.2f m) and pose_yaw_std of the true one?",
+      100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)), 100.0 * p.map_share,
+      p.pose_position_std);
+}
+
+/** The state is not trusted: the prediction overflowed, or no scan has corrected it for long. */
+bool isDiverged(const ScanOutcome& outcome, const OdometryOptions& options)
+{
+  return !outcome.prediction_finite || outcome.unaided_s > options.measurement.max_unaided_time;
+}
+
+/** Why the scan did not correct the state; empty when it did and nothing is worth a word. */
+std::string trackingMessage(
+    const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
+{
+  const bool diverged = isDiverged(outcome, options);
+  if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
+  if (diverged || (!outcome.updated && !outcome.map_was_empty))
+    return fewMatches(outcome, s, options.measurement.min_effective_points);
+  if (outcome.imu_gap_s > options.imu.max_gap)
+    return bridgedGap(outcome.imu_gap_s, options.imu.max_gap);
+  return {};
+}
+
+std::string messageOf(
+    ScanStatus status, const ScanOutcome& outcome, const ScanStatistics& s,
+    const OdometryOptions& options)
+{
+  if (outcome.place == ScanOutcome::Place::OutsideGivenMap)
+    return relocalisationFailure(outcome, s, options.initialization);
+  if (outcome.place == ScanOutcome::Place::InMap) return trackingMessage(outcome, s, options);
+  if (status == ScanStatus::Tracking)
+    return mrpt::format(
+        "the map is found again after a new start, %zu of %zu points match it", s.points_effective,
+        outcome.points);
+  if (status == ScanStatus::FirstScan)
+    return mrpt::format(
+        "a new map is begun at the pose that was carried over, which is uncertain by %.2f m",
+        outcome.position_std);
+  return "a new start, looking for the map: " + trackingMessage(outcome, s, options);
+}
+}  // namespace
+
+bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points, double min_ratio)
+{
+  return inlierRatio(statistics, points) >= min_ratio * statistics.usual_inlier_ratio;
+}
+
+ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
+{
+  if (outcome.place == ScanOutcome::Place::OutsideGivenMap) return ScanStatus::Initializing;
+  if (isDiverged(outcome, options)) return ScanStatus::Diverged;
+  if (outcome.map_was_empty) return ScanStatus::FirstScan;
+  if (outcome.updated) return ScanStatus::Tracking;
+  return outcome.place == ScanOutcome::Place::InMap ? ScanStatus::PredictionOnly
+                                                    : ScanStatus::Diverged;
+}
+
+ScanHealth healthOf(
+    const ScanResult& result, const HealthContext& context, const HealthOptions& limits)
+{
+  ScanHealth health;
+  const double interval_s = toSeconds(result.stamp_ns - context.since_ns);
+  const auto message = [&] { return result.message; };
+  if (result.status == ScanStatus::Initializing)
+    consider(health, 0.0, HealthCause::Starting, message);
+  else if (result.status == ScanStatus::Diverged)
+    consider(health, 0.0, HealthCause::Lost, message);
+  else if (result.status == ScanStatus::PredictionOnly)
+    consider(health, kPredicted, HealthCause::NoMatch, message);
+  else if (result.status == ScanStatus::Tracking)
+  {
+    if (!context.map_is_sparse) considerInlierRatio(result.statistics, limits, health);
+    considerMatches(result.statistics, limits, health);
+  }
+  considerInertialData(context.inflated_ratio, result.filter.x, limits, health);
+  consider(
+      health, below(interval_s, limits.max_scan_interval), HealthCause::ScanTiming,
+      [&]
+      {
+        return mrpt::format(
+            "%.2f s since the scan before, more than %g (health.max_scan_interval): scans are "
+            "missing, or the LiDAR's stamps jump",
+            interval_s, limits.max_scan_interval);
+      });
+  return health;
+}
+
+void ScanClassifier::classify(
+    const ScanOutcome& outcome, const std::vector<NoiseInflation>& inflations, ScanResult& result)
+{
+  result.status = statusOf(outcome, options_);
+  result.message = messageOf(result.status, outcome, result.statistics, options_);
+
+  HealthContext context;
+  context.since_ns = previous_ns_ == 0 ? result.begin_ns : previous_ns_;
+  context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
+  context.map_is_sparse = scans_until_dense_ > 0;
+  result.health = healthOf(result, context, options_.health);
+  previous_ns_ = result.stamp_ns;
+  if (result.status == ScanStatus::FirstScan)
+    scans_until_dense_ = kSparseMapScans;
+  else if (result.status == ScanStatus::Tracking)
+    scans_until_dense_ = std::max(0, scans_until_dense_ - 1);
+}
+
+ScanResult classifyUnprocessed(const QueuedScan& queued, const std::string& why, bool started)
+{
+  ScanResult result;
+  result.begin_ns = queued.span.begin_ns;
+  result.stamp_ns = queued.span.end_ns;
+  result.statistics.points_in = queued.scan.points.size();
+  result.status = started ? ScanStatus::Diverged : ScanStatus::Initializing;
+  result.message = why;
+  result.health = {0.0, started ? HealthCause::Lost : HealthCause::Starting, why};
+  return result;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,84 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file classify.h Is a scan's pose to be believed, and if not, why? Status, message and health of
+ * every scan are written here and nowhere else. */
+#pragma once
+
+#include "queued_scan.h"
+#include <fastlio/imu/noise_inflation.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** What the filter did with a scan, as far as its status depends on it. */
+struct ScanOutcome
+{
+  /** Where the filter was with this scan. */
+  enum class Place
+  {
+    InMap,            //!< it tracks
+    OutsideGivenMap,  //!< the pose in a given map has not been found yet
+    Reinitialised     //!< until this scan, the map has not been found since the re-initialisation
+  };
+  Place place = Place::InMap;
+  bool map_was_empty = false;
+  bool updated = false;           //!< the scan corrected the prediction
+  bool prediction_finite = true;  //!< else the inertial data overflowed it
+  std::size_t points = 0;         //!< surface points that could have matched
+  double imu_gap_s = 0.0;         //!< longest one since the scan before
+  double unaided_s = 0.0;         //!< since a scan last corrected the state convincingly
+  double position_std = 0.0;      //!< of the filter, along the worst axis [m]
+};
+
+/** The scan matches as those before it did: its inlier ratio is at least \a min_ratio of the usual
+ * one. (Residuals alone do not tell: along a tunnel they grow although the pose is right but for
+ * one direction.) \param points of the scan that could have matched */
+[[nodiscard]] bool matchesAsUsual(
+    const ScanStatistics& statistics, std::size_t points, double min_ratio);
+
+/** The status alone. */
+[[nodiscard]] ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options);
+
+/** What the health of a scan depends on besides the scan itself. */
+struct HealthContext
+{
+  std::int64_t since_ns = 0;    //!< end of the scan before
+  double inflated_ratio = 0.0;  //!< of the time since then, in which inertial data are in doubt
+  bool map_is_sparse = false;   //!< few points match it yet
+};
+
+/** Health of a scan: the smallest of its measures, each 1/2 at its limit. */
+[[nodiscard]] ScanHealth healthOf(
+    const ScanResult& result, const HealthContext& context, const HealthOptions& limits);
+
+/** Classifies scan after scan. */
+class ScanClassifier
+{
+ public:
+  explicit ScanClassifier(const OdometryOptions& options) : options_(options) {}
+
+  /** Writes status, message and health of a scan whose other fields are complete.
+   * \param inflations about the inertial data since the scan before, at least */
+  void classify(
+      const ScanOutcome& outcome, const std::vector<NoiseInflation>& inflations,
+      ScanResult& result);
+
+ private:
+  const OdometryOptions options_;
+  std::int64_t previous_ns_ = 0;
+  int scans_until_dense_ = 0;  // of a map that does not match much yet
+};
+
+/** The result of a scan that is given up without being processed. \param started the odometry has
+ * had a pose before */
+[[nodiscard]] ScanResult classifyUnprocessed(
+    const QueuedScan& queued, const std::string& why, bool started);
+
+}  // namespace fastlio

@@ -1,0 +1,310 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "estimator.h"
+
+#include "map_search.h"
+#include "zero_velocity.h"
+#include <fastlio/math/stopwatch.h>
+#include <fastlio/math/time.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+Vector6 eigenvalues(const Matrix6& m)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(m, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+void describeMatch(const MatchResult& match, ScanStatistics& statistics)
+{
+  const InformationSums& sums = match.update.last;
+  statistics.points_effective = sums.count;
+  statistics.iterations = match.update.iterations;
+  statistics.converged = match.update.converged;
+  statistics.constraints = match.constraints;
+  if (sums.count == 0) return;
+  const double n = static_cast<double>(sums.count);
+  statistics.residual_rms = std::sqrt(sums.squares / n);
+  statistics.normalized_innovation = sums.weighted_squares / n;
+  statistics.information_eigenvalues = eigenvalues(sums.HtRinvH);
+}
+
+ScanOutcome::Place placeOf(const Mode& mode)
+{
+  if (std::holds_alternative<EnteringMap>(mode)) return ScanOutcome::Place::OutsideGivenMap;
+  if (std::holds_alternative<Relocalizing>(mode)) return ScanOutcome::Place::Reinitialised;
+  return ScanOutcome::Place::InMap;
+}
+}  // namespace
+
+void RegisteredScan::clear()
+{
+  points.resize(0);
+  fields.intensity.clear();
+  fields.stamp_ns.clear();
+}
+
+Estimator::Estimator(const OdometryOptions& options)
+    : options_(options),
+      workers_(std::make_shared<const Workers>(options.threads)),
+      predictor_(options),
+      preparation_(options, workers_),
+      matcher_(workers_),
+      map_(options, workers_),
+      rest_(options.rest),
+      classifier_(options)
+{
+}
+
+ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu)
+{
+  if (!started()) throw std::logic_error("Estimator::process: the filter has no state yet");
+  const Stopwatch total;
+  timings_ = {};
+  ScanResult result;
+  result.begin_ns = span.begin_ns;
+  result.stamp_ns = span.end_ns;
+
+  ScanPrediction predicted;
+  workers_->alongside(
+      [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
+      [&] { downsample(scan, span.end_ns); });
+  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);             // eq. 9-10
+  const MatchResult match = matchWithMap(deskewed, predicted.state, span.end_ns);  // eq. 12-20
+
+  Work work{scan, deskewed, predicted, {}};
+  state_.stamp_ns = span.end_ns;
+  adopt(match, work, result);
+  noteSupport(match, work, result);
+  applyZeroVelocityUpdate(statusOf(work.outcome, options_) == ScanStatus::Tracking, result);
+  classifier_.classify(work.outcome, imu.inflations(), result);
+  insertIntoMap(work, result);  // eq. 21
+  result.statistics.map_points = map_.surfaces().pointCount();
+  widenAfterFirstScan(result.status);
+  releaseTimeOffset(result, deskewed.surfaces.size());
+  changeMode(result.status);
+
+  timings_.total = total.milliseconds();
+  result.milliseconds = timings_;
+  return result;
+}
+
+FilterRun& Estimator::run()
+{
+  if (auto* relocalizing = std::get_if<Relocalizing>(&mode_)) return relocalizing->run;
+  if (auto* entering = std::get_if<EnteringMap>(&mode_)) return entering->run;
+  return std::get<Tracking>(mode_).run;
+}
+
+ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
+{
+  const Stopwatch watch;
+  ScanPrediction predicted = predictor_.predict(state_, end_ns, imu, map_.error(), run().trusted);
+  map_.propagateError(predicted.transition);
+  timings_.propagate = watch.milliseconds();
+  return predicted;
+}
+
+void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
+{
+  const Stopwatch watch;
+  const std::optional<MotionWindow>& window = run().motion_window;
+  // The cost of eq. 18 grows with the cube of the points: ten thousand would take minutes.
+  const bool more = window && end_ns <= window->end_ns && options_.gain == GainForm::Information;
+  preparation_.downsample(scan, more ? static_cast<std::size_t>(window->target_points) : 0);
+  timings_.downsample = watch.milliseconds();
+}
+
+const DeskewedScan& Estimator::deskew(
+    const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted)
+{
+  const Stopwatch watch;
+  const DeskewedScan& deskewed =
+      preparation_.deskew(scan, end_ns, predicted.state.x, predictor_.inputs());
+  timings_.deskew = watch.milliseconds();
+  return deskewed;
+}
+
+MatchResult Estimator::matchWithMap(
+    const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
+{
+  const Stopwatch watch;
+  const auto timed = [&](MatchResult match)
+  {
+    timings_.associate = match.association_ms;
+    timings_.update = watch.milliseconds() - timings_.associate;
+    return match;
+  };
+  if (auto* entering = std::get_if<EnteringMap>(&mode_))
+  {
+    MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted);
+    if (search.found) mode_ = Tracking{std::move(entering->run)};
+    return timed(std::move(search.match));
+  }
+  if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
+  {
+    if (end_ns > relocalizing->give_up_ns) beginNewMap(scan);
+    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted).match);
+  }
+  return timed(matcher_.match(scan, predicted, map_, ordinaryMatching(options_)));
+}
+
+/** A given map stays, as the world is that of the map. */
+void Estimator::beginNewMap(const DeskewedScan& scan)
+{
+  const auto needed = static_cast<std::size_t>(options_.measurement.min_effective_points);
+  if (map_.isGiven() || scan.surfaces.size() < needed) return;
+  map_ = LocalMap(options_, workers_);
+}
+
+/** The posterior becomes the state; what the map's errors add to its covariance is reported. */
+void Estimator::adopt(const MatchResult& match, const Work& work, ScanResult& result)
+{
+  FilterState& filter = state_.filter;
+  filter = match.update.posterior;
+  filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
+  map_.considerUpdate(work.deskewed, match, filter);
+  result.filter = filter;
+  result.filter.P += map_.error().addition();
+  result.map_covariance = (result.filter.P - filter.P).topLeftCorner<6, 6>();
+
+  preparation_.describe(work.scan, result.statistics);
+  describeMatch(match, result.statistics);
+  result.statistics.imu_samples = predictor_.inputs().size();
+}
+
+/** Learns how well the scan supports the state, and what its status depends on. */
+void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& result)
+{
+  FilterRun& run = this->run();
+  ScanStatistics& statistics = result.statistics;
+  ScanOutcome& outcome = work.outcome;
+  outcome.place = placeOf(mode_);
+  outcome.map_was_empty = map_.empty();
+  outcome.updated = match.update.updated;
+  outcome.prediction_finite = work.predicted.finite;
+  outcome.points = work.deskewed.surfaces.size();
+  outcome.imu_gap_s = work.predicted.imu_gap_s;
+  statistics.usual_inlier_ratio = map_.usualInlierRatio();
+  // Without matches there is no evidence: what the scans before have shown goes on.
+  if (outcome.map_was_empty || outcome.updated)
+  {
+    run.consistent = map_.isConsistent(statistics, outcome.points);
+    if (run.consistent) run.last_update_ns = state_.stamp_ns;
+    if (run.consistent && !outcome.map_was_empty)
+      map_.learnInlierRatio(statistics.points_effective, outcome.points);
+  }
+  outcome.unaided_s = toSeconds(state_.stamp_ns - run.last_update_ns);
+  outcome.position_std =
+      std::sqrt(state_.filter.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
+}
+
+/** At rest, v = 0 and w_m = b_w come on top of what the scan measured. */
+void Estimator::applyZeroVelocityUpdate(bool matched, ScanResult& result)
+{
+  if (!options_.rest.enabled && !rest_.assumed()) return;
+  FilterState& filter = state_.filter;
+  RestEvidence evidence;
+  evidence.stamp_ns = state_.stamp_ns;
+  evidence.inertial = inertialMean(predictor_.inputs(), state_.stamp_ns);
+  evidence.T_world_imu = filter.x.pose();
+  evidence.velocity = filter.x.v;
+  evidence.matched = matched;
+  if (!rest_.update(evidence) || !(evidence.inertial.duration > 0.0)) return;
+
+  const double gyro_noise =
+      options_.imu.noise.gyro_noise_density / std::sqrt(evidence.inertial.duration);
+  const auto update = zeroVelocityUpdate(
+      filter, evidence.inertial.gyro, options_.rest.velocity_std,
+      std::hypot(gyro_noise, options_.rest.rate_std));
+  if (!update)
+  {
+    rest_.reset();
+    return;
+  }
+  filter = update->posterior;
+  map_.propagateError(update->kept);  // the map's error goes through the same correction
+  result.filter = filter;
+  const StateMatrix map_covariance = map_.error().addition();
+  result.filter.P += map_covariance;
+  result.map_covariance = map_covariance.topLeftCorner<6, 6>();
+  result.statistics.at_rest = true;
+}
+
+void Estimator::changeMode(ScanStatus status)
+{
+  FilterRun& run = this->run();
+  run.trusted = status != ScanStatus::Diverged;
+  // Time without a map does not count.
+  if (status == ScanStatus::Initializing) run.last_update_ns = state_.stamp_ns;
+  const bool found = status == ScanStatus::Tracking || status == ScanStatus::FirstScan;
+  if (found && relocalizing()) mode_ = Tracking{FilterRun(run)};
+}
+
+void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
+{
+  const FilterState& filter = state_.filter;
+  const CompensatedWith& compensation = work.deskewed.compensation;
+  const FilterRun& run = this->run();
+  const InsertionCandidate candidate{
+      work.deskewed, filter, result.status, run.consistent, rest_.restingTime()};
+  if (!map_.accepts(candidate))
+  {
+    registered_.clear();
+    return;
+  }
+  const Stopwatch watch;
+  const BodyPoints& points = work.deskewed.surfaces;
+  const Pose T_world_scan = scanPose(filter.x, compensation);
+  registered_.points.resize(points.size());
+  const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
+  { transformToWorld(points, T_world_scan, first, last, registered_.points); };
+  workers_->forEachChunk(points.size(), transform);
+  InsertionError error;
+  error.own = scanPoseCovariance(filter, compensation);
+  error.inherited = scanPoseCovariance(result.filter, compensation) - error.own;
+  if (run.motion_window && state_.stamp_ns <= run.motion_window->end_ns)
+    error.inherited += run.motion_window->insertion_covariance;
+  map_.insert(
+      work.deskewed, registered_.points, error, T_world_scan,
+      T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);
+  preparation_.fieldsOf(work.scan, registered_.fields);
+  timings_.insert = watch.milliseconds();
+}
+
+/** All scans of a start in motion share the errors of the map that the first one has created. */
+void Estimator::widenAfterFirstScan(ScanStatus status)
+{
+  const std::optional<MotionWindow>& window = run().motion_window;
+  if (status == ScanStatus::FirstScan && window)
+    state_.filter.P += window->covariance_after_first_scan;
+}
+
+// From then on the offset is uncertain. A map that is still sparse could be made to fit a wrong
+// one, and so could one that was created in motion: in a steady rotation nothing tells it from
+// heading. Maps that do not know the errors that neighbouring matches share are too sure of it.
+void Estimator::releaseTimeOffset(const ScanResult& result, std::size_t points)
+{
+  const CalibrationOptions& p = options_.calibration;
+  double& variance = state_.filter.P(kTimeOffset, kTimeOffset);
+  const FilterRun& run = this->run();
+  const bool released = variance != 0.0;
+  if (!p.estimate_time_offset || released || run.motion_window) return;
+  if (options_.map.type != MapType::Planes) return;
+  if (result.status != ScanStatus::Tracking || !run.consistent) return;
+  if (static_cast<double>(result.statistics.points_effective) <
+      p.time_offset_min_share * static_cast<double>(points))
+    return;
+  variance = p.time_offset_std * p.time_offset_std;
+}
+
+}  // namespace fastlio

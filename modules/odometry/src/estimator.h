@@ -1,0 +1,128 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file estimator.h The filter with its map: from prediction to insertion, scan by scan. */
+#pragma once
+
+#include "carried_pose.h"
+#include "classify.h"
+#include "estimator_mode.h"
+#include "local_map.h"
+#include "scan_matcher.h"
+#include "scan_predictor.h"
+#include "scan_preparation.h"
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/imu/rest_detector.h>
+#include <fastlio/odometry/imu_rate.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/saved_map.h>
+#include <fastlio/odometry/scan_result.h>
+#include <fastlio/parallel/workers.h>
+
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace fastlio
+{
+/** The surface points of the last scan that joined the map. */
+struct RegisteredScan
+{
+  WorldPoints points;
+  RegisteredFields fields;
+
+  void clear();
+};
+
+/** Initialises, tracks and relocalises; which of them is its mode. */
+class Estimator
+{
+ public:
+  explicit Estimator(const OdometryOptions& options);
+
+  /** The run begins in a map of an earlier run; before start(). */
+  void useSavedMap(const SavedMap& saved);
+  /** The first state. \param motion_window of a start in motion */
+  void start(
+      const FilterState& state, std::int64_t stamp_ns,
+      const std::optional<MotionWindow>& motion_window);
+  /** No scans until reinitialise(). */
+  void suspend();
+  /** Goes on from a start of its own with the carried pose: searches for the map of before, and
+   * begins a new one when it is not found. */
+  void reinitialise(
+      const FilterState& start, std::int64_t stamp_ns,
+      const std::optional<MotionWindow>& motion_window, const CarriedPose& carried);
+
+  /** One scan, from prediction to insertion (section III of the paper).
+   * \exception std::logic_error there was no start */
+  [[nodiscard]] ScanResult process(
+      const LidarScan& scan, const ScanSpan& span, const ImuBuffer& imu);
+  /** A scan was given up: the last one left nothing behind. */
+  void skipScan();
+
+  [[nodiscard]] bool started() const { return !std::holds_alternative<Initializing>(mode_); }
+  /** The pose was carried over and the map has not been found since. */
+  [[nodiscard]] bool relocalizing() const { return std::holds_alternative<Relocalizing>(mode_); }
+  /** The latest state, also after suspend(). */
+  [[nodiscard]] const FilterState& state() const { return state_.filter; }
+  /** Its instant; 0 before the start and after suspend() [ns]. */
+  [[nodiscard]] std::int64_t stamp() const { return state_.stamp_ns; }
+  [[nodiscard]] const SurfaceMap& map() const { return map_.surfaces(); }
+  [[nodiscard]] const RegisteredScan& registered() const { return registered_; }
+  /** The prediction of the last scan at each inertial sample on the way (output.imu_rate). */
+  [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const
+  {
+    return predictor_.imuRateStates();
+  }
+  /** The state at the newest inertial sample, from the latest scan; nothing before the start, while
+   * the pose is not trusted, and when the latest scan is newer. */
+  [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample(const ImuBuffer& imu);
+
+  /** The estimated time offset, to be added to the stamps of scans [ns]. */
+  [[nodiscard]] std::int64_t timeShift() const;
+  /** Moves stamps and extrinsic of a scan by the calibration as it is estimated now. */
+  void applyCalibration(LidarScan& scan, ScanSpan& span) const;
+
+ private:
+  /** A scan on its way through process(). */
+  struct Work
+  {
+    const LidarScan& scan;
+    const DeskewedScan& deskewed;
+    const ScanPrediction& predicted;
+    ScanOutcome outcome;
+  };
+
+  [[nodiscard]] FilterRun& run();
+  [[nodiscard]] ScanPrediction predict(std::int64_t end_ns, const ImuBuffer& imu);
+  void downsample(const LidarScan& scan, std::int64_t end_ns);
+  [[nodiscard]] const DeskewedScan& deskew(
+      const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted);
+  [[nodiscard]] MatchResult matchWithMap(
+      const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
+  void beginNewMap(const DeskewedScan& scan);
+  void adopt(const MatchResult& match, const Work& work, ScanResult& result);
+  void noteSupport(const MatchResult& match, Work& work, ScanResult& result);
+  void applyZeroVelocityUpdate(bool matched, ScanResult& result);
+  void changeMode(ScanStatus status);
+  void insertIntoMap(const Work& work, const ScanResult& result);
+  void widenAfterFirstScan(ScanStatus status);
+  void releaseTimeOffset(const ScanResult& result, std::size_t points);
+
+  const OdometryOptions options_;
+  std::shared_ptr<const Workers> workers_;
+  ScanPredictor predictor_;
+  ScanPreparation preparation_;
+  ScanMatcher matcher_;
+  LocalMap map_;
+  RestDetector rest_;
+  ScanClassifier classifier_;
+  Mode mode_;
+  StampedState state_;
+  RegisteredScan registered_;
+  StageTimings timings_;
+};
+
+}  // namespace fastlio

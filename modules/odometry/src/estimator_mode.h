@@ -1,0 +1,53 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file estimator_mode.h What the estimator does with the next scan. */
+#pragma once
+
+#include "motion_window.h"
+#include <fastlio/math/pose.h>
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+namespace fastlio
+{
+/** The filter has no state yet, or none any more. */
+struct Initializing
+{
+  std::optional<Pose> T_map_imu;  //!< about where the run begins in a given map
+};
+
+/** What every mode of a running filter knows. */
+struct FilterRun
+{
+  std::int64_t last_update_ns = 0;            //!< a scan last corrected the state convincingly
+  bool consistent = true;                     //!< the latest match was as usual with this map
+  bool trusted = true;                        //!< the latest scan left a pose to be believed
+  std::optional<MotionWindow> motion_window;  //!< after a start in motion
+};
+
+/** The filter runs, and searches for its pose in a given map. */
+struct EnteringMap
+{
+  FilterRun run;
+  Pose T_map_imu;
+};
+
+/** Each scan is matched with the map where the prediction puts it. */
+struct Tracking
+{
+  FilterRun run;
+};
+
+/** The filter was re-initialised with a carried pose and searches for the map of before. */
+struct Relocalizing
+{
+  FilterRun run;
+  std::int64_t give_up_ns = 0;  //!< a scan that ends later begins a new map
+};
+
+using Mode = std::variant<Initializing, EnteringMap, Tracking, Relocalizing>;
+
+}  // namespace fastlio

@@ -1,0 +1,103 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Starts of the estimator, and what it tells between scans.
+
+#include "calibration_prior.h"
+#include "estimator.h"
+#include "start_in_map.h"
+#include <fastlio/math/time.h>
+
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+FilterRun startedRun(
+    std::int64_t stamp_ns, bool trusted, const std::optional<MotionWindow>& motion_window)
+{
+  FilterRun run;
+  run.last_update_ns = stamp_ns;
+  run.trusted = trusted;
+  run.motion_window = motion_window;
+  return run;
+}
+}  // namespace
+
+void Estimator::useSavedMap(const SavedMap& saved)
+{
+  map_ = LocalMap(options_, workers_, saved);
+  mode_ = Initializing{saved.T_map_imu};
+}
+
+void Estimator::start(
+    const FilterState& state, std::int64_t stamp_ns,
+    const std::optional<MotionWindow>& motion_window)
+{
+  if (options_.rest.at_start && !motion_window) rest_.assumeRest();
+  FilterRun run = startedRun(stamp_ns, true, motion_window);
+  const auto* initializing = std::get_if<Initializing>(&mode_);
+  const std::optional<Pose> T_map_imu =
+      initializing != nullptr ? initializing->T_map_imu : std::nullopt;
+  const FilterState placed = T_map_imu ? placedInMap(state, *T_map_imu) : state;
+  state_ = {withCalibrationPrior(placed, options_.calibration), stamp_ns};
+  if (T_map_imu)
+    mode_ = EnteringMap{std::move(run), *T_map_imu};
+  else
+    mode_ = Tracking{std::move(run)};
+}
+
+void Estimator::suspend()
+{
+  skipScan();
+  rest_.reset();
+  state_.stamp_ns = 0;
+  const auto* entering = std::get_if<EnteringMap>(&mode_);
+  mode_ =
+      Initializing{entering != nullptr ? std::optional<Pose>(entering->T_map_imu) : std::nullopt};
+}
+
+void Estimator::reinitialise(
+    const FilterState& start, std::int64_t stamp_ns,
+    const std::optional<MotionWindow>& motion_window, const CarriedPose& carried)
+{
+  const auto* initializing = std::get_if<Initializing>(&mode_);
+  const std::optional<Pose> T_map_imu =
+      initializing != nullptr ? initializing->T_map_imu : std::nullopt;
+  FilterRun run = startedRun(stamp_ns, false, motion_window);
+  state_ = {withCalibrationOf(state_.filter, startInCarriedWorld(start, carried)), stamp_ns};
+  const double search_time = carried.new_map ? 0.0 : options_.recovery.match_time;
+  if (T_map_imu)
+    mode_ = EnteringMap{std::move(run), *T_map_imu};
+  else
+    mode_ = Relocalizing{std::move(run), stamp_ns + toNanoseconds(search_time)};
+}
+
+void Estimator::skipScan()
+{
+  predictor_.clearImuRateStates();
+  registered_.clear();
+}
+
+std::optional<ImuRateState> Estimator::stateAtNewestSample(const ImuBuffer& imu)
+{
+  if (!started() || !run().trusted) return std::nullopt;
+  return predictor_.predictNewest(state_, imu, map_.error());
+}
+
+std::int64_t Estimator::timeShift() const
+{
+  return toNanoseconds(state_.filter.x.time_offset);
+}
+
+void Estimator::applyCalibration(LidarScan& scan, ScanSpan& span) const
+{
+  const std::int64_t shift_ns = timeShift();
+  scan.stamp_ns += shift_ns;
+  span.begin_ns += shift_ns;
+  span.end_ns += shift_ns;
+  scan.T_imu_lidar = state_.filter.x.extrinsic_correction * scan.T_imu_lidar;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,129 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "local_map.h"
+
+#include "classify.h"
+#include "map_factory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// So many scans of a map do not match much yet.
+constexpr std::uint32_t kSparseMapInsertions = 20;
+constexpr int kRatiosAveraged = 50;  // scans
+
+EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
+{
+  EdgeMapOptions options;
+  options.min_spacing = parameters.features.edge_spacing;
+  options.max_neighbor_distance = parameters.features.max_edge_distance;
+  options.max_line_distance = parameters.features.max_edge_scatter;
+  options.point_noise = parameters.measurement.range_noise;
+  return options;
+}
+
+InsertionRules insertionRules(const OdometryOptions& options)
+{
+  InsertionRules rules;
+  rules.update_given = options.map.update;
+  rules.max_position_std = options.map.max_insertion_std;
+  rules.max_resting_time = options.rest.map_time;
+  rules.radius = options.map.radius;
+  rules.refuse_inconsistent = options.health.freeze_map;
+  rules.min_inlier_ratio = options.health.min_share;
+  return rules;
+}
+
+std::unique_ptr<SurfaceMap> surfacesOf(
+    const SavedMap& saved, const OdometryOptions& options, std::shared_ptr<const Workers> workers)
+{
+  if (saved.planes && options.map.type == MapType::Planes)
+    return std::make_unique<VoxelPlaneMap>(*saved.planes);
+  auto surfaces = makeSurfaceMap(options, std::move(workers));
+  insertSavedPoints(saved.points, *surfaces);
+  return surfaces;
+}
+}  // namespace
+
+LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers)
+    : rules_(insertionRules(options)),
+      surfaces_(makeSurfaceMap(options, workers)),
+      edges_(edgeMapOptions(options)),
+      groups_(std::move(workers))
+{
+}
+
+LocalMap::LocalMap(
+    const OdometryOptions& options, std::shared_ptr<const Workers> workers, const SavedMap& saved)
+    : rules_(insertionRules(options)),
+      surfaces_(surfacesOf(saved, options, workers)),
+      edges_(edgeMapOptions(options)),
+      groups_(std::move(workers)),
+      insertions_(surfaces_->insertionCount()),
+      given_(true)
+{
+  // Its errors are those of the world itself.
+  error_.recordInsertion(0, InsertionError{}, Pose{});
+}
+
+void LocalMap::considerUpdate(
+    const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior)
+{
+  LinearizedUpdate update;
+  update.T_world_scan = scanPose(posterior.x, scan.compensation);
+  update.by_state = scanPoseJacobian(posterior.x, scan.compensation);
+  update.constrained = match.constraints.projection;
+  update.gain = match.update.gain;
+  error_.update(
+      update, groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model));
+}
+
+bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
+{
+  return !rules_.refuse_inconsistent || insertions_ < kSparseMapInsertions ||
+         matchesAsUsual(statistics, points, rules_.min_inlier_ratio);
+}
+
+void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
+{
+  ratios_ = std::min(ratios_ + 1, kRatiosAveraged);
+  const double ratio =
+      static_cast<double>(inliers) / static_cast<double>(std::max<std::size_t>(points, 1));
+  usual_inlier_ratio_ += (ratio - usual_inlier_ratio_) / ratios_;
+}
+
+bool LocalMap::accepts(const InsertionCandidate& candidate) const
+{
+  if (candidate.status == ScanStatus::Initializing || (given_ && !rules_.update_given))
+    return false;
+  if (candidate.resting_time > rules_.max_resting_time) return false;
+  if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
+  if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
+    return true;
+  if (candidate.status == ScanStatus::Diverged) return false;
+  // A sparse map has few planes: it must grow as long as the prediction knows where the scan is.
+  const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
+  const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  return position_variance < std::pow(rules_.max_position_std, 2);
+}
+
+void LocalMap::insert(
+    const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
+    const Pose& T_world_scan, const Vec3& sensor, const Vec3& center)
+{
+  error_.recordInsertion(++insertions_, error, T_world_scan);
+  surfaces_->insert(surfaces, sensor);
+  if (!given_) surfaces_->removeOutside(center, rules_.radius);
+  world_edges_.resize(scan.edges.size());
+  transformToWorld(scan.edges, T_world_scan, 0, scan.edges.size(), world_edges_);
+  edges_.insert(world_edges_);
+  edges_.removeOutside(T_world_scan.p, rules_.radius);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,140 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "map_search.h"
+
+#include "start_in_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// Of a given pose: from its whole uncertainty down, each pass looks nearer.
+constexpr int kPasses = 4;
+constexpr double kShrink = 0.25;  // of the variances of place and heading, per pass
+// Of a carried pose.
+constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
+constexpr double kSigmas = 3.0;                      // of the heading
+constexpr double kLooseInnovation = 2.0;             // of a scan that has just been pulled in
+constexpr double kSureRatio = 0.6;                   // so many inliers: no need to look on
+
+/** Standard deviation of the attitude about gravity [rad]. */
+double headingStd(const FilterState& s)
+{
+  const Vec3 down = s.x.R.transpose() * s.x.g.normalized();
+  const Mat3 P = s.P.block<3, 3>(kAttitude, kAttitude);
+  return std::sqrt(std::max(0.0, down.dot(P * down)));
+}
+
+double innovation(const UpdateResult& update)
+{
+  return update.last.weighted_squares /
+         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
+}
+
+/** Many matches that agree. */
+double score(const UpdateResult& update)
+{
+  if (!update.updated) return 0.0;
+  return static_cast<double>(update.last.count) / std::max(1.0, innovation(update));
+}
+
+/** The state with another heading. */
+FilterState turnedBy(double heading, const FilterState& s)
+{
+  FilterState turned = s;
+  const Mat3 W = expSO3(-heading * s.x.g.normalized());
+  turned.x.R = normalizeRotation(W * s.x.R);
+  turned.x.v = W * s.x.v;
+  return turned;
+}
+
+/** The prediction stays as it is. \param latest match of the scan \param best sums of the best one
+ */
+MapSearchResult notFound(
+    MatchResult latest, const FilterState& predicted, const InformationSums& best, int iterations)
+{
+  latest.update = {};
+  latest.update.posterior = predicted;
+  latest.update.iterations = iterations;
+  latest.update.last = best;
+  return {std::move(latest), false};
+}
+}  // namespace
+
+double MapSearch::ratioOf(const UpdateResult& update) const
+{
+  return static_cast<double>(update.last.count) /
+         static_cast<double>(std::max<std::size_t>(scan_.surfaces.size(), 1));
+}
+
+MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
+{
+  UpdateResult best;
+  best.posterior = predicted;
+  MatchResult latest;
+  for (const Pose& candidate : posesAround(predicted.x.pose(), options_.initialization))
+  {
+    latest = approach(predicted, candidate);
+    if (latest.update.updated && latest.update.last.count > best.last.count) best = latest.update;
+  }
+  if (ratioOf(best) < options_.initialization.map_share)
+    return notFound(std::move(latest), predicted, best.last, 0);
+  // Once more, so that matches and constraints are those of the best.
+  const FilterState from = withUncertainPlace(
+      standingAt(predicted, best.posterior.x.pose()), options_.initialization,
+      std::pow(kShrink, kPasses));
+  return {matcher_.match(scan_, from, map_, ordinaryMatching(options_)), true};
+}
+
+MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candidate) const
+{
+  MatchResult match;
+  Pose at = candidate;
+  double scale = 1.0;
+  for (int pass = 0; pass < kPasses; ++pass)
+  {
+    scale *= kShrink;
+    const FilterState from =
+        withUncertainPlace(standingAt(predicted, at), options_.initialization, scale);
+    match = matcher_.match(scan_, from, map_, ordinaryMatching(options_));
+    if (!match.update.updated) break;
+    at = match.update.posterior.x.pose();
+  }
+  return match;
+}
+
+MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
+{
+  const MatchOptions pull_in = pullInMatching(options_);
+  const auto matchAt = [&](double heading)
+  { return matcher_.match(scan_, turnedBy(heading, predicted), map_, pull_in); };
+  const double reach = std::min(kSigmas * headingStd(predicted), options_.recovery.max_heading);
+  const int turns = map_.empty() ? 0 : static_cast<int>(std::ceil(reach / kHeadingStep));
+  MatchResult best = matcher_.match(scan_, predicted, map_, pull_in);
+  double best_heading = 0.0, last_heading = 0.0;
+  const auto points = static_cast<double>(std::max<std::size_t>(scan_.surfaces.size(), 1));
+  for (int i = 1; i <= 2 * turns; ++i)
+  {
+    if (score(best.update) > kSureRatio * points) break;
+    last_heading = kHeadingStep * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
+    const MatchResult match = matchAt(last_heading);
+    if (score(match.update) <= score(best.update)) continue;
+    best = match;
+    best_heading = last_heading;
+  }
+  // The matches of the best one are needed.
+  if (best_heading != last_heading) best = matchAt(best_heading);
+  const bool agrees = innovation(best.update) <= kLooseInnovation * options_.health.max_innovation;
+  const double needed = options_.recovery.min_share * points;
+  if (best.update.updated && static_cast<double>(best.update.last.count) >= needed && agrees)
+    return {std::move(best), true};
+  const UpdateResult& refused = best.update;
+  return notFound(best, predicted, refused.last, refused.iterations);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,48 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_search.h Searches for the pose of a scan in a map where the prediction may be far off.
+ */
+#pragma once
+
+#include "local_map.h"
+#include "scan_matcher.h"
+#include <fastlio/odometry/parameters.h>
+
+namespace fastlio
+{
+/** The best match of a search. */
+struct MapSearchResult
+{
+  MatchResult match;   //!< the prediction, uncorrected, when the search failed
+  bool found = false;  //!< the scan matches the map well enough
+};
+
+/** Searches for one scan in one map. */
+class MapSearch
+{
+ public:
+  MapSearch(
+      const OdometryOptions& options, ScanMatcher& matcher, const DeskewedScan& scan,
+      const LocalMap& map)
+      : options_(options), matcher_(matcher), scan_(scan), map_(map)
+  {
+  }
+
+  /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach. */
+  [[nodiscard]] MapSearchResult aroundGivenPose(const FilterState& predicted) const;
+  /** Tries headings around the predicted one, as far as it is uncertain. A few matches by chance
+   * are not the map. */
+  [[nodiscard]] MapSearchResult aroundCarriedPose(const FilterState& predicted) const;
+
+ private:
+  [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;
+  [[nodiscard]] double ratioOf(const UpdateResult& update) const;
+
+  const OdometryOptions& options_;
+  ScanMatcher& matcher_;
+  const DeskewedScan& scan_;
+  const LocalMap& map_;
+};
+
+}  // namespace fastlio

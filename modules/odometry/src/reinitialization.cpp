@@ -1,0 +1,100 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reinitialization.h"
+
+#include "classify.h"
+#include <fastlio/math/time.h>
+
+#include <mrpt/core/format.h>
+
+namespace fastlio
+{
+namespace
+{
+bool isFiniteState(const FilterState& state)
+{
+  return isFinite(state.x) && state.P.allFinite();
+}
+}  // namespace
+
+double InertialBreak::seconds() const
+{
+  return toSeconds(end_ns - begin_ns);
+}
+
+Reinitialization::Reinitialization(const OdometryOptions& options) : options_(options) {}
+
+OdometryOptions Reinitialization::startingAnyHow(OdometryOptions options)
+{
+  options.initialization.mode = InitializationMode::Auto;
+  return options;
+}
+
+std::optional<InertialBreak> Reinitialization::breakBefore(std::int64_t end_ns) const
+{
+  if (breaks_.empty()) return std::nullopt;
+  const InertialBreak& gap = breaks_.front();
+  const std::int64_t bridged_ns = gap.new_map ? 0 : toNanoseconds(options_.imu.max_gap);
+  if (end_ns <= gap.begin_ns + bridged_ns) return std::nullopt;
+  return gap;
+}
+
+bool Reinitialization::isNeededAt(const InertialBreak& gap) const
+{
+  return options_.recovery.enabled || gap.new_map;
+}
+
+std::string Reinitialization::decideAt(const InertialBreak& gap, const FilterState& state)
+{
+  const FilterState& last = gap.new_map && last_good_ ? *last_good_ : state;
+  CarriedPose carried = carriedOver(last, gap.seconds(), options_.recovery);
+  carried.new_map = gap.new_map;
+  decide(carried);
+  if (gap.new_map) return "the unit of the gyro was wrong";
+  return mrpt::format(
+      "%.2f s without inertial samples (imu.max_gap is %.2f s)", gap.seconds(),
+      options_.imu.max_gap);
+}
+
+std::optional<std::string> Reinitialization::detectTrackingLoss(
+    const ScanResult& result, const FilterState& state, bool relocalizing)
+{
+  const ScanStatistics& s = result.statistics;
+  if (result.status == ScanStatus::FirstScan ||
+      (result.status == ScanStatus::Tracking &&
+       matchesAsUsual(s, s.points_downsampled, options_.health.min_share)))
+  {
+    last_good_ = state;
+    last_good_ns_ = result.stamp_ns;
+  }
+  const auto needed = static_cast<std::size_t>(options_.measurement.min_effective_points);
+  if (result.status != ScanStatus::Diverged || relocalizing || s.points_downsampled < needed)
+  {
+    lost_since_ns_ = 0;
+    return std::nullopt;
+  }
+  if (lost_since_ns_ == 0) lost_since_ns_ = result.stamp_ns;
+  const double lost_s = toSeconds(result.stamp_ns - lost_since_ns_);
+  if (!options_.recovery.enabled || lost_s < options_.recovery.patience) return std::nullopt;
+  const double unaided_s = toSeconds(result.stamp_ns - last_good_ns_);
+  decide(
+      isFiniteState(state) || !last_good_ ? carriedOver(state, 0.0, options_.recovery)
+                                          : carriedOver(*last_good_, unaided_s, options_.recovery));
+  return mrpt::format("no scan has matched the map for %.1f s", unaided_s);
+}
+
+void Reinitialization::decide(const CarriedPose& carried)
+{
+  carried_ = carried;
+  lost_since_ns_ = 0;
+}
+
+CarriedPose Reinitialization::takeCarried()
+{
+  const CarriedPose carried = *carried_;
+  carried_.reset();
+  return carried;
+}
+
+}  // namespace fastlio

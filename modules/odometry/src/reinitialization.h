@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file reinitialization.h When the run is re-initialised, and which pose it goes on with. */
+#pragma once
+
+#include "carried_pose.h"
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+
+namespace fastlio
+{
+/** The inertial data are interrupted, or were wrong before. */
+struct InertialBreak
+{
+  std::int64_t begin_ns = 0, end_ns = 0;  //!< nothing is known in between
+  bool new_map = false;                   //!< nothing before was right
+
+  [[nodiscard]] double seconds() const;
+};
+
+/** Watches over the run. A re-initialisation is *pending* from the moment it is decided until
+ * takeCarried(). */
+class Reinitialization
+{
+ public:
+  explicit Reinitialization(const OdometryOptions& options);
+
+  void addBreak(const InertialBreak& gap) { breaks_.push_back(gap); }
+  /** The oldest break, if the data of a scan that ends at \a end_ns reach too far beyond it to be
+   * bridged. */
+  [[nodiscard]] std::optional<InertialBreak> breakBefore(std::int64_t end_ns) const;
+  void dropBreak() { breaks_.pop_front(); }
+
+  /** A break is to be crossed by re-initialising a run that has started. */
+  [[nodiscard]] bool isNeededAt(const InertialBreak& gap) const;
+  /** Decides on it. \param state the latest one \return why, in words */
+  [[nodiscard]] std::string decideAt(const InertialBreak& gap, const FilterState& state);
+
+  /** Decides on it when a pose stays lost although the scans see enough.
+   * \param state after the scan \param relocalizing the map is searched for already
+   * \return why, in words; nothing while the run goes on */
+  [[nodiscard]] std::optional<std::string> detectTrackingLoss(
+      const ScanResult& result, const FilterState& state, bool relocalizing);
+
+  [[nodiscard]] bool pending() const { return carried_.has_value(); }
+  /** What the new start goes on with. */
+  [[nodiscard]] CarriedPose takeCarried();
+
+  /** The initialisation of a run that is interrupted: in whatever way is possible. */
+  [[nodiscard]] static OdometryOptions startingAnyHow(OdometryOptions options);
+
+ private:
+  void decide(const CarriedPose& carried);
+
+  const OdometryOptions options_;
+  std::deque<InertialBreak> breaks_;
+  std::optional<CarriedPose> carried_;
+  std::optional<FilterState> last_good_;  // of the latest scan that was tracked well
+  std::int64_t last_good_ns_ = 0;
+  std::int64_t lost_since_ns_ = 0;  // scans see enough, the pose is not trusted; 0: it is
+};
+
+}  // namespace fastlio

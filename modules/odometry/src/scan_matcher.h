@@ -1,0 +1,72 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_matcher.h Matches a scan with the map and corrects the prediction (eq. 12-20). */
+#pragma once
+
+#include "local_map.h"
+#include "match_result.h"
+#include <fastlio/filter/update.h>
+#include <fastlio/lidar/deskew.h>
+#include <fastlio/map/edge_map.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/parallel/workers.h>
+
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** How a scan is matched. */
+struct MatchOptions
+{
+  MeasurementOptions measurement;  //!< noise, gates, and how often matches are searched for anew
+  IterationLimits limits;          //!< of the iterated update
+  GainForm gain = GainForm::Information;
+};
+
+/** As the options say: for a prediction that is near. */
+[[nodiscard]] MatchOptions ordinaryMatching(const OdometryOptions& options);
+/** With more iterations: for a prediction that may be far off. */
+[[nodiscard]] MatchOptions pullInMatching(const OdometryOptions& options);
+
+/** Matches scans with maps. A result depends on the arguments only; the object keeps storage. */
+class ScanMatcher
+{
+ public:
+  explicit ScanMatcher(std::shared_ptr<const Workers> workers);
+
+  /** Iterates matching and update from a prediction (eq. 12-20). The scan does not correct it when
+   * fewer than measurement.min_effective_points match.
+   * \return its list of matches is valid until the next call */
+  [[nodiscard]] MatchResult match(
+      const DeskewedScan& scan, const FilterState& predicted, const LocalMap& map,
+      const MatchOptions& options);
+
+ private:
+  /** One call of match(). */
+  struct Call
+  {
+    const DeskewedScan& scan;
+    const LocalMap& map;
+    const MatchOptions& options;
+    MatchResult& result;
+  };
+
+  [[nodiscard]] MeasurementEvaluation evaluate(
+      const NavState& iterate, int iteration, const Call& call);
+  void associate(const Pose& T_world_scan, const Call& call);
+  void findConstraints(const Pose& T_world_scan, const InformationSums& sums, const Call& call);
+
+  std::shared_ptr<const Workers> workers_;
+  // Reused between scans.
+  WorldPoints world_, world_edges_;
+  std::vector<PlaneMatch> matches_;
+  std::vector<LineMatch> edge_matches_;
+  std::vector<InformationSums> chunk_sums_;
+  std::vector<Matrix6> chunk_noise_;
+};
+
+}  // namespace fastlio

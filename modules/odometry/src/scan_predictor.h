@@ -1,0 +1,67 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_predictor.h The prediction for a scan's end, and the states on the way to it. */
+#pragma once
+
+#include "prediction.h"
+#include <fastlio/imu/imu_buffer.h>
+#include <fastlio/odometry/imu_rate.h>
+#include <fastlio/odometry/map_error.h>
+#include <fastlio/odometry/parameters.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+/** The state at a scan's end before the scan is looked at. */
+struct ScanPrediction
+{
+  FilterState state;
+  StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
+  bool finite = true;      //!< else the state is the one before: the inertial data overflowed it
+  double imu_gap_s = 0.0;  //!< longest one on the way
+};
+
+/** A state and its instant. */
+struct StampedState
+{
+  FilterState filter;
+  std::int64_t stamp_ns = 0;
+};
+
+/** Propagates a state through inertial samples (eq. 4-8); keeps the storage between scans. */
+class ScanPredictor
+{
+ public:
+  explicit ScanPredictor(const OdometryOptions& options)
+      : imu_(options.imu), imu_rate_wanted_(options.output.imu_rate)
+  {
+  }
+
+  /** To a scan's end. \param map_error what the map adds to the covariance at inertial rate
+   * \param trusted states at inertial rate are to be believed */
+  [[nodiscard]] ScanPrediction predict(
+      const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
+      const MapErrorModel& map_error, bool trusted);
+
+  /** To the newest inertial sample; nothing when the state is newer. */
+  [[nodiscard]] std::optional<ImuRateState> predictNewest(
+      const StampedState& from, const ImuBuffer& imu, const MapErrorModel& map_error);
+
+  /** The inertial samples of the last prediction, each holding from its stamp on. */
+  [[nodiscard]] const std::vector<ImuSample>& inputs() const { return inputs_; }
+  /** The last predict() at each inertial sample on the way (output.imu_rate). */
+  [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const { return imu_rate_; }
+  void clearImuRateStates() { imu_rate_.clear(); }
+
+ private:
+  ImuOptions imu_;
+  bool imu_rate_wanted_;
+  std::vector<ImuSample> inputs_;
+  std::vector<ImuRateState> imu_rate_;
+};
+
+}  // namespace fastlio
