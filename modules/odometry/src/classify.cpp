@@ -128,6 +128,25 @@ std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s, int 
       outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
 }
 
+std::string foundAgain(const PoseSearchResult& search)
+{
+  return mrpt::format(
+      "the pose is found again in the map: %.0f %% of the points match, %zu places were tried",
+      100.0 * search.best->inlier_ratio, search.candidates);
+}
+
+std::string searchFailure(const ScanOutcome& outcome)
+{
+  const PoseSearchResult& search = *outcome.search;
+  const PoseCandidate best = search.best.value_or(PoseCandidate{});
+  return mrpt::format(
+      "none of %zu places within the prediction's uncertainty (%.2f m) matches convincingly: the "
+      "best has %.0f %% inliers with a mean z^2/r of %.1f, its rival %.0f %% of its score; %.2f s "
+      "on inertial data alone",
+      search.candidates, outcome.position_std, 100.0 * best.inlier_ratio, best.innovation,
+      best.score > 0.0 ? 100.0 * search.rival_score / best.score : 0.0, outcome.unaided_s);
+}
+
 std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
 {
   return mrpt::format(
@@ -166,6 +185,8 @@ std::string trackingMessage(
     const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
 {
   const bool diverged = isDiverged(outcome, options);
+  if (outcome.search && outcome.prediction_finite)
+    return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
   if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
   if (diverged || (!outcome.updated && !outcome.map_was_empty))
     return fewMatches(outcome, s, options.measurement.min_effective_points);

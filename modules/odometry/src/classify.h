@@ -5,6 +5,7 @@
  * every scan are written here and nowhere else. */
 #pragma once
 
+#include "pose_search.h"
 #include "queued_scan.h"
 #include <fastlio/imu/noise_inflation.h>
 #include <fastlio/odometry/parameters.h>
@@ -12,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,12 +31,13 @@ struct ScanOutcome
   };
   Place place = Place::InMap;
   bool map_was_empty = false;
-  bool updated = false;           //!< the scan corrected the prediction
-  bool prediction_finite = true;  //!< else the inertial data overflowed it
-  std::size_t points = 0;         //!< surface points that could have matched
-  double imu_gap_s = 0.0;         //!< longest one since the scan before
-  double unaided_s = 0.0;         //!< since a scan last corrected the state convincingly
-  double position_std = 0.0;      //!< of the filter, along the worst axis [m]
+  bool updated = false;                    //!< the scan corrected the prediction
+  bool prediction_finite = true;           //!< else the inertial data overflowed it
+  std::size_t points = 0;                  //!< surface points that could have matched
+  double imu_gap_s = 0.0;                  //!< longest one since the scan before
+  double unaided_s = 0.0;                  //!< since a scan last corrected the state convincingly
+  std::optional<PoseSearchResult> search;  //!< within the prediction, if it was needed
+  double position_std = 0.0;               //!< of the filter, along the worst axis [m]
 };
 
 /** The scan matches as those before it did: its inlier ratio is at least \a min_ratio of the usual

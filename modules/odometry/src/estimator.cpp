@@ -3,7 +3,6 @@
 
 #include "estimator.h"
 
-#include "map_search.h"
 #include "zero_velocity.h"
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
@@ -78,10 +77,13 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   workers_->alongside(
       [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
-  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);             // eq. 9-10
-  const MatchResult match = matchWithMap(deskewed, predicted.state, span.end_ns);  // eq. 12-20
+  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);  // eq. 9-10
+  const MapSearchResult matched =
+      matchWithMap(deskewed, predicted.state, span.end_ns);  // eq. 12-20
+  const MatchResult& match = matched.match;
 
   Work work{scan, deskewed, predicted, {}};
+  work.outcome.search = matched.poses;
   state_.stamp_ns = span.end_ns;
   adopt(match, work, result);
   noteSupport(match, work, result);
@@ -109,6 +111,7 @@ ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
   ScanPrediction predicted = predictor_.predict(state_, end_ns, imu, map_.error(), run().trusted);
+  considerUnmodelledAcceleration(predicted.state, toSeconds(end_ns - state_.stamp_ns));
   map_.propagateError(predicted.transition);
   timings_.propagate = watch.milliseconds();
   return predicted;
@@ -134,28 +137,46 @@ const DeskewedScan& Estimator::deskew(
   return deskewed;
 }
 
-MatchResult Estimator::matchWithMap(
+MapSearchResult Estimator::matchWithMap(
     const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
 {
   const Stopwatch watch;
-  const auto timed = [&](MatchResult match)
+  const auto timed = [&](MapSearchResult result)
   {
-    timings_.associate = match.association_ms;
+    timings_.associate = result.match.association_ms;
     timings_.update = watch.milliseconds() - timings_.associate;
-    return match;
+    return result;
   };
   if (auto* entering = std::get_if<EnteringMap>(&mode_))
   {
     MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted);
     if (search.found) mode_ = Tracking{std::move(entering->run)};
-    return timed(std::move(search.match));
+    return timed(std::move(search));
   }
   if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
   {
     if (end_ns > relocalizing->give_up_ns) beginNewMap(scan);
-    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted).match);
+    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted));
   }
-  return timed(matcher_.match(scan, predicted, map_, ordinaryMatching(options_)));
+  return timed(trackOrSearch(scan, predicted));
+}
+
+/** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
+ * wrong pose would agree with it ever after, so a match that does not convince is no match. */
+MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const FilterState& predicted)
+{
+  Tracking& tracking = std::get<Tracking>(mode_);
+  const bool map_can_tell = options_.recovery.enabled && !map_.isYoung();
+  if (map_can_tell && needsPoseSearch(predicted)) tracking.searching = true;
+  if (!tracking.searching)
+  {
+    MatchResult match = matcher_.match(scan, predicted, map_, ordinaryMatching(options_));
+    const bool good = !match.update.updated || isConvincing(match, scan, map_, options_);
+    if (!map_can_tell || good) return {std::move(match), true, std::nullopt};
+  }
+  MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted);
+  tracking.searching = !search.found;
+  return search;
 }
 
 /** A given map stays, as the world is that of the map. */

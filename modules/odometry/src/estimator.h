@@ -8,6 +8,7 @@
 #include "classify.h"
 #include "estimator_mode.h"
 #include "local_map.h"
+#include "map_search.h"
 #include "scan_matcher.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
@@ -100,8 +101,10 @@ class Estimator
   void downsample(const LidarScan& scan, std::int64_t end_ns);
   [[nodiscard]] const DeskewedScan& deskew(
       const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted);
-  [[nodiscard]] MatchResult matchWithMap(
+  [[nodiscard]] MapSearchResult matchWithMap(
       const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
+  [[nodiscard]] MapSearchResult trackOrSearch(
+      const DeskewedScan& scan, const FilterState& predicted);
   void beginNewMap(const DeskewedScan& scan);
   void adopt(const MatchResult& match, const Work& work, ScanResult& result);
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);

@@ -39,6 +39,7 @@ struct EnteringMap
 struct Tracking
 {
   FilterRun run;
+  bool searching = false;  //!< the pose is searched within the prediction's uncertainty
 };
 
 /** The filter was re-initialised with a carried pose and searches for the map of before. */

@@ -86,7 +86,7 @@ void LocalMap::considerUpdate(
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
 {
-  return !rules_.refuse_inconsistent || insertions_ < kSparseMapInsertions ||
+  return !rules_.refuse_inconsistent || isYoung() ||
          matchesAsUsual(statistics, points, rules_.min_inlier_ratio);
 }
 
@@ -111,6 +111,11 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
   const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
   return position_variance < std::pow(rules_.max_position_std, 2);
+}
+
+bool LocalMap::isYoung() const
+{
+  return insertions_ < kSparseMapInsertions;
 }
 
 void LocalMap::insert(

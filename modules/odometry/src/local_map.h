@@ -56,6 +56,8 @@ class LocalMap
   [[nodiscard]] const EdgeMap& edges() const { return edges_; }
   [[nodiscard]] const MapErrorModel& error() const { return error_; }
   [[nodiscard]] bool empty() const { return surfaces_->pointCount() == 0; }
+  /** It consists of so few scans that not much matches it yet. */
+  [[nodiscard]] bool isYoung() const;
   /** It is the map of an earlier run. */
   [[nodiscard]] bool isGiven() const { return given_; }
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */

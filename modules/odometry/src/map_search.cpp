@@ -21,6 +21,11 @@ constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
 constexpr double kSigmas = 3.0;                      // of the heading
 constexpr double kLooseInnovation = 2.0;             // of a scan that has just been pulled in
 constexpr double kSureRatio = 0.6;                   // so many inliers: no need to look on
+// Of a prediction. A found pose has to match this part of what scans matched before.
+constexpr double kUsualPart = 0.5;
+// Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
+// that is set too small make a few times the noise: trouble, but a match.
+constexpr double kWrongPoseInnovation = 10.0;
 
 /** Standard deviation of the attitude about gravity [rad]. */
 double headingStd(const FilterState& s)
@@ -62,9 +67,20 @@ MapSearchResult notFound(
   latest.update.posterior = predicted;
   latest.update.iterations = iterations;
   latest.update.last = best;
-  return {std::move(latest), false};
+  return {std::move(latest), false, std::nullopt};
 }
 }  // namespace
+
+bool isConvincing(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map,
+    const OdometryOptions& options)
+{
+  if (match.constraints.unconstrained > 0) return true;
+  const double ratio = static_cast<double>(match.update.last.count) /
+                       static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
+  return innovation(match.update) <= kWrongPoseInnovation &&
+         ratio >= options.health.min_share * map.usualInlierRatio();
+}
 
 double MapSearch::ratioOf(const UpdateResult& update) const
 {
@@ -88,7 +104,7 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
   const FilterState from = withUncertainPlace(
       standingAt(predicted, best.posterior.x.pose()), options_.initialization,
       std::pow(kShrink, kPasses));
-  return {matcher_.match(scan_, from, map_, ordinaryMatching(options_)), true};
+  return {matcher_.match(scan_, from, map_, ordinaryMatching(options_)), true, std::nullopt};
 }
 
 MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candidate) const
@@ -132,9 +148,38 @@ MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
   const bool agrees = innovation(best.update) <= kLooseInnovation * options_.health.max_innovation;
   const double needed = options_.recovery.min_share * points;
   if (best.update.updated && static_cast<double>(best.update.last.count) >= needed && agrees)
-    return {std::move(best), true};
+    return {std::move(best), true, std::nullopt};
   const UpdateResult& refused = best.update;
   return notFound(best, predicted, refused.last, refused.iterations);
+}
+
+MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
+{
+  MatchOptions pull_in = ordinaryMatching(options_);
+  MatchResult latest;
+  const auto match = [&](const FilterState& start, const DeskewedScan& scan, int iterations)
+  {
+    pull_in.measurement.association_iterations = pull_in.limits.max_iterations = iterations;
+    latest = matcher_.match(scan, start, map_, pull_in);
+    return latest.update;
+  };
+  PoseSearchLimits wanted;
+  wanted.min_inlier_ratio =
+      std::max(options_.recovery.min_share, kUsualPart * map_.usualInlierRatio());
+  wanted.max_innovation = options_.health.max_innovation;
+  PoseSearchResult poses = searchPose(predicted, scan_, wanted, match);
+  if (poses.accepted)
+  {
+    const FilterState start = correctedByPose(predicted, poses.best->T_world_imu);
+    latest = matcher_.match(scan_, start, map_, ordinaryMatching(options_));
+    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_, options_);
+    if (poses.accepted) return {std::move(latest), true, poses};
+  }
+  // The matches that are handed over are those of the whole scan, not of the sample.
+  latest = matcher_.match(scan_, predicted, map_, ordinaryMatching(options_));
+  MapSearchResult refused = notFound(std::move(latest), predicted, {}, 0);
+  refused.poses = poses;
+  return refused;
 }
 
 }  // namespace fastlio

@@ -6,17 +6,27 @@
 #pragma once
 
 #include "local_map.h"
+#include "pose_search.h"
 #include "scan_matcher.h"
 #include <fastlio/odometry/parameters.h>
+
+#include <optional>
 
 namespace fastlio
 {
 /** The best match of a search. */
 struct MapSearchResult
 {
-  MatchResult match;   //!< the prediction, uncorrected, when the search failed
-  bool found = false;  //!< the scan matches the map well enough
+  MatchResult match;                      //!< the prediction, uncorrected, when the search failed
+  bool found = false;                     //!< the scan matches the map well enough
+  std::optional<PoseSearchResult> poses;  //!< evidence of a search within the prediction
 };
+
+/** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
+ * can tell. Along a degenerate direction residuals stay large by design: nothing corrects them. */
+[[nodiscard]] bool isConvincing(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map,
+    const OdometryOptions& options);
 
 /** Searches for one scan in one map. */
 class MapSearch
@@ -34,6 +44,9 @@ class MapSearch
   /** Tries headings around the predicted one, as far as it is uncertain. A few matches by chance
    * are not the map. */
   [[nodiscard]] MapSearchResult aroundCarriedPose(const FilterState& predicted) const;
+  /** Tries places within the prediction's uncertainty, and asks for more evidence than an ordinary
+   * match needs: inlier ratio, residuals, no rival nearly as good. */
+  [[nodiscard]] MapSearchResult aroundPrediction(const FilterState& predicted) const;
 
  private:
   [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;

@@ -66,16 +66,16 @@ FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, doubl
 }
 
 /** Every so many-th point: enough to tell candidates apart. */
-CompensatedScan sampleOf(const CompensatedScan& scan)
+DeskewedScan sampleOf(const DeskewedScan& scan)
 {
-  const BodyPoints& all = scan.points;
+  const BodyPoints& all = scan.surfaces;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kSamplePoints);
-  CompensatedScan sample;
+  DeskewedScan sample;
   sample.compensation = scan.compensation;
-  sample.points.resize((all.size() + stride - 1) / stride);
+  sample.surfaces.resize((all.size() + stride - 1) / stride);
   for (std::size_t i = 0, k = 0; i < all.size(); i += stride, ++k)
   {
-    BodyPoints& p = sample.points;
+    BodyPoints& p = sample.surfaces;
     p.x[k] = all.x[i], p.y[k] = all.y[i], p.z[k] = all.z[i];
     p.ux[k] = all.ux[i], p.uy[k] = all.uy[i], p.uz[k] = all.uz[i];
   }
@@ -106,7 +106,7 @@ std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidat
 }
 
 PoseCandidate refined(
-    PoseCandidate candidate, const FilterState& predicted, const CompensatedScan& scan,
+    PoseCandidate candidate, const FilterState& predicted, const DeskewedScan& scan,
     const MatchFromStart& match)
 {
   for (const double position_std : kRefiningStds)
@@ -118,7 +118,7 @@ PoseCandidate refined(
       candidate.score = 0.0;
       return candidate;
     }
-    candidate = candidateOf(update, scan.points.size());
+    candidate = candidateOf(update, scan.surfaces.size());
   }
   return candidate;
 }
@@ -144,12 +144,14 @@ std::vector<Vec3> candidateOffsets(const FilterState& predicted)
 {
   const Vec3 std = predicted.P.diagonal().segment<3>(kPosition).cwiseMax(0.0).cwiseSqrt();
   // Grid points stand for half a step around them.
+  // More steps than these would be cut off by the most that are tried anyway.
+  constexpr double kMostSteps = 20.0;
   const auto steps = [](double sigma)
-  { return static_cast<int>(std::ceil(std::max(0.0, 3.0 * sigma - kGridStep / 2.0) / kGridStep)); };
-  // More than this in each direction would be cut off by the most that are tried anyway.
-  constexpr int kMostSteps = 60;
-  const int nx = std::min(steps(std.x()), kMostSteps), ny = std::min(steps(std.y()), kMostSteps),
-            nz = std::min(steps(std.z()), kMostSteps);
+  {
+    const double n = std::ceil(std::max(0.0, 3.0 * sigma - kGridStep / 2.0) / kGridStep);
+    return n < kMostSteps ? static_cast<int>(n) : static_cast<int>(kMostSteps);  // NaN, too
+  };
+  const int nx = steps(std.x()), ny = steps(std.y()), nz = steps(std.z());
   const Vec3 scale = std.cwiseMax(kGridStep / 3.0).cwiseInverse();
   std::vector<Vec3> offsets;
   for (int x = -nx; x <= nx; ++x)
@@ -168,12 +170,12 @@ std::vector<Vec3> candidateOffsets(const FilterState& predicted)
 }
 
 PoseSearchResult searchPose(
-    const FilterState& predicted, const CompensatedScan& scan, const PoseSearchLimits& limits,
+    const FilterState& predicted, const DeskewedScan& scan, const PoseSearchLimits& limits,
     const MatchFromStart& match)
 {
   PoseSearchResult result;
-  if (scan.points.size() == 0) return result;
-  const CompensatedScan sample = sampleOf(scan);
+  if (scan.surfaces.size() == 0) return result;
+  const DeskewedScan sample = sampleOf(scan);
   std::vector<PoseCandidate> candidates;
   for (const Vec3& offset : candidateOffsets(predicted))
   {
@@ -181,7 +183,7 @@ PoseSearchResult searchPose(
     const Pose pose{predicted.x.R, predicted.x.p + offset};
     const UpdateResult update =
         match(startAt(predicted, pose, 0.6 * kGridStep), sample, kSampleIterations);
-    if (update.updated) candidates.push_back(candidateOf(update, sample.points.size()));
+    if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
   }
   std::stable_sort(candidates.begin(), candidates.end(), better);
   std::vector<PoseCandidate> places = bestPlaces(candidates);

@@ -5,7 +5,7 @@
  * prediction's covariance says where to look. */
 #pragma once
 
-#include "scan_update.h"
+#include "match_result.h"
 #include <fastlio/filter/state.h>
 
 #include <cstddef>
@@ -29,8 +29,8 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
 [[nodiscard]] std::vector<Vec3> candidateOffsets(const FilterState& predicted);
 
 /** Matches a scan from a start; so many iterations search the map anew. */
-using MatchFromStart = std::function<UpdateResult(
-    const FilterState& start, const CompensatedScan& scan, int iterations)>;
+using MatchFromStart =
+    std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
 
 /** What a found pose has to show. */
 struct PoseSearchLimits
@@ -59,7 +59,7 @@ struct PoseSearchResult
 
 /** Matches a sample of the scan from every candidate, and the whole scan from the best of them. */
 [[nodiscard]] PoseSearchResult searchPose(
-    const FilterState& predicted, const CompensatedScan& scan, const PoseSearchLimits& limits,
+    const FilterState& predicted, const DeskewedScan& scan, const PoseSearchLimits& limits,
     const MatchFromStart& match);
 
 /** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt

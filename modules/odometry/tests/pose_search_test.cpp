@@ -22,10 +22,10 @@ FilterState predictionWithStd(double x, double y, double z)
 }
 
 /** A scan of points that do not matter: the matcher of these tests looks at the start only. */
-CompensatedScan someScan(std::size_t points)
+DeskewedScan someScan(std::size_t points)
 {
-  CompensatedScan scan;
-  scan.points.resize(points);
+  DeskewedScan scan;
+  scan.surfaces.resize(points);
   return scan;
 }
 
@@ -37,7 +37,7 @@ struct Place
 };
 MatchFromStart matcherWith(const std::vector<Place>& places)
 {
-  return [places](const FilterState& start, const CompensatedScan& scan, int /*iterations*/)
+  return [places](const FilterState& start, const DeskewedScan& scan, int /*iterations*/)
   {
     UpdateResult update;
     update.posterior = start;
@@ -46,7 +46,7 @@ MatchFromStart matcherWith(const std::vector<Place>& places)
       if ((place.p - start.x.p).norm() > 0.5) continue;
       update.updated = true;
       update.posterior.x.p = place.p;
-      const double count = place.inlier_ratio * static_cast<double>(scan.points.size());
+      const double count = place.inlier_ratio * static_cast<double>(scan.surfaces.size());
       update.last.count = static_cast<std::size_t>(count);
       update.last.weighted_squares = static_cast<double>(update.last.count);
       return update;
