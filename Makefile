@@ -102,8 +102,8 @@ experiments: build
 	benchmarks/experiments/all.sh $(BUILD_DIR) $(EXPERIMENTS_DIR)
 
 docs: build
-	MRPT_FASTLIO_REGENERATE=1 $(BUILD_DIR)/modules/odometry/test_odometry \
-	  --gtest_filter="ParameterDocument.*:Presets.*"
+	MRPT_FASTLIO_REGENERATE=1 $(BUILD_DIR)/modules/config/test_config \
+	  --gtest_filter="ConfigDocument.*:Presets.*"
 
 format: lint-dependencies
 	cmake/list_sources.sh | xargs clang-format -i

@@ -6,8 +6,8 @@
 
 #include "command_line.h"
 #include "info_report.h"
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/odometry/parameter_yaml.h>
 
 #include <iostream>
 #include <unistd.h>
@@ -44,10 +44,10 @@ void write(const InfoArguments& arguments, const RecordingSurvey& survey)
 
 int run(const InfoArguments& arguments)
 {
-  Parameters parameters;
-  if (!arguments.config_file.empty()) parameters = loadParametersFromFile(arguments.config_file);
+  Config config;
+  if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
   const RecordingSurvey survey =
-      surveyRecording(arguments.input_files, parameters, optionsOf(arguments));
+      surveyRecording(arguments.input_files, config.sensors, config.odometry, optionsOf(arguments));
   write(arguments, survey);
   return static_cast<int>(survey.unusable.empty() ? InfoStatus::Ok : InfoStatus::Unusable);
 }

@@ -52,7 +52,6 @@ void addInputOptions(CLI::App& app, ReplayArguments& arguments)
   app.add_option(
          "--input-rawlog", arguments.input_files,
          "Recording; repeat for the parts of a split one, in order")
-      ->required()
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
@@ -122,6 +121,14 @@ void addMapOptions(CLI::App& app, ReplayArguments& arguments)
 void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 {
   app.add_option(
+         "--dump-config", arguments.dump_config,
+         "Print all parameters in effect as YAML, each with where it comes from, and run nothing; "
+         "main: those that most users need")
+      ->expected(0, 1)
+      ->default_str("all")
+      ->check(CLI::IsMember({"all", "main"}))
+      ->type_name("[main]");
+  app.add_option(
          "--threads", arguments.threads,
          "Threads of computation; 0: all cores; default: as configured. Results do not depend on "
          "it")
@@ -137,6 +144,8 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 
 void requireOutput(const ReplayArguments& arguments)
 {
+  if (!arguments.dump_config.empty()) return;
+  if (arguments.input_files.empty()) throw CLI::RequiredError("--input-rawlog");
   if (arguments.output_directory.empty() && arguments.output_tum_path.empty())
     throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
   if (arguments.imu_rate && arguments.output_directory.empty())

@@ -27,6 +27,12 @@ int report(const RunSummary& summary, mrpt::system::COutputLogger& logger)
 
 int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
 {
+  if (!arguments.dump_config.empty())
+  {
+    std::cout << dumpedConfig(arguments) << std::flush;
+    if (!std::cout) throw SetupError(ExitStatus::OutputFailed, "standard output cannot be written");
+    return static_cast<int>(ExitStatus::Ok);
+  }
   RunSetup setup = setUpRun(arguments);
   logger.logStr(mrpt::system::LVL_INFO, describe(setup.selection));
   for (const auto& note : setup.plan.notes)

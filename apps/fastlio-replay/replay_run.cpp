@@ -65,9 +65,9 @@ std::vector<std::string> sensorTexts(const RunSetup& setup)
 OutputMapOptions outputMapOptions(const RunSetup& setup)
 {
   constexpr double kPointsPerMillion = 1e6;
-  const ExportOptions& output = setup.parameters.output;
+  const ExportOptions& output = setup.config.exporters;
   OutputMapOptions options;
-  options.spacing = setup.parameters.map.output_spacing;
+  options.spacing = setup.config.odometry.map.output_spacing;
   options.tile_size = output.tile_size;
   options.points_in_memory = static_cast<std::size_t>(output.map_memory * kPointsPerMillion);
   options.directory = setup.arguments.output_directory;
@@ -88,23 +88,24 @@ ExportTarget outputOptions(const RunSetup& setup)
       setup.arguments.output_directory,
       setup.arguments.output_tum_path,
       setup.frame,
-      setup.parameters.output,
+      setup.config.exporters,
       {setup.arguments.input_files, setup.selection, setup.plan.bridge},
-      setup.parameters.lidar.time_offset};
+      setup.config.odometry.lidar.time_offset,
+      setup.config.odometry.imu_rate};
 }
 }  // namespace
 
 ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
     : setup_(std::move(setup)),
       logger_(logger),
-      odometry_(setup_.parameters),
+      odometry_(setup_.config.odometry),
       exporters_(makeExporters(outputOptions(setup_))),
       output_map_(outputMapOptions(setup_)),
       progress_(logger)
 {
   if (!setup_.saved_map) return;
   odometry_.startIn(*setup_.saved_map);
-  if (setup_.parameters.map.update && exporters_.needMap())
+  if (setup_.config.odometry.map.update && exporters_.needMap())
     output_map_.insert(withoutFields(setup_.saved_map->points));
   setup_.saved_map.reset();  // the odometry has taken it
 }
@@ -233,7 +234,8 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.configuration = setup_.configuration;
   summary.frame = setup_.frame.name;
   summary.sensors = sensorTexts(setup_);
-  summary.parameters = odometry_.parameters();
+  summary.odometry = setup_.config.odometry;
+  summary.options = textsOf(configTable(), setup_.config);
   summary.input_counts = inputCounts(source.statistics(), odometry_.inputStatistics());
   summary.input_counts.push_back(
       {"scans_skipped", std::min(scans_seen_, setup_.arguments.skip_first_n)});

@@ -3,15 +3,17 @@
 
 #include "run_setup.h"
 
+#include <fastlio/config/config_document.h>
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/math/angles.h>
-#include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 
 namespace fastlio
@@ -34,26 +36,63 @@ bool names(const std::string& list, const std::string& name)
   return std::regex_search(list, std::regex("(^|[, \t])" + name + "([, \t]|$)"));
 }
 
-Parameters loadConfiguration(const ReplayArguments& arguments)
+/** A configuration and what changed it. */
+struct Loaded
 {
-  Parameters parameters;
+  ConfigFile file;                             //!< its configuration with the changes below
+  std::map<std::string, std::string> origins;  //!< of the keys that the command line changed
+};
+
+ConfigFile readFile(const ReplayArguments& arguments)
+{
   try
   {
-    if (!arguments.config_file.empty()) parameters = loadParametersFromFile(arguments.config_file);
+    return arguments.config_file.empty() ? ConfigFile{} : readConfigFile(arguments.config_file);
   }
   catch (const std::exception& e)
   {
     throw SetupError(ExitStatus::Usage, e.what());
   }
-  if (arguments.threads) parameters.threads = *arguments.threads;
-  if (arguments.no_map_update) parameters.map.update = false;
-  ExportOptions& output = parameters.output;
-  if (!arguments.exporters.empty()) output.exporters = joined(arguments.exporters);
-  if (arguments.imu_rate || names(output.exporters, "imu_rate")) output.imu_rate = true;
-  auto& input = parameters.input;
-  input.lidar_sensor_label = arguments.lidar_sensor_label.value_or(input.lidar_sensor_label);
-  input.imu_sensor_label = arguments.imu_sensor_label.value_or(input.imu_sensor_label);
-  return parameters;
+}
+
+/** The command line goes before the file. */
+Loaded loadConfiguration(const ReplayArguments& arguments)
+{
+  Loaded loaded{readFile(arguments), {}};
+  OdometryOptions& odometry = loaded.file.config.odometry;
+  SensorOptions& sensors = loaded.file.config.sensors;
+  std::string& exporters = loaded.file.config.exporters.exporters;
+  const auto set = [&loaded](const char* key, const char* option, auto& member, const auto& value)
+  {
+    member = value;
+    loaded.origins[key] = std::string("command line, ") + option;
+  };
+  if (arguments.threads) set("threads", "--threads", odometry.threads, *arguments.threads);
+  if (arguments.no_map_update) set("map.update", "--no-map-update", odometry.map.update, false);
+  if (!arguments.exporters.empty())
+    set("output.exporters", "--export", exporters, joined(arguments.exporters));
+  if (arguments.imu_rate)
+    set("output.imu_rate", "--imu-rate", odometry.imu_rate, true);
+  else if (names(exporters, "imu_rate") && !odometry.imu_rate)
+  {
+    odometry.imu_rate = true;
+    loaded.origins["output.imu_rate"] = "output.exporters names imu_rate";
+  }
+  if (arguments.lidar_sensor_label)
+    set("input.lidar_sensor_label", "--lidar-sensor-label", sensors.lidar_sensor_label,
+        *arguments.lidar_sensor_label);
+  if (arguments.imu_sensor_label)
+    set("input.imu_sensor_label", "--imu-sensor-label", sensors.imu_sensor_label,
+        *arguments.imu_sensor_label);
+  return loaded;
+}
+
+/** Without what would end a comment. */
+std::string inOneLine(std::string text)
+{
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return text;
 }
 
 /** The trajectory file is not written twice under the same name. */
@@ -143,30 +182,44 @@ std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const Outpu
   }
 }
 
-OutputFrame outputFrameOf(
-    const std::string& name, const SensorOptions& input, const SensorSelection& selection)
+OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
 {
-  if (name == "imu") return {name, Pose{}};
-  const Pose T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
-  return {name, T_vehicle_imu.inverse()};
+  return {name, name == "imu" ? Pose{} : T_vehicle_imu.inverse()};
 }
 }  // namespace
+
+std::string dumpedConfig(const ReplayArguments& arguments)
+{
+  const Loaded loaded = loadConfiguration(arguments);
+  const std::string file = inOneLine(arguments.config_file);
+  const auto origin = [&](std::string_view view) -> std::string
+  {
+    const std::string key(view);
+    if (const auto found = loaded.origins.find(key); found != loaded.origins.end())
+      return found->second;
+    if (const auto found = loaded.file.lines.find(key); found != loaded.file.lines.end())
+      return file + ", line " + std::to_string(found->second);
+    return "default";
+  };
+  return configDump(loaded.file.config, origin, arguments.dump_config == "main");
+}
 
 RunSetup setUpRun(const ReplayArguments& arguments)
 {
   RunSetup setup;
   setup.arguments = withoutDoubleTrajectory(arguments);
-  setup.parameters = loadConfiguration(arguments);
+  setup.config = loadConfiguration(arguments).file.config;
   prepareOutputs(setup.arguments);
   requireReadable(arguments.input_files);
-  const SensorOptions& input = setup.parameters.input;
-  const SensorPatterns patterns = patternsOf(setup.parameters);
+  const SensorOptions& sensors = setup.config.sensors;
+  const SensorPatterns patterns = patternsOf(sensors);
   setup.selection = checked(
       [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
-  setup.plan = checked([&] { return planInput(setup.selection, setup.parameters); });
+  setup.plan =
+      checked([&] { return planInput(setup.selection, sensors, setup.config.odometry.lidar); });
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
-  setup.frame = outputFrameOf(arguments.frame, input, setup.selection);
+  setup.frame = outputFrameOf(arguments.frame, setup.plan.T_vehicle_imu);
   setup.saved_map = savedMapOf(arguments, setup.frame);
   return setup;
 }

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "command_line.h"
+#include <fastlio/config/config.h>
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/exporters/run_summary.h>
-#include <fastlio/odometry/parameters.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -37,15 +37,19 @@ class SetupError : public std::runtime_error
 struct RunSetup
 {
   ReplayArguments arguments;
-  Parameters parameters;
-  std::string configuration;  //!< where the parameters come from, for people
+  Config config;
+  std::string configuration;  //!< where the configuration comes from, for people
   SensorSelection selection;
   InputPlan plan;
   OutputFrame frame;
   std::optional<SavedMap> saved_map;  //!< to start in
 };
 
-/** Loads the parameters, makes the output places, looks for the sensors, in this order.
+/** The configuration that the arguments ask for as YAML, each value with its origin
+ * (--dump-config). \exception SetupError the file cannot be used */
+[[nodiscard]] std::string dumpedConfig(const ReplayArguments& arguments);
+
+/** Loads the configuration, makes the output places, looks for the sensors, in this order.
  * \exception SetupError with the exit status to end with */
 [[nodiscard]] RunSetup setUpRun(const ReplayArguments& arguments);
 

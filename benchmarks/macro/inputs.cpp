@@ -15,11 +15,10 @@
 
 namespace fastlio::benchmarks
 {
-Inputs inputsOfRecording(const std::string& rawlog, const Parameters& parameters)
+Inputs inputsOfRecording(const std::string& rawlog, const Config& config)
 {
-  Inputs inputs{std::filesystem::path(rawlog).stem().string(), {}, parameters};
-  const SensorPatterns patterns{
-      parameters.input.lidar_sensor_label, parameters.input.imu_sensor_label};
+  Inputs inputs{std::filesystem::path(rawlog).stem().string(), {}, config.odometry};
+  const SensorPatterns patterns{config.sensors.lidar_sensor_label, config.sensors.imu_sensor_label};
   ObservationBridge bridge(selectSensors(surveySensors({rawlog}, patterns), patterns));
   RawlogSource source({rawlog});
   while (const auto observation = source.next())

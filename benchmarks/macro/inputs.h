@@ -8,6 +8,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/config/config.h>
 #include <fastlio/odometry/parameters.h>
 
 #include <string>
@@ -28,7 +29,7 @@ struct Inputs
 
 /** All usable observations of a rawlog.
  * \exception std::runtime_error it cannot be read, or has no LiDAR and IMU */
-[[nodiscard]] Inputs inputsOfRecording(const std::string& rawlog, const Parameters& parameters);
+[[nodiscard]] Inputs inputsOfRecording(const std::string& rawlog, const Config& config);
 
 /** A simulated scenario, its scans with full density, with the parameters that match its sensors.
  * \param duration [s]; 0: the scenario's own

@@ -5,7 +5,7 @@
 
 #include "measurement.h"
 #include "streaming.h"
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config_yaml.h>
 
 #include <CLI/CLI.hpp>
 
@@ -85,16 +85,16 @@ void printRow(
   std::printf("| %016llx |\n", static_cast<unsigned long long>(run.digest));
 }
 
-Parameters parametersOf(const Arguments& arguments)
+Config configOf(const Arguments& arguments)
 {
-  return arguments.config.empty() ? Parameters{} : loadParametersFromFile(arguments.config);
+  return arguments.config.empty() ? Config{} : loadConfigFromFile(arguments.config);
 }
 
 /** The fastest of several passes; the memory of the first one. */
 StreamingResult streamingOf(const Arguments& arguments, int threads)
 {
   if (arguments.recording.empty()) return {};
-  Parameters parameters = parametersOf(arguments);
+  OdometryOptions parameters = configOf(arguments).odometry;
   parameters.threads = threads;
   StreamingResult best = stream(arguments.recording, parameters);
   for (int i = 1; i < arguments.repeats; ++i)
@@ -111,7 +111,7 @@ void run(const Arguments& arguments)
     streaming.push_back(streamingOf(arguments, threads));
   const Inputs inputs = arguments.recording.empty()
                             ? inputsOfScenario(arguments.scenario, arguments.duration)
-                            : inputsOfRecording(arguments.recording, parametersOf(arguments));
+                            : inputsOfRecording(arguments.recording, configOf(arguments));
   const auto runs = measure(inputs, arguments.threads, arguments.repeats);
   if (arguments.header) printHeader();
   for (std::size_t i = 0; i < runs.size(); ++i)

@@ -1,8 +1,8 @@
 // mrpt_fastlio: the odometry in a loop of your own, on the observations of a rawlog.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/odometry/odometry.h>
-#include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -23,7 +23,7 @@ void print(const fastlio::ScanResult& result)
 
 void run(const std::string& rawlog, const std::string& parameter_file)
 {
-  fastlio::Odometry odometry(fastlio::loadParametersFromFile(parameter_file));
+  fastlio::Odometry odometry(fastlio::loadConfigFromFile(parameter_file).odometry);
 
   // Which LiDAR, which IMU: those that are found.
   const fastlio::SensorPatterns any;

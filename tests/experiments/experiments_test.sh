@@ -26,10 +26,15 @@ grep -qE '^\| default \| 0\.0[0-9]+ \| 0\.0[0-9]+ \|' "$output.ablation" ||
 # A parameter that does not exist ends the experiment.
 config=$output/recordings/rest-1-5s/config.yaml
 change() { awk -v changes="$1" -f "$experiments/change_parameters.awk" "$config"; }
-! change "update.no_such_parameter=1" >/dev/null 2>&1 || fail "an unknown parameter was taken"
-# A parameter that does is changed, alone.
-changed=$(change "update.max_iterations=17" | diff "$config" - | grep -c '^>' || true)
+! (
+  # shellcheck source=benchmarks/experiments/library.sh
+  set -- "$build" "$output" && . "$experiments/library.sh" &&
+    run "$output/recordings/rest-1-5s" "$output/unknown" update.no_such_parameter=1
+) >/dev/null 2>&1 || fail "an unknown parameter was taken"
+# A parameter of the file is changed, alone; another one is added.
+changed=$(change "input.imu_sensor_label=other" | diff "$config" - | grep -c '^>' || true)
 [ "$changed" -eq 1 ] || fail "$changed lines were changed"
+change "update.max_iterations=17" | grep -qx '  max_iterations: 17' || fail "a parameter is not added"
 change "gain=standard" | grep -qx 'gain: standard' || fail "a parameter without group is not changed"
 
 # A table takes the place of the one before.

@@ -4,7 +4,7 @@
 #include "fault_recording.h"
 
 #include <fastlio/compat/register_classes.h>
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config_document.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/scenario.h>
@@ -51,7 +51,7 @@ FaultRecording makeFaultRecording(LidarKind kind)
   const Simulation simulation(settings);
   FaultRecording recording;
   recording.ground_truth = groundTruthText(simulation);
-  recording.config = toYaml(matchingParameters(settings), "");
+  recording.config = toYaml(matchingConfig(settings));
   const std::vector<std::int64_t> ends = endsOfScans(simulation);
   std::size_t scan = 0;
   for (const ImuSample& sample : simulation.imu().samples)

@@ -4,7 +4,7 @@
 #include "fuzz_targets.h"
 #include <fastlio/compat/CPointsMapXYZIRT.h>
 #include <fastlio/compat/register_classes.h>
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config_document.h>
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -156,7 +156,8 @@ std::vector<Seed> cloudSeeds()
 std::vector<Seed> yamlSeeds()
 {
   return {
-      {"defaults.yaml", toYaml(Parameters{})},
+      {"defaults.yaml", configDump(
+                            {}, [](std::string_view) { return "default"; }, false)},
       {"short.yaml", "imu: {max_gap: 0.2, accel_unit: g}\nthreads: 2\n"},
       {"poses.yaml", "input:\n  T_vehicle_imu: [0, 0, 1, 90, 0, 0]\n  lidar_sensor_label: 'l.*'\n"},
       {"wrong.yaml", "lidar: {min_range: [1, 2], max_range: -1}\nunknown: {a: &x 1, b: *x}\n"}};

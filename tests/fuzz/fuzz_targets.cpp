@@ -4,8 +4,9 @@
 #include "fuzz_targets.h"
 
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/config/config_document.h>
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/odometry/odometry.h>
-#include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
@@ -160,8 +161,8 @@ void fuzzYaml(const std::uint8_t* data, std::size_t size)
   const MemoryFile file(data, size);
   try
   {
-    const Parameters parameters = loadParametersFromFile(file.path());
-    (void)toYaml(parameters);
+    const Config config = loadConfigFromFile(file.path());
+    (void)toYaml(config);
   }
   catch (const std::invalid_argument&)
   {

@@ -4,6 +4,7 @@
 #include "replay_test_support.h"
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace fastlio::testing
 {
@@ -39,6 +40,33 @@ TEST_F(CommandLine, MistakesAreExplained)
   expectEnd(replayFile("x", {"--threads", "many"}), 1, "--threads");
   expectEnd(replayFile("x", {"-v", "LOUD"}), 1, "LOUD");
   expectEnd(replayFile("x", {"--skip-first-n", "-3"}), 1, "--skip-first-n");
+}
+
+TEST_F(Configuration, DumpsLoadBackAndTellOrigins)
+{
+  const std::string config = write("c.yaml", "lidar:\n  max_range: 50\ngain: standard\n");
+  const auto dump = replay({"-c", config, "--threads", "3", "--dump-config"});
+  EXPECT_EQ(dump.exit_status, 0) << dump.output;
+  for (const std::string text :
+       {"  max_range: 50  # " + config + ", line 2\n", "gain: standard  # " + config + ", line 3\n",
+        std::string("threads: 3  # command line, --threads\n"),
+        std::string("  min_range: 0.5  # default\n")})
+    EXPECT_NE(dump.output.find(text), std::string::npos) << text << dump.output;
+  const auto again = replay({"-c", write("dump.yaml", dump.output), "--dump-config"});
+  EXPECT_EQ(again.exit_status, 0) << again.output;
+  const auto values = [](std::string text)
+  {
+    std::string plain;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      plain += line.substr(0, line.find("  # ")) + "\n";
+    return plain;
+  };
+  EXPECT_EQ(values(again.output), values(dump.output));
+  const auto main = replay({"-c", config, "--dump-config", "main"});
+  EXPECT_NE(main.output.find("gain: standard"), std::string::npos) << main.output;
+  EXPECT_EQ(main.output.find("deskew"), std::string::npos) << main.output;
+  expectEnd(replay({"--dump-config", "everything"}), 1, "--dump-config");
 }
 
 TEST_F(Configuration, MissingFileIsNamed)

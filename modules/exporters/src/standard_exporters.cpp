@@ -43,13 +43,11 @@ void requireKnown(const std::vector<std::string>& names, const std::vector<Expor
   }
 }
 
-bool isWanted(
-    const ExporterKind& kind, const std::vector<std::string>& names,
-    const ExportOptions& parameters)
+bool isWanted(const ExporterKind& kind, const std::vector<std::string>& names, bool imu_rate)
 {
   if (kind.name == kSummary) return true;
   if (std::find(names.begin(), names.end(), kind.name) != names.end()) return true;
-  if (kind.name == "imu_rate") return parameters.imu_rate;
+  if (kind.name == "imu_rate") return imu_rate;
   return names.empty() && kind.standard;
 }
 }  // namespace
@@ -118,7 +116,7 @@ ExporterSet makeExporters(const ExportTarget& options, const std::vector<Exporte
   if (!options.tum_path.empty()) set.add(makeTumExporter(options.tum_path, options.frame));
   if (options.directory.empty()) return set;
   for (const ExporterKind& kind : kinds)
-    if (isWanted(kind, names, options.parameters)) set.add(kind.make(options));
+    if (isWanted(kind, names, options.imu_rate)) set.add(kind.make(options));
   return set;
 }
 

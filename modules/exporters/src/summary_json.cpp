@@ -5,8 +5,7 @@
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/math/angles.h>
-#include <fastlio/odometry/parameter_table.h>
-#include <fastlio/odometry/parameter_text.h>
+#include <fastlio/options/option_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,22 +19,20 @@ namespace
 using Json = nlohmann::ordered_json;
 
 /** Numbers, booleans, lists and null keep their type; the rest is text. */
-Json valueOf(const ParameterRow& row, const Parameters& parameters)
+Json valueOf(const OptionText& option)
 {
-  if (const auto* text = std::get_if<RegexValue>(&row.value)) return text->member.of(parameters);
-  if (const auto* text = std::get_if<TextValue>(&row.value)) return text->member.of(parameters);
-  const std::string yaml = valueText(row, parameters);
-  const Json value = Json::parse(yaml, nullptr, false);
-  return value.is_discarded() ? Json(yaml) : value;
+  if (option.is_text) return option.text;
+  const Json value = Json::parse(option.text, nullptr, false);
+  return value.is_discarded() ? Json(option.text) : value;
 }
 
-Json parametersJson(const Parameters& parameters)
+Json parametersJson(const std::vector<OptionText>& options)
 {
   Json json = Json::object();
-  for (const ParameterRow& row : parameterTable())
+  for (const OptionText& option : options)
   {
-    Json& group = row.group().empty() ? json : json[std::string(row.group())];
-    group[std::string(row.name())] = valueOf(row, parameters);
+    const std::string group(groupOf(option.key));
+    (group.empty() ? json : json[group])[std::string(nameOf(option.key))] = valueOf(option);
   }
   return json;
 }
@@ -124,7 +121,7 @@ Json openDirectionsJson(const OpenDirections& open)
  * deviations; null when nothing of it is estimated. */
 Json calibrationJson(const RunSummary& run)
 {
-  const CalibrationOptions& p = run.parameters.calibration;
+  const CalibrationOptions& p = run.odometry.calibration;
   const std::optional<FilterState>& last = run.statistics.lastState();
   Json json = nullptr;
   if (!last) return json;
@@ -140,7 +137,7 @@ Json calibrationJson(const RunSummary& run)
   }
   if (p.estimate_time_offset)
   {
-    json["time_offset_s"] = run.parameters.lidar.time_offset + last->x.time_offset;
+    json["time_offset_s"] = run.odometry.lidar.time_offset + last->x.time_offset;
     const double variance = last->P(kTimeOffset, kTimeOffset);
     // Not a part of the state before the map can tell it: as uncertain as given.
     json["time_offset_sigma_s"] = variance > 0.0 ? std::sqrt(variance) : p.time_offset_std;
@@ -188,7 +185,7 @@ Json summaryJson(const RunSummary& run)
       {"outputs", filesJson(run.outputs)},
       {"failure", run.failure},
       {"output_problems", run.output_problems},
-      {"parameters", parametersJson(run.parameters)}};
+      {"parameters", parametersJson(run.options)}};
 }
 
 class SummaryExporter : public Exporter

@@ -35,7 +35,7 @@ std::vector<std::string> written(const std::string& folder, const OutputFrame& f
   ExportTarget options;
   options.directory = folder;
   options.frame = frame;
-  options.parameters.imu_rate = true;
+  options.imu_rate = true;
   ExporterSet set = makeExporters(options);
   set.onScan(madeUpResult(kStamp + 10), {madeUpState(kStamp), madeUpState(kStamp + 5)});
   const OutputMap map;

@@ -201,7 +201,7 @@ MotionStart startInMotion(
   const InitializationOptions& p = parameters.initialization;
   const Window window(scans, count, imu, parameters);
   OdometryOptions pass_parameters = parameters;
-  pass_parameters.output.imu_rate = false;
+  pass_parameters.imu_rate = false;
   pass_parameters.health.freeze_map = false;  // a pass may begin far off
   // A second of motion does not tell a velocity from an offset of the clocks.
   pass_parameters.calibration.estimate_time_offset = false;

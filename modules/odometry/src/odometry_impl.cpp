@@ -4,7 +4,7 @@
 #include "odometry_impl.h"
 
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/odometry/odometry_option_table.h>
 #include <fastlio/parallel/stack_anchor.h>
 
 #include <algorithm>

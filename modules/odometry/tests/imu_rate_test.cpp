@@ -25,7 +25,7 @@ const RoomRecording& room()
 Parameters imuRateParameters(int threads = 1)
 {
   Parameters p = roomParameters();
-  p.output.imu_rate = true;
+  p.imu_rate = true;
   p.threads = threads;
   return p;
 }

@@ -85,7 +85,7 @@ TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
 {
   Parameters p = roomParameters();
   p.lidar.max_waiting = 0.5;
-  p.output.imu_rate = true;
+  p.imu_rate = true;
   Odometry odometry(p);
   for (const ImuSample& sample : room().imu)
     if (sample.stamp_ns < kRecordingStart + 2'500'000'000) odometry.addImu(sample);

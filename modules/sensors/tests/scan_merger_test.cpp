@@ -115,13 +115,14 @@ TEST_F(MergedRecording, ComesOutOfTheSourceAsOneLidar)
     if (std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object))
       objects.push_back(cloudAt(0.1 * scan++ + 0.05, "rear", {0.0F, 0.1F}));
   }
-  Parameters parameters;
-  parameters.further_lidars[0].sensor_label = "rear";
-  parameters.lidar.min_range = 2.0;  // the nearer one of the two points is 1.7 m away
+  SensorOptions sensors;
+  sensors.further_lidars[0].sensor_label = "rear";
+  LidarOptions lidar;
+  lidar.min_range = 2.0;  // the nearer one of the two points is 1.7 m away
   const std::string file = fileOf(objects);
-  const auto patterns = patternsOf(parameters);
+  const auto patterns = patternsOf(sensors);
   const auto selection = selectSensors(surveySensors({file}, patterns), patterns);
-  const InputPlan plan = planInput(selection, parameters);
+  const InputPlan plan = planInput(selection, sensors, lidar);
   DecodeAheadSource source(RawlogSource({file}), ObservationBridge(selection, plan.bridge));
   std::size_t scans = 0, points = 0, samples = 0;
   while (const auto input = source.next())

@@ -10,14 +10,6 @@
 
 namespace fastlio
 {
-Pose poseFromNumbers(const SixNumbers& n)
-{
-  return {
-      expSO3({0, 0, n[3] * kRadPerDeg}) * expSO3({0, n[4] * kRadPerDeg, 0}) *
-          expSO3({n[5] * kRadPerDeg, 0, 0}),
-      {n[0], n[1], n[2]}};
-}
-
 SixNumbers numbersFromPose(const Pose& pose)
 {
   const Mat3& R = pose.R;

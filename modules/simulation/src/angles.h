@@ -13,7 +13,6 @@ namespace fastlio
 /** x, y, z [m], yaw, pitch, roll [deg]; R = Rz(yaw) Ry(pitch) Rx(roll). */
 using SixNumbers = std::array<double, 6>;
 
-[[nodiscard]] Pose poseFromNumbers(const SixNumbers& numbers);
 [[nodiscard]] SixNumbers numbersFromPose(const Pose& pose);
 
 }  // namespace fastlio

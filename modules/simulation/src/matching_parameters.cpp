@@ -33,13 +33,14 @@ ImuNoise matchingNoise(const ImuSettings& imu)
 }
 }  // namespace
 
-Parameters matchingParameters(const SimulationSettings& settings)
+Config matchingConfig(const SimulationSettings& settings)
 {
-  Parameters p;
-  p.input.imu_sensor_label = kImuLabel;
-  p.input.lidar_sensor_label = kLidarLabel;
-  p.input.T_vehicle_imu = Pose{};
-  p.input.T_vehicle_lidar = settings.lidar.T_imu_lidar;
+  Config config;
+  config.sensors.imu_sensor_label = kImuLabel;
+  config.sensors.lidar_sensor_label = kLidarLabel;
+  config.sensors.T_vehicle_imu = Pose{};
+  config.sensors.T_vehicle_lidar = settings.lidar.T_imu_lidar;
+  OdometryOptions& p = config.odometry;
   p.initialization.duration = std::clamp(settings.rest - kSettling, 0.5, kStaticDuration);
   p.initialization.gravity = settings.gravity;
   p.initialization.accel_bias_std =
@@ -51,7 +52,12 @@ Parameters matchingParameters(const SimulationSettings& settings)
   p.lidar.max_range = settings.lidar.max_range;
   p.lidar.time_offset = -settings.lidar.time_offset;
   p.measurement.range_noise = std::max(kLeastRangeNoise, settings.lidar.range_noise);
-  return p;
+  return config;
+}
+
+OdometryOptions matchingParameters(const SimulationSettings& settings)
+{
+  return matchingConfig(settings).odometry;
 }
 
 }  // namespace fastlio

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/config/config_document.h>
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/parallel/workers.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
@@ -135,7 +135,7 @@ std::string configText(const SimulationSettings& settings)
 {
   const std::string header = "# Parameters that match the simulated recording '" +
                              settings.scenario + "', seed " + std::to_string(settings.seed) + ".\n";
-  return toYaml(matchingParameters(settings), header);
+  return toYaml(matchingConfig(settings), header);
 }
 }  // namespace
 

@@ -3,7 +3,7 @@
 
 #include "scenario_table.h"
 #include <fastlio/math/angles.h>
-#include <fastlio/odometry/nearest_name.h>
+#include <fastlio/options/nearest_name.h>
 
 #include <algorithm>
 #include <stdexcept>

@@ -33,10 +33,8 @@ Json json(const ImuBias& bias)
 Json settingJson(const SettingRow& row, const SimulationSettings& settings)
 {
   const std::string text = settingText(row, settings);
-  if (std::holds_alternative<KindSetting>(row.value)) return text;
-  if (std::holds_alternative<ChoiceSetting>(row.value)) return text;
-  const bool is_list = text.find(',') != std::string::npos;
-  return Json::parse(is_list ? "[" + text + "]" : text);
+  const Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() ? Json(text) : value;
 }
 
 Json settingsJson(const SimulationSettings& settings)

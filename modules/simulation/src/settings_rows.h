@@ -11,6 +11,6 @@
 namespace fastlio
 {
 // Defined in settings_rows_cloud.cpp.
-[[nodiscard]] std::vector<SettingRow> cloudRows();
+[[nodiscard]] OptionTable<SimulationSettings> cloudRows();
 
 }  // namespace fastlio

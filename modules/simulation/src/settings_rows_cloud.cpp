@@ -10,27 +10,24 @@ namespace
 using S = SimulationSettings;
 }  // namespace
 
-std::vector<SettingRow> cloudRows()
+OptionTable<SimulationSettings> cloudRows()
 {
-  const ChoiceSetting cloud{
-      {"native", "xyzirt", "generic", "xyzi"},
-      [](const S& s) { return static_cast<std::size_t>(s.lidar.cloud); },
-      [](S& s, std::size_t index) { s.lidar.cloud = static_cast<LidarCloud>(index); }};
-  const ChoiceSetting unit{
-      {"s", "ms", "us", "ns"},
-      [](const S& s) { return static_cast<std::size_t>(s.lidar.time_unit); },
-      [](S& s, std::size_t index) { s.lidar.time_unit = static_cast<CloudTimeUnit>(index); }};
-  const ChoiceSetting reference{
-      {"start", "middle", "end", "absolute"},
-      [](const S& s) { return static_cast<std::size_t>(s.lidar.time_reference); },
-      [](S& s, std::size_t index)
-      { s.lidar.time_reference = static_cast<CloudTimeReference>(index); }};
   return {
-      {"lidar.cloud", "", cloud,
+      {"lidar.cloud", "",
+       [](S& s) -> OptionValue {
+         return choice(&s.lidar.cloud, {"native", "xyzirt", "generic", "xyzi"});
+       },
        "class of the scans; native: raw packets (vlp16), CPointsMapXYZIRT (others); generic: "
        "CGenericPointsMap; xyzi: CPointsMapXYZI, no times"},
-      {"lidar.point_time_unit", "", unit, "unit of the times of points in clouds"},
-      {"lidar.point_time_reference", "", reference,
+      {"lidar.point_time_unit", "",
+       [](S& s) -> OptionValue {
+         return choice(&s.lidar.time_unit, {"s", "ms", "us", "ns"});
+       },
+       "unit of the times of points in clouds"},
+      {"lidar.point_time_reference", "",
+       [](S& s) -> OptionValue {
+         return choice(&s.lidar.time_reference, {"start", "middle", "end", "absolute"});
+       },
        "zero of the times of points and stamp of the scan; absolute: times since 1970, the stamp "
        "is that of the first shot"}};
 }

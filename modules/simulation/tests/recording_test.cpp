@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
@@ -245,10 +245,10 @@ TEST(Recording, ConfigLoadsStrictly)
   const TemporaryDirectory directory;
   const SimulationSettings settings = testing::shortSettings("uav", 1.0, 10);
   const RecordingFiles files = writeRecording(Simulation(settings), directory.path());
-  const Parameters loaded = loadParametersFromFile(files.config);
-  const Parameters meant = matchingParameters(settings);
-  EXPECT_EQ(loaded.imu.noise.gyro_noise_density, meant.imu.noise.gyro_noise_density);
-  EXPECT_EQ(loaded.input.imu_sensor_label, "imu");
+  const Config loaded = loadConfigFromFile(files.config);
+  const Config meant = matchingConfig(settings);
+  EXPECT_EQ(loaded.odometry.imu.noise.gyro_noise_density, meant.odometry.imu.noise.gyro_noise_density);
+  EXPECT_EQ(loaded.sensors.imu_sensor_label, "imu");
 }
 
 TEST(Recording, GroundTruthIsThePoseAt200Hz)

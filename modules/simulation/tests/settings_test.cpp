@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/settings_table.h>
 
@@ -54,7 +54,9 @@ TEST(Settings, KeysAreUniqueAndReachDifferentMembers)
   const SimulationSettings base;
   for (const auto& row : settingsTable())
   {
-    const auto* real = std::get_if<RealSetting>(&row.value);
+    SimulationSettings scratch;
+    const OptionValue option = row.value(scratch);
+    const auto* real = std::get_if<RealValue>(&option);
     if (real == nullptr) continue;
     const double value = std::min(1.7 * std::max(real->min, 0.45), real->max);
     const SimulationSettings changed = withSetting(base, row.key, std::to_string(value));
@@ -98,7 +100,7 @@ TEST(Settings, ValuesThatAreNotAllowedAreRefusedWithWhatIs)
     const std::string problem =
         problemOf([&] { (void)withSetting({}, wrong.first, wrong.second); });
     EXPECT_NE(problem.find(wrong.first), std::string::npos) << wrong.first << " = " << wrong.second;
-    EXPECT_NE(problem.find("give"), std::string::npos) << problem;
+    EXPECT_NE(problem.find("allowed: "), std::string::npos) << problem;
   }
 }
 
@@ -117,9 +119,9 @@ TEST(Settings, SettingsMadeInCodeAreChecked)
 TEST(MatchingParameters, AreValidForEveryScenario)
 {
   for (const auto& info : scenarioCatalog())
-    EXPECT_EQ(problemOf([&] { validate(matchingParameters(defaultSettings(info.name))); }), "");
+    EXPECT_EQ(problemOf([&] { validate(matchingConfig(defaultSettings(info.name))); }), "");
   const SimulationSettings perfect = testing::withoutErrors(defaultSettings("office"));
-  EXPECT_EQ(problemOf([&] { validate(matchingParameters(perfect)); }), "");
+  EXPECT_EQ(problemOf([&] { validate(matchingConfig(perfect)); }), "");
 }
 
 TEST(MatchingParameters, TellTheFilterWhatTheSensorsAre)
@@ -127,7 +129,8 @@ TEST(MatchingParameters, TellTheFilterWhatTheSensorsAre)
   SimulationSettings settings = defaultSettings("office");
   settings.lidar.time_offset = 0.02;
   settings.imu.vibration_accel = 1.0;
-  const Parameters p = matchingParameters(settings);
+  const Config config = matchingConfig(settings);
+  const OdometryOptions& p = config.odometry;
   EXPECT_EQ(p.imu.noise.gyro_noise_density, settings.imu.noise.gyro_noise_density);
   EXPECT_EQ(p.imu.noise.gyro_bias_walk, settings.imu.noise.gyro_bias_walk);
   // Sinusoid of amplitude 1 sampled at 200 Hz: variance 1/2 per sample.
@@ -135,8 +138,8 @@ TEST(MatchingParameters, TellTheFilterWhatTheSensorsAre)
   EXPECT_EQ(p.lidar.time_offset, -0.02);
   EXPECT_EQ(p.measurement.range_noise, settings.lidar.range_noise);
   EXPECT_EQ(p.initialization.accel_bias_std, settings.imu.accel_bias_std);
-  ASSERT_TRUE(p.input.T_vehicle_lidar);
-  EXPECT_EQ(p.input.T_vehicle_lidar->p, settings.lidar.T_imu_lidar.p);
+  ASSERT_TRUE(config.sensors.T_vehicle_lidar);
+  EXPECT_EQ(config.sensors.T_vehicle_lidar->p, settings.lidar.T_imu_lidar.p);
 }
 }  // namespace
 }  // namespace fastlio

@@ -3,10 +3,10 @@
 
 #include "online_sensors.h"
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/map/register_classes.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/odometry.h>
-#include <fastlio/odometry/parameter_yaml.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <mrpt/core/initializer.h>
@@ -32,7 +32,7 @@ void registerSlamClasses()
 class CLidarInertialOdometry::Impl
 {
  public:
-  explicit Impl(const Parameters& parameters) : odometry_(parameters), sensors_(parameters) {}
+  explicit Impl(const Config& config) : odometry_(config.odometry), sensors_(config) {}
 
   /** What the observation was, for the log; empty when it was used or belongs to other sensors. */
   std::string take(const mrpt::obs::CObservation::ConstPtr& observation)
@@ -79,20 +79,20 @@ class CLidarInertialOdometry::Impl
 
 CLidarInertialOdometry::CLidarInertialOdometry()
     : mrpt::system::COutputLogger("fastlio::CLidarInertialOdometry"),
-      impl_(std::make_unique<Impl>(Parameters{}))
+      impl_(std::make_unique<Impl>(Config{}))
 {
 }
 CLidarInertialOdometry::~CLidarInertialOdometry() = default;
 
 void CLidarInertialOdometry::initialize(const mrpt::containers::yaml& parameters)
 {
-  initialize(parameters.empty() ? Parameters{} : loadParameters(parameters));
+  initialize(parameters.empty() ? Config{} : loadConfig(parameters));
 }
 
-void CLidarInertialOdometry::initialize(const Parameters& parameters)
+void CLidarInertialOdometry::initialize(const Config& config)
 {
   Callback callback = std::move(impl_->callback);
-  impl_ = std::make_unique<Impl>(parameters);
+  impl_ = std::make_unique<Impl>(config);
   impl_->callback = std::move(callback);
 }
 
@@ -134,7 +134,7 @@ mrpt::maps::CSimplePointsMap::Ptr CLidarInertialOdometry::map() const
   return impl_->odometry().map().toPointsMap();
 }
 
-const Parameters& CLidarInertialOdometry::parameters() const
+const OdometryOptions& CLidarInertialOdometry::parameters() const
 {
   return impl_->odometry().parameters();
 }

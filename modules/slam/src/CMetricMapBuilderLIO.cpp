@@ -67,10 +67,10 @@ mrpt::maps::TSetOfMetricMapInitializers orPoints(
 }  // namespace
 
 CMetricMapBuilderLIO::CMetricMapBuilderLIO(
-    const Parameters& parameters, const mrpt::maps::TSetOfMetricMapInitializers& maps)
-    : parameters_(parameters),
+    const Config& config, const mrpt::maps::TSetOfMetricMapInitializers& maps)
+    : config_(config),
       definitions_(orPoints(maps)),
-      rule_(parameters.output.keyframe_distance, parameters.output.keyframe_angle)
+      rule_(config.exporters.keyframe_distance, config.exporters.keyframe_angle)
 {
   initialize();
 }
@@ -82,8 +82,8 @@ void CMetricMapBuilderLIO::initialize(
 {
   const std::lock_guard lock(mutex_);
   // Nothing is changed when the parameters are refused.
-  odometry_.initialize(parameters_);
-  rule_ = KeyFrameRule(parameters_.output.keyframe_distance, parameters_.output.keyframe_angle);
+  odometry_.initialize(config_);
+  rule_ = KeyFrameRule(config_.exporters.keyframe_distance, config_.exporters.keyframe_angle);
   T_map_start_ = x0 == nullptr ? Pose{} : toPose(mrpt::poses::CPose3D(x0->getMeanVal()));
   T_map_world_.reset();
   waiting_.clear();
@@ -113,7 +113,7 @@ void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observati
   if (!options.enableMapUpdating) return;
   if (auto scan = odometry_.decode(*observation))
   {
-    scan->stamp_ns += nanoseconds(parameters_.lidar.time_offset);
+    scan->stamp_ns += nanoseconds(config_.odometry.lidar.time_offset);
     waiting_.push_back({observation, std::move(*scan)});
     if (waiting_.size() > kMostWaiting) waiting_.pop_front();  // no pose in sight
   }
@@ -173,10 +173,10 @@ void CMetricMapBuilderLIO::addKeyFrame(const Waiting& waiting, const TrackedPose
 Pseudo2dScanOptions CMetricMapBuilderLIO::planarOptions() const
 {
   Pseudo2dScanOptions planar;
-  planar.rays = parameters_.output.scan_2d_rays;
-  planar.height = parameters_.output.scan_2d_height;
-  planar.thickness = parameters_.output.scan_2d_thickness;
-  planar.max_range = parameters_.lidar.max_range;
+  planar.rays = config_.exporters.scan_2d_rays;
+  planar.height = config_.exporters.scan_2d_height;
+  planar.thickness = config_.exporters.scan_2d_thickness;
+  planar.max_range = config_.odometry.lidar.max_range;
   return planar;
 }
 

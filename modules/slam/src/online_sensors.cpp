@@ -12,8 +12,8 @@ namespace
 constexpr std::size_t kMostKept = 5000;
 }  // namespace
 
-OnlineSensors::OnlineSensors(const Parameters& parameters)
-    : parameters_(parameters), patterns_(patternsOf(parameters))
+OnlineSensors::OnlineSensors(const Config& config)
+    : config_(config), patterns_(patternsOf(config.sensors))
 {
   patterns_.further_lidar_labels.clear();  // one LiDAR is used here
   (void)isComplete(survey_, patterns_);    // tells of labels that are no patterns
@@ -44,7 +44,7 @@ void OnlineSensors::start()
   try
   {
     SensorSelection selection = selectSensors(survey_, patterns_);
-    const InputPlan plan = planInput(selection, parameters_);
+    const InputPlan plan = planInput(selection, config_.sensors, config_.odometry.lidar);
     message_ = describe(selection);
     for (const auto* sentences : {&plan.notes, &plan.warnings})
       for (const auto& sentence : *sentences)

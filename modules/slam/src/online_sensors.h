@@ -4,7 +4,7 @@
 /** \file online_sensors.h Which LiDAR and IMU to use, decided while observations come in. */
 #pragma once
 
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/config/config.h>
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -24,7 +24,7 @@ class OnlineSensors
 {
  public:
   /** \exception std::invalid_argument a label is not a regular expression */
-  explicit OnlineSensors(const Parameters& parameters);
+  explicit OnlineSensors(const Config& config);
 
   /** Everything that this observation makes available, in order. */
   [[nodiscard]] std::vector<BridgeOutput> convert(
@@ -42,7 +42,7 @@ class OnlineSensors
  private:
   void start();
 
-  Parameters parameters_;
+  Config config_;
   SensorPatterns patterns_;
   SensorSurvey survey_;
   std::deque<mrpt::obs::CObservation::ConstPtr> kept_;

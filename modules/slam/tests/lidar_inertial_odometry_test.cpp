@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "walk.h"
-#include <fastlio/odometry/parameter_yaml.h>
+#include <fastlio/config/config_document.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
@@ -29,8 +29,8 @@ TEST(CLidarInertialOdometry, MadeByNameAndSetUpFromYamlItFollowsTheWalk)
 {
   const auto odometry = madeByName();
   ASSERT_TRUE(odometry);
-  const Parameters parameters = matchingParameters(walk().settings());
-  odometry->initialize(mrpt::containers::yaml::FromText(toYaml(parameters)));
+  const Config config = matchingConfig(walk().settings());
+  odometry->initialize(mrpt::containers::yaml::FromText(toYaml(config)));
   std::size_t called = 0;
   odometry->setCallback([&called](const OdometryEstimate&) { ++called; });
   for (const auto& observation : observations())
@@ -54,7 +54,7 @@ TEST(CLidarInertialOdometry, RefusesBadYamlAndStaysAsItWas)
   ASSERT_TRUE(odometry);
   const auto bad = mrpt::containers::yaml::FromText("lidar: {min_rage: 1.0}");
   EXPECT_THROW(odometry->initialize(bad), std::invalid_argument);
-  EXPECT_EQ(odometry->parameters().lidar.min_range, Parameters{}.lidar.min_range);
+  EXPECT_EQ(odometry->parameters().lidar.min_range, OdometryOptions{}.lidar.min_range);
 }
 
 TEST(CLidarInertialOdometry, LeavesOtherSensorsAlone)
@@ -77,7 +77,7 @@ TEST(CLidarInertialOdometry, InitializeStartsAnew)
   std::vector<Vec3> ends;
   for (int run = 0; run < 2; ++run)
   {
-    odometry->initialize(matchingParameters(walk().settings()));
+    odometry->initialize(matchingConfig(walk().settings()));
     EXPECT_FALSE(odometry->latest());
     for (std::size_t i = 0; i < 900; ++i)
       odometry->onNewObservation(observations()[i]);

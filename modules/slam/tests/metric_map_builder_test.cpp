@@ -56,7 +56,7 @@ class Builder : public ::testing::Test
  protected:
   static CMetricMapBuilderLIO& driven()
   {
-    static CMetricMapBuilderLIO builder(matchingParameters(walk().settings()), threeMaps());
+    static CMetricMapBuilderLIO builder(matchingConfig(walk().settings()), threeMaps());
     static const bool done = (drive(builder), true);
     EXPECT_TRUE(done);
     return builder;
@@ -122,7 +122,7 @@ TEST_F(Builder, KeepsViewsByTheRules)
 
 TEST(BuilderStart, BeginsWhereItIsToldAndKeepsTheMapThatItIsGiven)
 {
-  CMetricMapBuilderLIO builder(matchingParameters(walk().settings()));
+  CMetricMapBuilderLIO builder(matchingConfig(walk().settings()));
   mrpt::maps::CSimpleMap given;
   auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(observations().front());
@@ -142,7 +142,7 @@ TEST(BuilderStart, BeginsWhereItIsToldAndKeepsTheMapThatItIsGiven)
 
 TEST(BuilderStart, DoesNotGrowMapsWhenUpdatingIsOff)
 {
-  CMetricMapBuilderLIO builder(matchingParameters(walk().settings()));
+  CMetricMapBuilderLIO builder(matchingConfig(walk().settings()));
   builder.enableMapUpdating(false);
   drive(builder);
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U);

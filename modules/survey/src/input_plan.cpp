@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/survey/input_plan.h>
 
 #include <algorithm>
@@ -106,11 +107,11 @@ Pose imuPose(const SensorSelection& selection, const SensorOptions& parameters)
   return parameters.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
 }
 
-/** The parameters of those that are asked for, in the order of the selection's. */
-std::vector<FurtherLidarOptions> furtherLidars(const Parameters& parameters)
+/** The options of those that are asked for, in the order of the selection's. */
+std::vector<FurtherLidarOptions> furtherLidars(const SensorOptions& sensors)
 {
   std::vector<FurtherLidarOptions> asked;
-  for (const FurtherLidarOptions& lidar : parameters.further_lidars)
+  for (const FurtherLidarOptions& lidar : sensors.further_lidars)
     if (!lidar.sensor_label.empty()) asked.push_back(lidar);
   return asked;
 }
@@ -129,6 +130,40 @@ void add(InputPlan& plan, const SensorSummary& sensor, LidarPlan lidar)
   plan.lidars.push_back(std::move(lidar));
 }
 
+/** Whether the recording says where the sensor is mounted. */
+bool hasPose(const SensorSummary& sensor)
+{
+  const Pose& T = sensor.T_vehicle_sensor;
+  return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
+}
+
+/** Logs the poses in use and where they come from. */
+void notePoses(
+    InputPlan& plan, const SensorSelection& selection, const SensorOptions& given,
+    const SensorOptions& used)
+{
+  const bool by_factory = used.T_vehicle_imu.has_value() && !given.T_vehicle_imu.has_value();
+  const auto text =
+      [by_factory](
+          const char* name, const SensorSummary& sensor, const std::optional<Pose>& configured)
+  {
+    const std::string origin = by_factory        ? "input.factory_T_imu_lidar"
+                               : configured      ? "the configuration"
+                               : hasPose(sensor) ? "the recording"
+                                                 : "none is given";
+    return std::string(name) + " " + poseText(configured.value_or(sensor.T_vehicle_sensor), 6) +
+           " (" + origin + ")";
+  };
+  plan.notes.push_back(
+      "Poses in the vehicle frame [x, y, z, yaw, pitch, roll] in m and deg: " +
+      text("LiDAR", selection.lidar, used.T_vehicle_lidar) + ", " +
+      text("IMU", selection.imu, used.T_vehicle_imu) + ".");
+  if (given.factory_T_imu_lidar && !by_factory)
+    plan.notes.push_back(
+        "input.factory_T_imu_lidar is not used: the recording or the configuration gives the poses "
+        "of LiDAR and IMU.");
+}
+
 /** LiDARs that could be used and are not. */
 void noteUnused(InputPlan& plan, const SensorSelection& selection)
 {
@@ -140,11 +175,10 @@ void noteUnused(InputPlan& plan, const SensorSelection& selection)
 }
 }  // namespace
 
-SensorPatterns patternsOf(const Parameters& parameters)
+SensorPatterns patternsOf(const SensorOptions& sensors)
 {
-  SensorPatterns patterns{
-      parameters.input.lidar_sensor_label, parameters.input.imu_sensor_label, {}};
-  for (const FurtherLidarOptions& lidar : furtherLidars(parameters))
+  SensorPatterns patterns{sensors.lidar_sensor_label, sensors.imu_sensor_label, {}};
+  for (const FurtherLidarOptions& lidar : furtherLidars(sensors))
     patterns.further_lidar_labels.push_back(lidar.sensor_label);
   return patterns;
 }
@@ -185,18 +219,30 @@ LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters
   return plan;
 }
 
-InputPlan planInput(const SensorSelection& selection, const Parameters& parameters)
+SensorOptions withFactoryMounting(const SensorSelection& selection, SensorOptions sensors)
+{
+  const bool given = sensors.T_vehicle_imu || sensors.T_vehicle_lidar || hasPose(selection.imu) ||
+                     hasPose(selection.lidar);
+  if (given || !sensors.factory_T_imu_lidar) return sensors;
+  sensors.T_vehicle_lidar = Pose{};
+  sensors.T_vehicle_imu = sensors.factory_T_imu_lidar->inverse();
+  return sensors;
+}
+
+InputPlan planInput(
+    const SensorSelection& selection, const SensorOptions& sensors, const LidarOptions& lidar)
 {
   InputPlan plan;
-  const SensorOptions& input = parameters.input;
+  const SensorOptions input = withFactoryMounting(selection, sensors);
   plan.bridge.T_vehicle_imu = input.T_vehicle_imu;
-  const Pose T_imu_vehicle = imuPose(selection, input).inverse();
+  plan.T_vehicle_imu = imuPose(selection, input);
+  const Pose T_imu_vehicle = plan.T_vehicle_imu.inverse();
   if (input.T_vehicle_lidar) plan.bridge.T_imu_lidar = T_imu_vehicle * *input.T_vehicle_lidar;
   add(plan, selection.lidar, planLidar(selection.lidar, input));
   plan.bridge.timing = plan.lidars.front().timing;
 
-  plan.bridge.further_min_range = parameters.lidar.min_range;
-  const auto further = furtherLidars(parameters);
+  plan.bridge.further_min_range = lidar.min_range;
+  const auto further = furtherLidars(sensors);
   for (std::size_t i = 0; i < std::min(further.size(), selection.further_lidars.size()); ++i)
   {
     add(plan, selection.further_lidars[i], planLidar(selection.further_lidars[i], input));
@@ -204,11 +250,12 @@ InputPlan planInput(const SensorSelection& selection, const Parameters& paramete
     options.timing = plan.lidars.back().timing;
     // The offset of the first LiDAR is added to all points later on.
     options.stamp_shift_ns =
-        std::llround(toNanoseconds(further[i].time_offset - parameters.lidar.time_offset));
+        std::llround(toNanoseconds(further[i].time_offset - lidar.time_offset));
     if (further[i].T_vehicle_lidar)
       options.T_imu_lidar = T_imu_vehicle * *further[i].T_vehicle_lidar;
     plan.bridge.further_lidars.push_back(options);
   }
+  notePoses(plan, selection, sensors, input);
   noteUnused(plan, selection);
   return plan;
 }

@@ -72,14 +72,14 @@ ScanSpan liveliest(const std::vector<ImuSample>& samples, double gyro_max, doubl
 
 /** Sensors, their rhythm, and which of them are used. */
 std::optional<SensorSelection> chooseSensors(
-    RecordingSurvey& survey, const FirstPass& pass, const Parameters& parameters)
+    RecordingSurvey& survey, const FirstPass& pass, const SensorOptions& sensors)
 {
   for (std::size_t i = 0; i < pass.survey.sensors.size(); ++i)
     survey.sensors.push_back({pass.survey.sensors[i], reportOn(pass.stamps[i])});
   survey.problems = pass.survey.problems;
   try
   {
-    return selectSensors(pass.survey, patternsOf(parameters));
+    return selectSensors(pass.survey, patternsOf(sensors));
   }
   catch (const std::runtime_error& e)
   {
@@ -100,11 +100,12 @@ void planLidars(
 
 /** How replay would read the sensors; the message of an ambiguity if it would not. */
 BridgeOptions planBridge(
-    RecordingSurvey& survey, const SensorSelection& selection, const Parameters& parameters)
+    RecordingSurvey& survey, const SensorSelection& selection, const SensorOptions& sensors,
+    const LidarOptions& lidar)
 {
   try
   {
-    InputPlan plan = planInput(selection, parameters);
+    InputPlan plan = planInput(selection, sensors, lidar);
     survey.notes = std::move(plan.notes);
     survey.warnings = std::move(plan.warnings);
     return std::move(plan.bridge);
@@ -138,16 +139,16 @@ SurveyProgress half(const SurveyOptions& options, double begin)
 }  // namespace
 
 RecordingSurvey surveyRecording(
-    const std::vector<std::string>& files, const Parameters& parameters,
-    const SurveyOptions& options)
+    const std::vector<std::string>& files, const SensorOptions& sensors,
+    const OdometryOptions& odometry, const SurveyOptions& options)
 {
   RecordingSurvey survey;
   survey.files = files;
   const FirstPass first = readFirst(files, half(options, 0.0));
-  const auto selection = chooseSensors(survey, first, parameters);
+  const auto selection = chooseSensors(survey, first, sensors);
   if (!selection) return survey;
-  planLidars(survey, *selection, parameters.input);
-  const BridgeOptions bridge = planBridge(survey, *selection, parameters);
+  planLidars(survey, *selection, sensors);
+  const BridgeOptions bridge = planBridge(survey, *selection, sensors, odometry.lidar);
 
   const std::size_t imu = indexOf(survey, selection->imu), lidar = survey.lidars.front().index;
   survey.imu_index = imu;
@@ -169,7 +170,7 @@ RecordingSurvey surveyRecording(
     survey.rotation_error =
         logSO3(second.T_imu_lidar.R.transpose() * survey.motion->R_imu_lidar).norm();
   }
-  addRemarks(survey, parameters);
+  addRemarks(survey, withFactoryMounting(*selection, sensors), odometry);
   return survey;
 }
 

@@ -60,7 +60,8 @@ void remarkOnOverlap(RecordingSurvey& survey)
         mrpt::format("The IMU covers %.0f %% of the LiDAR's time only.", 100.0 * overlap.share));
 }
 
-void remarkOnImu(RecordingSurvey& survey, const Parameters& parameters)
+void remarkOnImu(
+    RecordingSurvey& survey, const SensorOptions& sensors, const OdometryOptions& odometry)
 {
   const ImuSurvey& imu = survey.imu;
   const SurveyedSensor& sensor = survey.sensors[*survey.imu_index];
@@ -75,8 +76,8 @@ void remarkOnImu(RecordingSurvey& survey, const Parameters& parameters)
     return;
   }
   const double before = toSeconds(imu.rest_begin_ns - sensor.stamps.first_ns);
-  if (before > parameters.initialization.duration &&
-      parameters.initialization.mode == InitializationMode::Rest)
+  if (before > odometry.initialization.duration &&
+      odometry.initialization.mode == InitializationMode::Rest)
     survey.notes.push_back(mrpt::format(
         "The longest rest (%.1f s) begins %.1f s after the start; initialization.mode: auto does "
         "not wait for it.",
@@ -89,7 +90,7 @@ void remarkOnImu(RecordingSurvey& survey, const Parameters& parameters)
                     imu.accel_norm));
   else if (imu.accel_unit != "m/s^2")
     warn(survey, "The specific force is in " + imu.accel_unit + ", not in m/s^2.");
-  const double tilt = kDegPerRad * tiltOf(survey, parameters);
+  const double tilt = kDegPerRad * tiltOf(survey, sensors);
   if (tilt > kSteepTilt)
     survey.notes.push_back(mrpt::format(
         "By its sensor pose the vehicle stands tilted by %.0f deg at rest; the odometry does not "
@@ -97,7 +98,7 @@ void remarkOnImu(RecordingSurvey& survey, const Parameters& parameters)
         tilt));
 }
 
-void diagnoseMotion(RecordingSurvey& survey, const Parameters& parameters)
+void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
 {
   if (!survey.motion || !survey.motion->conclusive) return;
   const MotionCheck& motion = *survey.motion;
@@ -106,7 +107,7 @@ void diagnoseMotion(RecordingSurvey& survey, const Parameters& parameters)
         survey, mrpt::format(
                     "The gyro turns %.1f times as fast as the LiDAR: it is in deg/s, not rad/s.",
                     motion.scale));
-  const double offset = motion.time_offset - parameters.lidar.time_offset;
+  const double offset = motion.time_offset - odometry.lidar.time_offset;
   if (std::abs(offset) > kOddOffset)
     warn(
         survey, mrpt::format(
@@ -124,22 +125,23 @@ void diagnoseMotion(RecordingSurvey& survey, const Parameters& parameters)
 }
 }  // namespace
 
-double tiltOf(const RecordingSurvey& survey, const Parameters& parameters)
+double tiltOf(const RecordingSurvey& survey, const SensorOptions& sensors)
 {
-  const Pose T_vehicle_imu = parameters.input.T_vehicle_imu.value_or(
-      survey.sensors[*survey.imu_index].summary.T_vehicle_sensor);
+  const Pose T_vehicle_imu =
+      sensors.T_vehicle_imu.value_or(survey.sensors[*survey.imu_index].summary.T_vehicle_sensor);
   const Vec3 up = T_vehicle_imu.R * survey.imu.up;
   return std::acos(std::clamp(up.z(), -1.0, 1.0));
 }
 
-void addRemarks(RecordingSurvey& survey, const Parameters& parameters)
+void addRemarks(
+    RecordingSurvey& survey, const SensorOptions& sensors, const OdometryOptions& odometry)
 {
   for (const SurveyedLidar& lidar : survey.lidars)
     remarkOnRhythm(survey, survey.sensors[lidar.index], "LiDAR");
   remarkOnRhythm(survey, survey.sensors[*survey.imu_index], "IMU");
   remarkOnOverlap(survey);
-  remarkOnImu(survey, parameters);
-  diagnoseMotion(survey, parameters);
+  remarkOnImu(survey, sensors, odometry);
+  diagnoseMotion(survey, odometry);
 }
 
 }  // namespace fastlio

@@ -9,9 +9,10 @@
 namespace fastlio
 {
 /** Adds to survey.notes and survey.warnings. */
-void addRemarks(RecordingSurvey& survey, const Parameters& parameters);
+void addRemarks(
+    RecordingSurvey& survey, const SensorOptions& sensors, const OdometryOptions& odometry);
 
 /** Angle between the vehicle's z axis and up, at rest [rad]. */
-[[nodiscard]] double tiltOf(const RecordingSurvey& survey, const Parameters& parameters);
+[[nodiscard]] double tiltOf(const RecordingSurvey& survey, const SensorOptions& sensors);
 
 }  // namespace fastlio

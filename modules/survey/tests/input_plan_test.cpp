@@ -46,10 +46,12 @@ std::vector<Object> recordingOf(MakeCloud cloud, int scans = 20)
 class InputPlanTest : public BridgeTest
 {
  protected:
-  InputPlan plan(const std::vector<Object>& objects, const Parameters& parameters = {})
+  InputPlan plan(
+      const std::vector<Object>& objects, const SensorOptions& sensors = {},
+      const LidarOptions& lidar = {})
   {
-    selection_ = select(objects, patternsOf(parameters));
-    return planInput(selection_, parameters);
+    selection_ = select(objects, patternsOf(sensors));
+    return planInput(selection_, sensors, lidar);
   }
 
   LidarScan firstScan(const std::vector<Object>& objects, const InputPlan& plan) const
@@ -67,6 +69,39 @@ class InputPlanTest : public BridgeTest
 
   SensorSelection selection_;
 };
+/** Without the pose that the LiDAR of recording() has, or with another. */
+std::vector<Object> withLidarPose(std::vector<Object> objects, const mrpt::poses::CPose3D& pose)
+{
+  for (Object& object : objects)
+    if (const auto seen = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object))
+      seen->sensorPose = pose;
+  return objects;
+}
+
+TEST_F(InputPlanTest, AFactoryMountingIsForRecordingsWithoutPoses)
+{
+  SensorOptions sensors;
+  sensors.factory_T_imu_lidar = Pose{Mat3::Identity(), Vec3(0.1, 0.2, 0.3)};
+  const auto bare = withLidarPose(recording(20), {});
+  const InputPlan found = plan(bare, sensors);
+  EXPECT_TRUE(firstScan(bare, found).T_imu_lidar.p.isApprox(Vec3(0.1, 0.2, 0.3), 1e-12));
+  EXPECT_TRUE(found.T_vehicle_imu.p.isApprox(Vec3(-0.1, -0.2, -0.3), 1e-12));
+  EXPECT_TRUE(contains(found.notes.at(1), "LiDAR [0, 0, 0, 0, 0, 0] (input.factory_T_imu_lidar)"))
+      << found.notes.at(1);
+  EXPECT_TRUE(contains(found.notes.at(1), "IMU [-0.1, -0.2, -0.3, 0, 0, 0]"));
+
+  const auto mounted = withLidarPose(recording(20), mrpt::poses::CPose3D(0, 0, 1, M_PI / 2, 0, 0));
+  const InputPlan kept = plan(mounted, sensors);
+  EXPECT_TRUE(firstScan(mounted, kept).T_imu_lidar.p.isApprox(Vec3(0, 0, 1), 1e-9));
+  EXPECT_GT(firstScan(mounted, kept).T_imu_lidar.R(1, 0), 0.999);
+  EXPECT_TRUE(contains(kept.notes.at(1), "LiDAR [0, 0, 1, 90, 0, 0] (the recording)"))
+      << kept.notes.at(1);
+  EXPECT_TRUE(contains(kept.notes.at(2), "input.factory_T_imu_lidar is not used"));
+
+  sensors.T_vehicle_lidar = Pose{Mat3::Identity(), Vec3(1, 0, 0)};
+  EXPECT_TRUE(firstScan(bare, plan(bare, sensors)).T_imu_lidar.p.isApprox(Vec3(1, 0, 0), 1e-12));
+}
+
 }  // namespace
 
 TEST_F(InputPlanTest, UnitIsFoundAndUsed)
@@ -74,7 +109,7 @@ TEST_F(InputPlanTest, UnitIsFoundAndUsed)
   const auto objects = recordingOf([](double t) { return cloudAt(t, "lidar", {0.0F, 9.9e7F}); });
   const InputPlan found = plan(objects);
   EXPECT_TRUE(found.warnings.empty());
-  ASSERT_EQ(found.notes.size(), 1U);
+  ASSERT_EQ(found.notes.size(), 2U);
   EXPECT_TRUE(contains(found.notes[0], "ns after the stamp")) << found.notes[0];
   EXPECT_TRUE(contains(found.notes[0], "scan period of 0.1 s")) << found.notes[0];
   EXPECT_EQ(firstScan(objects, found).points.time_offset_ns.back(), 99'000'000);
@@ -93,11 +128,11 @@ TEST_F(InputPlanTest, TwoReadingsAreAnErrorUntilOneIsConfigured)
     EXPECT_TRUE(contains(e.what(), "LiDAR 'lidar'")) << e.what();
     EXPECT_TRUE(contains(e.what(), "s or ms")) << e.what();
   }
-  Parameters parameters;
-  parameters.input.point_time_unit = PointTimeUnit::Milliseconds;
-  EXPECT_EQ(firstScan(objects, plan(objects, parameters)).points.time_offset_ns.back(), 500'000);
-  parameters.input.point_time_reference = PointTimeReference::End;
-  EXPECT_EQ(firstScan(objects, plan(objects, parameters)).points.time_offset_ns.front(), -500'000);
+  SensorOptions sensors;
+  sensors.point_time_unit = PointTimeUnit::Milliseconds;
+  EXPECT_EQ(firstScan(objects, plan(objects, sensors)).points.time_offset_ns.back(), 500'000);
+  sensors.point_time_reference = PointTimeReference::End;
+  EXPECT_EQ(firstScan(objects, plan(objects, sensors)).points.time_offset_ns.front(), -500'000);
 }
 
 TEST_F(InputPlanTest, TimesFromTheAzimuthAreSaidLoudly)
@@ -113,19 +148,17 @@ TEST_F(InputPlanTest, TimesFromTheAzimuthAreSaidLoudly)
   EXPECT_NEAR(scan.points.time_offset_ns[250], 25'000'000, 300'000);
   EXPECT_NEAR(scan.points.time_offset_ns[999], 99'900'000, 300'000);
 
-  Parameters parameters;
-  parameters.input.point_time_reference = PointTimeReference::Middle;
+  SensorOptions sensors;
+  sensors.point_time_reference = PointTimeReference::Middle;
   EXPECT_NEAR(
-      firstScan(objects, plan(objects, parameters)).points.time_offset_ns[250], -25'000'000,
-      300'000);
-  parameters.input.missing_point_times = MissingPointTimes::CounterClockwise;
-  parameters.input.sweep_start = 0.0;
-  parameters.input.point_time_reference = PointTimeReference::Auto;
+      firstScan(objects, plan(objects, sensors)).points.time_offset_ns[250], -25'000'000, 300'000);
+  sensors.missing_point_times = MissingPointTimes::CounterClockwise;
+  sensors.sweep_start = 0.0;
+  sensors.point_time_reference = PointTimeReference::Auto;
   EXPECT_NEAR(  // at 3.0 - 90 deg
-      firstScan(objects, plan(objects, parameters)).points.time_offset_ns[250], 22'746'000,
-      300'000);
-  parameters.input.missing_point_times = MissingPointTimes::None;
-  const InputPlan none = plan(objects, parameters);
+      firstScan(objects, plan(objects, sensors)).points.time_offset_ns[250], 22'746'000, 300'000);
+  sensors.missing_point_times = MissingPointTimes::None;
+  const InputPlan none = plan(objects, sensors);
   EXPECT_FALSE(none.lidars[0].compensated);
   EXPECT_TRUE(contains(none.warnings.at(0), "no motion compensation"));
   EXPECT_FALSE(firstScan(objects, none).has_point_times);
@@ -158,13 +191,14 @@ TEST_F(InputPlanTest, SeveralLidarsEachWithItsOwn)
     cloud->sensorPose = mrpt::poses::CPose3D(-2, 0, 1, M_PI, 0, 0);
     objects.push_back(cloud);
   }
-  EXPECT_TRUE(contains(plan(objects).notes.at(1), "lidar_2.sensor_label"));
+  EXPECT_TRUE(contains(plan(objects).notes.back(), "lidar_2.sensor_label"));
 
-  Parameters parameters;
-  parameters.further_lidars[1].sensor_label = "rear";  // any of the groups
-  parameters.further_lidars[1].time_offset = 0.004;
-  parameters.lidar.time_offset = 0.001;
-  const InputPlan found = plan(objects, parameters);
+  SensorOptions sensors;
+  sensors.further_lidars[1].sensor_label = "rear";  // any of the groups
+  sensors.further_lidars[1].time_offset = 0.004;
+  LidarOptions lidar;
+  lidar.time_offset = 0.001;
+  const InputPlan found = plan(objects, sensors, lidar);
   EXPECT_EQ(selection_.lidar.label, "lidar");
   ASSERT_EQ(selection_.further_lidars.size(), 1U);
   ASSERT_EQ(found.lidars.size(), 2U);
@@ -179,6 +213,6 @@ TEST_F(InputPlanTest, SeveralLidarsEachWithItsOwn)
   EXPECT_EQ(scan.points.time_offset_ns.front(), -50'000'000);
   EXPECT_TRUE(scan.T_imu_lidar.p.isApprox(Vec3(-2, 0, 1), 1e-9));
 
-  parameters.further_lidars[1].sensor_label = "roof";
-  EXPECT_THROW((void)plan(objects, parameters), std::runtime_error);
+  sensors.further_lidars[1].sensor_label = "roof";
+  EXPECT_THROW((void)plan(objects, sensors), std::runtime_error);
 }

@@ -15,10 +15,9 @@ enum class RawlogForm
   Actions        //!< pairs of actions (motion) and sensory frames
 };
 
-/** Group `output`. Only imu_rate is used by Odometry itself, the others by who writes files. */
+/** Group `output`. Members without a row in export_option_table.h are constants. */
 struct ExportOptions
 {
-  bool imu_rate = false;           //!< states between scans, at each inertial sample
   std::string exporters;           //!< names, separated by commas; empty: the standard ones
   double tile_size = 50.0;         //!< edge of the pieces that a map is kept in [m]
   double map_memory = 5.0;         //!< so many points of the map stay in memory [million]

@@ -4,9 +4,9 @@
 /** \file pseudo_2d_scan.h A planar scan out of a 3D one, for 2D SLAM. */
 #pragma once
 
+#include <fastlio/exporters/export_options.h>
 #include <fastlio/exporters/pose_track.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/parameters.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 

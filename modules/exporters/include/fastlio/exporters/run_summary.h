@@ -7,7 +7,8 @@
 #include <fastlio/exporters/run_statistics.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/imu/imu_report.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/options/option_table.h>
 
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ struct RunSummary
   std::string configuration;             //!< the YAML file, or which defaults were used
   std::string frame;                     //!< body frame of the exported poses: "vehicle" or "imu"
   std::vector<std::string> sensors;      //!< one line per sensor in use
-  Parameters parameters;                 //!< as used
+  OdometryOptions odometry;              //!< as used
+  std::vector<OptionText> options;       //!< everything that is configured, as used
   std::vector<NamedCount> input_counts;  //!< observations read and dropped, by reason
   RunStatistics statistics;
   ImuReport imu;                            //!< units, rate and faults of the inertial sensor

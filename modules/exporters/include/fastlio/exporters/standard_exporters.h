@@ -4,10 +4,10 @@
 /** \file standard_exporters.h The files that a run writes: one row per format. */
 #pragma once
 
+#include <fastlio/exporters/export_options.h>
 #include <fastlio/exporters/exporter.h>
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/exporters/recording_access.h>
-#include <fastlio/odometry/parameters.h>
 
 #include <string>
 #include <string_view>
@@ -24,6 +24,7 @@ struct ExportTarget
   ExportOptions parameters;   //!< exporters (names, separated by commas) and what they obey
   RecordingAccess recording;  //!< for files that hold raw observations
   double time_offset = 0.0;   //!< added to the stamps of raw scans (lidar.time_offset) [s]
+  bool imu_rate = false;      //!< also imu_rate.csv (output.imu_rate)
 
   /** Path of a file in the directory. */
   [[nodiscard]] std::string path(std::string_view file) const;

@@ -4,7 +4,7 @@
 /** \file recording.h A simulated recording as files. */
 #pragma once
 
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/config/config.h>
 #include <fastlio/simulation/simulation.h>
 
 #include <cstddef>
@@ -35,7 +35,10 @@ RecordingFiles writeRecording(
 /** The odometry's parameters that match the simulated sensors: noise densities (a vibration counts
  * as white noise of the same power), prior of the accelerometer bias, ranges, mounting, time
  * offset, gravity. */
-[[nodiscard]] Parameters matchingParameters(const SimulationSettings& settings);
+[[nodiscard]] Config matchingConfig(const SimulationSettings& settings);
+
+/** The odometry's part of matchingConfig(). */
+[[nodiscard]] OdometryOptions matchingParameters(const SimulationSettings& settings);
 
 /** True pose of the IMU at 200 Hz as TUM text: `time x y z qx qy qz qw`. */
 [[nodiscard]] std::string groundTruthText(const Simulation& simulation);

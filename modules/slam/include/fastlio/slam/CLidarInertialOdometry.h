@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/exporters/pose_track.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/config/config.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <mrpt/containers/yaml.h>
@@ -63,7 +63,7 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
    * \exception std::invalid_argument lists every problem of the document */
   void initialize(const mrpt::containers::yaml& parameters);
   /** The same with parameters that were set in code. */
-  void initialize(const Parameters& parameters);
+  void initialize(const Config& config);
 
   /** Takes an observation of any class; those of other sensors are left alone. Before initialize(),
    * the defaults count. Data never throw: what cannot be used is logged. */
@@ -88,7 +88,7 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** The points of the map that scans are matched with: a copy. */
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr map() const;
 
-  [[nodiscard]] const Parameters& parameters() const;
+  [[nodiscard]] const OdometryOptions& parameters() const;
 
  private:
   class Impl;

@@ -36,7 +36,7 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
  public:
   /** \exception std::invalid_argument a parameter is out of its range */
   explicit CMetricMapBuilderLIO(
-      const Parameters& parameters = {}, const mrpt::maps::TSetOfMetricMapInitializers& maps = {});
+      const Config& config = {}, const mrpt::maps::TSetOfMetricMapInitializers& maps = {});
   ~CMetricMapBuilderLIO() override;
 
   /** Starts anew. The views of \a initialMap go into both maps as they are; the poses that follow
@@ -74,7 +74,7 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
   [[nodiscard]] Pseudo2dScanOptions planarOptions() const;
 
   mutable std::recursive_mutex mutex_;
-  Parameters parameters_;
+  Config config_;
   mrpt::maps::TSetOfMetricMapInitializers definitions_;
   CLidarInertialOdometry odometry_;
   KeyFrameRule rule_;

@@ -5,8 +5,9 @@
  * or told by parameters. */
 #pragma once
 
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/lidar/lidar_options.h>
 #include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/sensors/sensor_options.h>
 #include <fastlio/survey/sensor_selection.h>
 
 #include <string>
@@ -28,13 +29,14 @@ struct LidarPlan
 struct InputPlan
 {
   BridgeOptions bridge;
+  Pose T_vehicle_imu;                 //!< in use
   std::vector<LidarPlan> lidars;      //!< the first LiDAR, then the further ones
   std::vector<std::string> notes;     //!< for people
   std::vector<std::string> warnings;  //!< for people, to be looked at
 };
 
-/** The labels that parameters ask for. */
-[[nodiscard]] SensorPatterns patternsOf(const Parameters& parameters);
+/** The labels that options ask for. */
+[[nodiscard]] SensorPatterns patternsOf(const SensorOptions& sensors);
 
 /** Decides for one LiDAR. An Ambiguous finding leaves the points without times.
  * \param sensor with what surveySensors() saw of its times */
@@ -43,6 +45,13 @@ struct InputPlan
 /** Decides for all of them.
  * \exception std::runtime_error times of points can be read in two ways: the message shows both and
  * says which parameter decides */
-[[nodiscard]] InputPlan planInput(const SensorSelection& selection, const Parameters& parameters);
+[[nodiscard]] InputPlan planInput(
+    const SensorSelection& selection, const SensorOptions& sensors, const LidarOptions& lidar);
+
+/** Sensor options with the factory mounting in place of the poses, where it applies: the recording
+ * gives neither LiDAR nor IMU a pose, and the options give none either. The frame of the LiDAR is
+ * that of the vehicle then. */
+[[nodiscard]] SensorOptions withFactoryMounting(
+    const SensorSelection& selection, SensorOptions sensors);
 
 }  // namespace fastlio

@@ -4,10 +4,11 @@
 /** \file recording_survey.h A recording looked at as a whole, without running the odometry. */
 #pragma once
 
-#include <fastlio/odometry/presets.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/survey/imu_survey.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/lidar_look.h>
+#include <fastlio/survey/lidar_models.h>
 #include <fastlio/survey/motion_check.h>
 #include <fastlio/survey/stamp_report.h>
 
@@ -70,9 +71,9 @@ struct SurveyOptions
 };
 
 /** Reads the recording twice. Never throws for what files contain.
- * \exception std::invalid_argument no files, or parameters that no recording can satisfy */
+ * \exception std::invalid_argument no files, or options that no recording can satisfy */
 [[nodiscard]] RecordingSurvey surveyRecording(
-    const std::vector<std::string>& files, const Parameters& parameters = {},
-    const SurveyOptions& options = {});
+    const std::vector<std::string>& files, const SensorOptions& sensors = {},
+    const OdometryOptions& odometry = {}, const SurveyOptions& options = {});
 
 }  // namespace fastlio

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/config/config.h>
+#include <fastlio/exporters/export_option_table.h>
+#include <fastlio/odometry/odometry_option_table.h>
+#include <fastlio/sensors/sensor_option_table.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+using Rows = OptionTable<Config>;
+
+/** In the order in which people set up a run. */
+constexpr std::array<std::string_view, 15> kGroups = {
+    "input",          "imu",         "lidar",        "lidar_2",  "lidar_3",     "lidar_4",
+    "initialization", "calibration", "downsampling", "features", "measurement", "map",
+    "update",         "rest",        "recovery"};
+
+/** Groups that are not listed come last, in their own order: output, then single keys. */
+auto placeOf(std::string_view key)
+{
+  return std::find(kGroups.begin(), kGroups.end(), groupOf(key)) - kGroups.begin() +
+         (groupOf(key).empty() ? 1 : 0);
+}
+
+Rows allRows()
+{
+  Rows all = rowsOf(
+      sensorOptionTable(), +[](Config& c) -> SensorOptions& { return c.sensors; });
+  const Rows odometry = rowsOf(
+      odometryOptionTable(), +[](Config& c) -> OdometryOptions& { return c.odometry; });
+  const Rows exporters = rowsOf(
+      exportOptionTable(), +[](Config& c) -> ExportOptions& { return c.exporters; });
+  all.insert(all.end(), odometry.begin(), odometry.end());
+  all.insert(all.end(), exporters.begin(), exporters.end());
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const auto& a, const auto& b) { return placeOf(a.key) < placeOf(b.key); });
+  return all;
+}
+}  // namespace
+
+const OptionTable<Config>& configTable()
+{
+  static const Rows table = allRows();
+  return table;
+}
+
+void validate(const Config& config)
+{
+  auto problems = problemsOf(sensorOptionTable(), config.sensors);
+  for (const auto& more :
+       {optionProblems(config.odometry), problemsOf(exportOptionTable(), config.exporters)})
+    problems.insert(problems.end(), more.begin(), more.end());
+  if (problems.empty()) return;
+  std::string text = "Config: " + std::to_string(problems.size()) +
+                     (problems.size() == 1 ? " problem:" : " problems:");
+  for (const auto& problem : problems)
+    text += "\n  " + problem;
+  throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
+}
+
+}  // namespace fastlio

@@ -1,0 +1,78 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/exporters/export_option_table.h>
+#include <fastlio/math/angles.h>
+
+namespace fastlio
+{
+namespace
+{
+using Rows = OptionTable<ExportOptions>;
+
+Rows exportRows()
+{
+  return {
+      {"output.exporters", "",
+       [](auto& o) -> OptionValue {
+         return TextValue{&o.exporters, "names separated by commas"};
+       },
+       "which files are written: names of docs/outputs.md, separated by commas; empty: the "
+       "standard ones",
+       OptionTier::Main},
+      {"output.rawlog_form", "",
+       [](auto& o) -> OptionValue {
+         return choice(&o.rawlog_form, {"observations", "actions"});
+       },
+       "odometry.rawlog: single observations in order of time, or pairs of an action (the motion) "
+       "and a sensory frame, as rbpf-slam and graphslam-engine take them"},
+      {"output.rawlog_pass_through", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.rawlog_pass_through}; },
+       "odometry.rawlog: also holds the observations of the input"},
+      {"output.rawlog_scan_2d", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.rawlog_scan_2d}; },
+       "odometry.rawlog: also holds a planar scan, cut from each LiDAR scan in a plane that is "
+       "level whatever the attitude, for 2D SLAM"},
+      {"output.scan_2d_rays", "",
+       [](auto& o) -> OptionValue {
+         return IntegerValue{&o.scan_2d_rays, 8, 36000};
+       },
+       "rays of the planar scan, all around"},
+      {"output.scan_2d_height", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.scan_2d_height, -100.0, 100.0};
+       },
+       "height of the planar scan above the LiDAR"},
+      {"output.scan_2d_thickness", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.scan_2d_thickness, 0.01, 10.0};
+       },
+       "thickness of the slice that the planar scan is made of; the nearest point in a ray counts"},
+      {"output.map_memory", "million",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.map_memory, 0.01, 1e4};
+       },
+       "so many points of the map that is saved stay in memory; beyond it, the pieces that were "
+       "not added to for longest go to files in the output folder"},
+      {"output.keyframe_distance", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.keyframe_distance, 0.01, 1e4};
+       },
+       "key frames (simplemap, pose graph): the next one after so much travel"},
+      {"output.keyframe_angle", "deg",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.keyframe_angle, 0.1, 180.0, kRadPerDeg};
+       },
+       "key frames: or after so much rotation"},
+  };
+}
+
+}  // namespace
+
+const OptionTable<ExportOptions>& exportOptionTable()
+{
+  static const Rows table = exportRows();
+  return table;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,210 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "odometry_option_rows.h"
+#include <fastlio/math/angles.h>
+
+namespace fastlio
+{
+OdometryOptionRows initializationRows()
+{
+  return {
+      {"initialization.mode", "",
+       [](auto& o) -> OptionValue {
+         return choice(&o.initialization.mode, {"rest", "motion", "auto"});
+       },
+       "rest: the platform has to rest once at the start; motion: velocity, gravity and gyro bias "
+       "come from the first scans; auto: at rest where inertial data and scans say so, else in "
+       "motion",
+       OptionTier::Main},
+      {"initialization.duration", "s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.duration, 0.1, 60.0};
+       },
+       "time at rest that is averaged at the start; longer: better gravity direction and gyro bias",
+       OptionTier::Main},
+      {"initialization.max_gyro_std", "deg/s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.max_gyro_std, 0.001, 500.0, kRadPerDeg};
+       },
+       "the platform does not rest when the angular rate scatters more than this"},
+      {"initialization.max_accel_std", "m/s^2",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.max_accel_std, 0.001, 100.0};
+       },
+       "the platform does not rest when the specific force scatters more than this"},
+      {"initialization.max_gyro_mean", "deg/s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.max_gyro_mean, 0.001, 500.0, kRadPerDeg};
+       },
+       "the platform does not rest when the mean angular rate is above this; must exceed the gyro "
+       "bias"},
+      {"initialization.gravity", "m/s^2",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.gravity, 1.0, 30.0};
+       },
+       "magnitude of gravity at the start"},
+      {"initialization.max_gravity_error", "m/s^2",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.max_gravity_error, 0.01, 20.0};
+       },
+       "the platform does not rest when the magnitude of the mean specific force differs more than "
+       "this from gravity"},
+      {"initialization.accel_bias_std", "m/s^2",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.accel_bias_std, 0.0, 10.0};
+       },
+       "uncertainty of the accelerometer bias at the start, around zero"},
+      {"initialization.align_with_gravity", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.initialization.align_with_gravity}; },
+       "true: the z axis of the world points up; false: the world is the first IMU frame, as in "
+       "the paper"},
+      {"initialization.motion_duration", "s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.motion_duration, 0.1, 60.0};
+       },
+       "start in motion: time of the first scans that are looked at; longer: better gravity "
+       "direction, later start"},
+      {"initialization.motion_gyro_bias_std", "deg/s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.motion_gyro_bias_std, 0.0, 60.0, kRadPerDeg};
+       },
+       "start in motion: uncertainty of the gyro bias, around zero"},
+      {"initialization.pose_position_std", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.pose_position_std, 0.0, 100.0};
+       },
+       "a start in a given map (--map-in): uncertainty of the position that is given; the first "
+       "scan is searched that far around it"},
+      {"initialization.pose_yaw_std", "deg",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.initialization.pose_yaw_std, 0.0, 180.0, kRadPerDeg};
+       },
+       "the same of the heading; searched to twice as much"},
+  };
+}
+
+OdometryOptionRows imuRows()
+{
+  return {
+      {"imu.gyro_noise_density", "rad/s/sqrt(Hz)",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.noise.gyro_noise_density, 1e-7, 10.0};
+       },
+       "white noise of the angular rate; above the data sheet when the IMU vibrates",
+       OptionTier::Main},
+      {"imu.accel_noise_density", "m/s^2/sqrt(Hz)",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.noise.accel_noise_density, 1e-7, 100.0};
+       },
+       "white noise of the specific force; above the data sheet when the IMU vibrates",
+       OptionTier::Main},
+      {"imu.gyro_bias_walk", "rad/s^2/sqrt(Hz)",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.noise.gyro_bias_walk, 0.0, 10.0};
+       },
+       "how fast the gyro bias wanders", OptionTier::Main},
+      {"imu.accel_bias_walk", "m/s^3/sqrt(Hz)",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.noise.accel_bias_walk, 0.0, 100.0};
+       },
+       "how fast the accelerometer bias wanders", OptionTier::Main},
+      {"imu.hold", "",
+       [](auto& o) -> OptionValue {
+         return choice(&o.imu.hold, {"midpoint", "left"});
+       },
+       "input between two samples: midpoint is their interpolation in the middle of the period; "
+       "left is the sample at its start, as in the paper"},
+      {"imu.max_gap", "s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.max_gap, 0.001, 60.0};
+       },
+       "a longer gap between inertial samples re-initialises the run, with the pose carried over; "
+       "shorter ones are bridged with more noise"},
+      {"imu.accel_unit", "",
+       [](auto& o) -> OptionValue {
+         return choice(&o.imu.accel_unit, {"auto", "m/s^2", "g", "mg"});
+       },
+       "unit of the specific force; auto: from the magnitude of the first 0.2 s"},
+      {"imu.gyro_unit", "",
+       [](auto& o) -> OptionValue {
+         return choice(&o.imu.gyro_unit, {"auto", "rad/s", "deg/s"});
+       },
+       "unit of the angular rate; auto: rad/s until gravity turns in the sensor's frame as if it "
+       "were deg/s, then the run starts anew"},
+      {"imu.invert_acceleration", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.imu.invert_acceleration}; },
+       "true: the sensor gives the acceleration of gravity (downwards at rest) instead of the "
+       "specific force; a sensor mounted upside down needs nothing"},
+      {"imu.gyro_range", "deg/s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.gyro_range, 0.0, 100000.0, kRadPerDeg};
+       },
+       "full scale of the gyro, where it clips; 0: discovered, as the value that repeats at the "
+       "extreme"},
+      {"imu.accel_range", "m/s^2",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.imu.accel_range, 0.0, 100000.0};
+       },
+       "full scale of the accelerometer, where it clips; 0: discovered, as the value that repeats "
+       "at the extreme"},
+  };
+}
+
+OdometryOptionRows lidarRows()
+{
+  return {
+      {"lidar.min_range", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.lidar.min_range, 0.0, 1000.0};
+       },
+       "nearer points are dropped: the platform itself, the operator", OptionTier::Main},
+      {"lidar.max_range", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.lidar.max_range, 0.1, 10000.0};
+       },
+       "farther points are dropped", OptionTier::Main},
+      {"lidar.time_offset", "s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.lidar.time_offset, -10.0, 10.0};
+       },
+       "added to the stamps of the LiDAR to bring them to the clock of the IMU", OptionTier::Main},
+      {"lidar.deskew", "", [](auto& o) -> OptionValue { return BooleanValue{&o.lidar.deskew}; },
+       "motion compensation of every point with its own time (eq. 9-10); false only for scans "
+       "without motion inside"},
+  };
+}
+
+OdometryOptionRows calibrationRows()
+{
+  return {
+      {"calibration.estimate_extrinsic", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.calibration.estimate_extrinsic}; },
+       "true: the pose of the LiDAR in the IMU frame is part of the state; what the motion does "
+       "not excite stays as given",
+       OptionTier::Main},
+      {"calibration.estimate_time_offset", "",
+       [](auto& o) -> OptionValue { return BooleanValue{&o.calibration.estimate_time_offset}; },
+       "true: the time offset between LiDAR and IMU is part of the state, starting at "
+       "lidar.time_offset; not in runs that start in motion or with another map.type than planes, "
+       "which keep it as given",
+       OptionTier::Main},
+      {"calibration.extrinsic_rotation_std", "deg",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.calibration.extrinsic_rotation_std, 0.0, 180.0, kRadPerDeg};
+       },
+       "uncertainty of the given rotation of the LiDAR, per axis"},
+      {"calibration.extrinsic_translation_std", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.calibration.extrinsic_translation_std, 0.0, 10.0};
+       },
+       "uncertainty of the given position of the LiDAR, per axis"},
+      {"calibration.time_offset_std", "s",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.calibration.time_offset_std, 0.0, 1.0};
+       },
+       "uncertainty of lidar.time_offset"},
+  };
+}
+
+}  // namespace fastlio

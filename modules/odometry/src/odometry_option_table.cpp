@@ -1,0 +1,48 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "odometry_option_rows.h"
+
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+OdometryOptionRows allRows()
+{
+  OdometryOptionRows all;
+  for (const auto& rows :
+       {initializationRows(), imuRows(), lidarRows(), calibrationRows(), scanRows(),
+        measurementRows(), behaviourRows()})
+    all.insert(all.end(), rows.begin(), rows.end());
+  return all;
+}
+}  // namespace
+
+const OptionTable<OdometryOptions>& odometryOptionTable()
+{
+  static const OdometryOptionRows table = allRows();
+  return table;
+}
+
+std::vector<std::string> optionProblems(const OdometryOptions& options)
+{
+  auto problems = problemsOf(odometryOptionTable(), options);
+  if (!(options.lidar.min_range < options.lidar.max_range))
+    problems.emplace_back("lidar.min_range: must be below lidar.max_range");
+  return problems;
+}
+
+void validate(const OdometryOptions& options)
+{
+  const auto problems = optionProblems(options);
+  if (problems.empty()) return;
+  std::string text = "OdometryOptions: " + std::to_string(problems.size()) +
+                     (problems.size() == 1 ? " problem:" : " problems:");
+  for (const auto& problem : problems)
+    text += "\n  " + problem;
+  throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
+}
+
+}  // namespace fastlio

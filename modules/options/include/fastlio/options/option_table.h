@@ -1,0 +1,125 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file option_table.h Tables of options: one row per option is the single source of files,
+ * command lines, checks and documents. A new option is one struct member and one row. */
+#pragma once
+
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/option_value.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fastlio
+{
+/** Who changes an option. */
+enum class OptionTier
+{
+  Main,   //!< most users: it describes the sensors or what is wanted
+  Expert  //!< an experiment, or a user with an odd sensor
+};
+
+/** One option of the struct \a Options. */
+template <typename Options>
+struct OptionRow
+{
+  std::string_view key;   //!< `group.name` or `name`
+  std::string_view unit;  //!< of the text; empty when there is none
+  std::function<OptionValue(Options&)> value;
+  std::string_view effect;  //!< what it does, one or two sentences without a full stop at the end
+  OptionTier tier = OptionTier::Expert;
+};
+
+template <typename Options>
+using OptionTable = std::vector<OptionRow<Options>>;
+
+/** The group of a key; empty for a key outside of the groups. */
+[[nodiscard]] std::string_view groupOf(std::string_view key);
+/** The key without its group. */
+[[nodiscard]] std::string_view nameOf(std::string_view key);
+
+/** The row of a key, or nullptr. */
+template <typename Options>
+const OptionRow<Options>* findOption(const OptionTable<Options>& table, std::string_view key)
+{
+  for (const auto& row : table)
+    if (row.key == key) return &row;
+  return nullptr;
+}
+
+/** The key of the table that is most like \a key. */
+template <typename Options>
+std::string nearestKey(const OptionTable<Options>& table, std::string_view key)
+{
+  std::vector<std::string_view> keys;
+  for (const auto& row : table)
+    keys.push_back(row.key);
+  return std::string(nearestName(key, keys));
+}
+
+/** The value of an option as text. \a options is a copy: a row gives access to write. */
+template <typename Options>
+std::string valueText(const OptionRow<Options>& row, Options options)
+{
+  return valueText(row.value(options));
+}
+
+/** What may stand in the text of an option. */
+template <typename Options>
+std::string allowedText(const OptionRow<Options>& row)
+{
+  Options options{};
+  return allowedText(row.value(options), row.unit);
+}
+
+/** What is wrong with the values of \a options, each with its key: "map.radius: -1 is ...". */
+template <typename Options>
+std::vector<std::string> problemsOf(const OptionTable<Options>& table, Options options)
+{
+  std::vector<std::string> problems;
+  for (const auto& row : table)
+    if (const auto problem = valueProblem(row.value(options), row.unit))
+      problems.push_back(std::string(row.key) + ": " + *problem);
+  return problems;
+}
+
+/** An option for documents. */
+struct OptionText
+{
+  std::string key;
+  std::string text;      //!< in YAML notation, or as it is if is_text
+  bool is_text = false;  //!< text, even where it looks like a number or a list
+};
+
+/** All options as text. */
+template <typename Options>
+std::vector<OptionText> textsOf(const OptionTable<Options>& table, Options options)
+{
+  std::vector<OptionText> texts;
+  for (const auto& row : table)
+  {
+    const OptionValue value = row.value(options);
+    const auto plain = plainText(value);
+    texts.push_back({std::string(row.key), plain ? *plain : valueText(value), plain.has_value()});
+  }
+  return texts;
+}
+
+/** The rows of a part as rows of the whole. \param part gives the part of a whole */
+template <typename Whole, typename Part>
+OptionTable<Whole> rowsOf(const OptionTable<Part>& table, Part& (*part)(Whole&))
+{
+  OptionTable<Whole> rows;
+  for (const auto& row : table)
+    rows.push_back(
+        {row.key, row.unit, [value = row.value, part](Whole& whole) { return value(part(whole)); },
+         row.effect, row.tier});
+  return rows;
+}
+
+}  // namespace fastlio

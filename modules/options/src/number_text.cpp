@@ -1,0 +1,81 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/math/angles.h>
+#include <fastlio/options/number_text.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+std::array<double, 6> sixNumbers(const Pose& pose)
+{
+  const Mat3& R = pose.R;
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
+  // At a pitch of +-90 deg only yaw -+ roll is defined: choose roll = 0.
+  const bool upright = std::hypot(R(2, 1), R(2, 2)) > 1e-9;
+  const double yaw = upright ? std::atan2(R(1, 0), R(0, 0)) : std::atan2(-R(0, 1), R(1, 1));
+  const double roll = upright ? std::atan2(R(2, 1), R(2, 2)) : 0.0;
+  return {pose.p.x(),       pose.p.y(),         pose.p.z(),
+          yaw * kDegPerRad, pitch * kDegPerRad, roll * kDegPerRad};
+}
+}  // namespace
+
+std::string shortestText(double value)
+{
+  constexpr double kPlainFrom = 1e-4;
+  constexpr double kPlainBelow = 1e9;
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= kPlainFrom && size < kPlainBelow);
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(
+      buffer.data(), buffer.data() + buffer.size(), value,
+      plain ? std::chars_format::fixed : std::chars_format::scientific);
+  return {buffer.data(), end.ptr};
+}
+
+std::string numberText(double value, int digits)
+{
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(
+      buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+  const std::string text(buffer.data(), end.ptr);
+  return shortestText(parsed<double>(text).value_or(value));
+}
+
+std::string shortestText(double value, double si_per_unit)
+{
+  constexpr int kAllDigits = 17;
+  for (int digits = 1; digits < kAllDigits; ++digits)
+  {
+    std::string text = numberText(value / si_per_unit, digits);
+    const auto back = parsed<double>(text);
+    if (back && *back * si_per_unit == value) return text;
+  }
+  return shortestText(value / si_per_unit);
+}
+
+Pose poseFromSixNumbers(const std::array<double, 6>& numbers)
+{
+  using Eigen::AngleAxisd;
+  const Mat3 R = (AngleAxisd(numbers[3] / kDegPerRad, Vec3::UnitZ()) *
+                  AngleAxisd(numbers[4] / kDegPerRad, Vec3::UnitY()) *
+                  AngleAxisd(numbers[5] / kDegPerRad, Vec3::UnitX()))
+                     .toRotationMatrix();
+  return {R, {numbers[0], numbers[1], numbers[2]}};
+}
+
+std::string poseText(const Pose& pose, int digits)
+{
+  std::string text;
+  for (const double number : sixNumbers(pose))
+    text +=
+        (text.empty() ? "[" : ", ") + numberText(std::abs(number) < 1e-13 ? 0.0 : number, digits);
+  return text + "]";
+}
+
+}  // namespace fastlio
