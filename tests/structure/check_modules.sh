@@ -3,10 +3,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: tests/structure/check_modules.sh [SOURCE_DIR]           check
-#        tests/structure/check_modules.sh --write [SOURCE_DIR]   write the column "includes" of the table anew
+#        tests/structure/check_modules.sh --write [SOURCE_DIR]  write the column "includes" anew
 #
-# Two tables of the page are read: that of the modules (header "| module | ... | includes |") and that of the limits
-# (header "| limit | value |"). Names in the column "includes" are those of modules, separated by blanks; "-" is none.
+# Three tables of the page are read, by their headers: "| module | ... | includes |", "| property | modules |" and
+# "| limit | value |". Names of modules are separated by commas; "-" is none. --write also writes the properties.
 set -eu
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -77,6 +77,31 @@ check_module() {
   return 0
 }
 
+# The modules whose headers or sources include one of the headers of an extended regular expression.
+modules_including() {
+  while read -r module; do
+    found=$(find "modules/$module" -path '*/tests' -prune -o -type f -exec grep -lE "^# *include *<($1)" {} + 2>/dev/null || true)
+    [ -z "$found" ] || echo "$module"
+  done <"$work/order" | tr '\n' ' '
+}
+
+# Names of the rows of "| property | modules |", and the headers that give a module the property.
+mrpt="MRPT classes"
+mrpt_headers='mrpt/'
+file="files"
+file_headers='fstream|zlib|mrpt/io/|fastlio/files/'
+
+# check_property NAME HEADERS
+check_property() {
+  listed=$(awk -F '|' -v name="$1" '
+    /^\| *property *\|/ { on = 1; next }
+    on && !/^\|/ { exit }
+    on { sub(/^ */, "", $2); sub(/ *$/, "", $2); if ($2 == name) { gsub(/[`,]/, " ", $3); print $3 } }
+  ' "$page" | awk '{ $1 = $1; print }')
+  actual=$(modules_including "$2" | awk '{ $1 = $1; print }')
+  [ "$listed" = "$actual" ] || echo "$page: '$1' are used by '$listed', but headers of them are included by '$actual'"
+}
+
 check_members() {
   limit=$(limit_of "data members of a class")
   if [ -z "$limit" ]; then
@@ -107,6 +132,17 @@ check_presets() {
   done
 }
 
+write_property() {
+  awk -F '|' -v OFS='|' -v name="$1" -v list="$(modules_including "$2")" '
+    /^\| *property *\|/ { on = 1 }
+    on && !/^\|/ { on = 0 }
+    on { key = $2; sub(/^ */, "", key); sub(/ *$/, "", key)
+      if (key == name) { sub(/ *$/, "", list); gsub(/ /, ", ", list); $3 = " " list " " } }
+    { print }
+  ' "$page" >"$work/page"
+  cat "$work/page" >"$page"
+}
+
 write_includes() {
   while read -r module _; do
     [ ! -d "modules/$module" ] || echo "$module $(included_by "$module")"
@@ -120,6 +156,8 @@ write_includes() {
     { print }
   ' "$work/actual" "$page" >"$work/page"
   cat "$work/page" >"$page"
+  write_property "$mrpt" "$mrpt_headers"
+  write_property "$file" "$file_headers"
 }
 
 documented_modules >"$work/modules"
@@ -133,6 +171,8 @@ fi
   while read -r module includes; do
     check_module "$module" "$includes"
   done <"$work/modules"
+  check_property "$mrpt" "$mrpt_headers"
+  check_property "$file" "$file_headers"
   check_members
   within "main keys" "$(main_keys)"
   check_presets

@@ -15,13 +15,18 @@ fail() {
   exit 1
 }
 
-# page LOW HIGH: the page with what the table says of both modules.
+# page LOW HIGH [MRPT]: the page with what the tables say of both modules.
 page() {
   cat >docs/architecture.md <<END
 | module | holds | includes |
 |---|---|---|
 | \`low\` | a, b | $1 |
 | \`high\` | c | $2 |
+
+| property | modules |
+|---|---|
+| MRPT classes | ${3:-} |
+| files | |
 
 | limit | value |
 |---|--:|
@@ -78,6 +83,11 @@ expect_failure "an include of a later module" "modules/low: includes 'high', whi
 echo '#include <fastlio/else/c.h>' >>modules/high/src/b.cpp
 expect_failure "an include of no module" "'high' includes 'low', but its sources include 'low else'" 2
 
+echo '#include <mrpt/obs/CObservation.h>' >>modules/high/src/b.cpp
+expect_failure "a use of MRPT that the table lacks" "'MRPT classes' are used by '', but .* by 'high'"
+page - low high
+expect_failure "a use of MRPT that is not there" "'MRPT classes' are used by 'high', but .* by ''"
+
 mkdir modules/other
 expect_failure "a module without a row" 'modules/other: not in the table'
 rmdir modules/other
@@ -95,8 +105,9 @@ expect_failure "three main keys" 'main keys: 3, but docs/architecture.md says 1 
 printf 'a:\n  x: 1\n  y: 1\n  z: 1\n' >params/one.yaml
 expect_failure "a preset of four lines" 'params/one.yaml: lines of a preset: 4, but'
 
-page high -
+page high - low
 "$here/check_modules.sh" --write "$tree" >out || fail "writing the table: $(cat out)"
 grep -q '^| `high` | c | low |$' docs/architecture.md || fail "the table that was written: $(cat docs/architecture.md)"
+grep -q '^| MRPT classes |  |$' docs/architecture.md || fail "the property that was written: $(cat docs/architecture.md)"
 expect_pass "the tree after all"
 echo "The check of the modules finds what it should."
