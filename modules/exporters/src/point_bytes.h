@@ -10,7 +10,8 @@
 
 namespace fastlio
 {
-/** Writes all points of the map, tile by tile. \exception std::runtime_error the disk refused */
+/** Writes all points of the map, tile by tile.
+ * \exception std::runtime_error the disk refused */
 void writePoints(const OutputMap& map, AtomicFile& file);
 
 }  // namespace fastlio

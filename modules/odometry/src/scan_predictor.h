@@ -37,7 +37,7 @@ class ScanPredictor
 {
  public:
   explicit ScanPredictor(const OdometryOptions& options)
-      : imu_(options.imu), imu_rate_wanted_(options.output.imu_rate)
+      : imu_(options.imu), imu_rate_wanted_(options.imu_rate)
   {
   }
 

@@ -34,7 +34,8 @@ class Team
   Team& operator=(const Team&) = delete;
 
   /** Calls call(context, chunk) for each chunk below \a count on this thread and the helpers;
-   * returns when all have ended. \exception whatever was thrown first; chunks that had not begun
+   * returns when all have ended.
+   * \exception whatever was thrown first; chunks that had not begun
    * are left out then */
   void loop(std::size_t count, ChunkCall call, const void* context);
 

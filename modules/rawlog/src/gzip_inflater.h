@@ -43,7 +43,8 @@ class GzipInflater
       std::uint32_t output_size) = 0;
 };
 
-/** zlib. \exception std::bad_alloc */
+/** zlib.
+ * \exception std::bad_alloc */
 [[nodiscard]] std::unique_ptr<GzipInflater> makeZlibInflater();
 
 /** Intel's ISA-L, 2.5 times as fast (fastlio-microbenchmark --benchmark_filter=inflate); null where

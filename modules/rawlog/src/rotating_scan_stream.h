@@ -37,7 +37,8 @@ constexpr RotatingScanLayout kNativeRotatingScan = FASTLIO_MRPT_HAS_ROTATING_POI
 [[nodiscard]] std::shared_ptr<RotatingScan> readRotatingScan(mrpt::serialization::CArchive& in);
 
 /** Loads images that lie in a file of their own; does nothing for others.
- * \param path the file \exception std::exception it cannot be read */
+ * \param path the file
+ * \exception std::exception it cannot be read */
 void loadRotatingScan(RotatingScan& scan, const std::string& path);
 
 /** The file that holds the images as the recording names it; empty: they are in the recording. */

@@ -54,7 +54,8 @@ struct LaserGeometry
 [[nodiscard]] FiringTiming timingOf(VelodyneModel model);
 
 /** All lasers, in the order of the packets: from the calibration if it has as many lasers as the
- * model, else the model's default. \exception std::runtime_error HDL-64E without a calibration: it
+ * model, else the model's default.
+ * \exception std::runtime_error HDL-64E without a calibration: it
  * has no default */
 [[nodiscard]] std::vector<LaserGeometry> lasersOf(
     VelodyneModel model, const mrpt::obs::VelodyneCalibration& calibration);

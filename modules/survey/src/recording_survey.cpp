@@ -40,7 +40,8 @@ ClockOverlap overlapOf(
 }
 
 /** How well a rate shows in the match of two scans: better the faster, up to where they hardly
- * overlap any more. \param rate [rad/s] */
+ * overlap any more.
+ * \param rate [rad/s] */
 double usefulness(double rate)
 {
   constexpr double kFast = 1.5, kTooFast = 3.0;

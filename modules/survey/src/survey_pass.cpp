@@ -163,7 +163,8 @@ class TurnFinder
   }
 
   /** The motion between two scans' middles.
-   * \param in_earlier, in_later motions within the scans \param guess of the result */
+   * \param in_earlier, in_later motions within the scans
+   * \param guess of the result */
   static std::optional<MotionKnot> matched(
       const TimedScan& earlier, const TimedScan& later, const MotionKnot& in_earlier,
       const MotionKnot& in_later, const MotionKnot& guess)

@@ -15,7 +15,8 @@
 namespace fastlio
 {
 /** So many values from a stream. A hostile length allocates no more than twice what the stream
- * really holds. \exception std::runtime_error the stream ends before; \a what names the object */
+ * really holds.
+ * \exception std::runtime_error the stream ends before; \a what names the object */
 template <typename Column>
 Column readColumn(mrpt::serialization::CArchive& in, std::size_t length, const char* what)
 {

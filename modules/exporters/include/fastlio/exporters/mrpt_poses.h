@@ -15,8 +15,8 @@ namespace fastlio
 {
 /** The covariance in MRPT's order (x, y, z, yaw, pitch, roll), position as it is, the attitude
  * error of the body frame as errors of the three angles, to first order. Where the pitch is +-90
- * deg these angles are not defined; there the pitch counts as 0.06 deg less. \param covariance
- * (attitude in the body frame [rad], position in the frame of the pose [m]) */
+ * deg these angles are not defined; there the pitch counts as 0.06 deg less.
+ * \param covariance (attitude in the body frame [rad], position in the frame of the pose [m]) */
 [[nodiscard]] mrpt::math::CMatrixDouble66 mrptCovariance(
     const Pose& pose, const Matrix6& covariance);
 

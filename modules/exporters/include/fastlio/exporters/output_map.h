@@ -56,14 +56,16 @@ class OutputMap
   OutputMap& operator=(const OutputMap&) = delete;
 
   /** Adds points; those that are not finite, or farther than 10000 km from the origin, are left
-   * out. \exception std::runtime_error a tile cannot be written to disk or read back */
+   * out.
+   * \exception std::runtime_error a tile cannot be written to disk or read back */
   void insert(const OutputPoints& points);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t pointsInMemory() const { return in_memory_; }
 
   /** Hands over every tile once, always in the same order; only one at a time is in memory beside
-   * those that are there anyway. \exception std::runtime_error a tile cannot be read back */
+   * those that are there anyway.
+   * \exception std::runtime_error a tile cannot be read back */
   void forEachTile(const std::function<void(const OutputPoints&)>& use) const;
 
  private:

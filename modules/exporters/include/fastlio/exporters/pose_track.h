@@ -71,7 +71,8 @@ class PoseTrack
 class KeyFrameRule
 {
  public:
-  /** \param distance [m] \param angle [rad] */
+  /** \param distance [m]
+   * \param angle [rad] */
   KeyFrameRule(double distance, double angle) : distance_(distance), angle_(angle) {}
 
   /** True when \a T_world_body is a new key frame. */

@@ -37,13 +37,16 @@ void prepareOutputDirectory(const std::string& directory);
 class AtomicFile
 {
  public:
-  /** Opens the temporary file. \exception std::runtime_error it cannot be opened */
+  /** Opens the temporary file.
+   * \exception std::runtime_error it cannot be opened */
   explicit AtomicFile(std::string path);
 
-  /** Appends bytes. \exception std::runtime_error the disk refused them */
+  /** Appends bytes.
+   * \exception std::runtime_error the disk refused them */
   void write(std::string_view bytes);
 
-  /** Flushes, closes and renames. \exception std::runtime_error the bytes did not reach the disk or
+  /** Flushes, closes and renames.
+   * \exception std::runtime_error the bytes did not reach the disk or
    * the rename failed */
   OutputFile commit();
 
@@ -54,7 +57,8 @@ class AtomicFile
   std::ofstream out_;
 };
 
-/** A whole file in one go. \exception std::runtime_error the file cannot be written */
+/** A whole file in one go.
+ * \exception std::runtime_error the file cannot be written */
 OutputFile writeFileAtomically(const std::string& path, std::string_view content);
 
 }  // namespace fastlio

@@ -26,7 +26,8 @@ struct MotionKnot
 
 /** Eq. 9 from t_k backwards over the scan's inertial samples, as the exact inverse of the forward
  * steps (eq. 4): the knots meet the forward poses relative to the end to within rounding.
- * \param end_state state at t_k \param end_ns t_k [ns]
+ * \param end_state state at t_k
+ * \param end_ns t_k [ns]
  * \param samples time-ordered; sample i holds until sample i+1, the last one until t_k; samples at
  * or after t_k take no part
  * \param knots replaced by knots at the samples' stamps, ascending, the last being t_k itself (it

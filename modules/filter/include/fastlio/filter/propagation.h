@@ -38,15 +38,19 @@ struct ProcessJacobians
     const NavState& x, const Vec3& gyro, const Vec3& accel, double dt);
 
 /** Fx Phi: the transition Phi of the error state over the steps before, and over one more from x.
- * \param gyro w_m [rad/s] \param accel a_m [m/s^2] \param dt [s] */
+ * \param gyro w_m [rad/s]
+ * \param accel a_m [m/s^2]
+ * \param dt [s] */
 [[nodiscard]] StateMatrix chainTransition(
     const StateMatrix& transition, const NavState& x, const Vec3& gyro, const Vec3& accel,
     double dt);
 
 /** One step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block and symmetric
- * to the bit. The discrete noise of a zero-order-hold sample is density^2 / dt per axis. \param
- * gyro w_m [rad/s] \param accel a_m [m/s^2] \param dt [s], 0 changes nothing \throw
- * std::invalid_argument when dt is negative or not a number */
+ * to the bit. The discrete noise of a zero-order-hold sample is density^2 / dt per axis.
+ * \param gyro w_m [rad/s]
+ * \param accel a_m [m/s^2]
+ * \param dt [s], 0 changes nothing
+ * \throw std::invalid_argument when dt is negative or not a number */
 [[nodiscard]] FilterState propagate(
     const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise);
 

@@ -17,7 +17,8 @@ class ClippingDetector
   /** \param range full scale; 0: a value above \a floor that repeats at an axis' extreme */
   ClippingDetector(double range, double floor) : range_(range), floor_(floor) {}
 
-  /** Takes the next reading. \return the full scale when an axis is clipped, otherwise 0 */
+  /** Takes the next reading.
+   * \return the full scale when an axis is clipped, otherwise 0 */
   double add(const Vec3& reading);
 
  private:

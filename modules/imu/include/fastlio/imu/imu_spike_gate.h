@@ -17,7 +17,8 @@ namespace fastlio
 class ImuSpikeGate
 {
  public:
-  /** \param max_gyro [rad/s] \param max_accel [m/s^2] a larger difference is absurd */
+  /** \param max_gyro [rad/s]
+   * \param max_accel [m/s^2] a larger difference is absurd */
   ImuSpikeGate(double max_gyro, double max_accel) : max_gyro_(max_gyro), max_accel_(max_accel) {}
 
   /** Appends the samples that are believed now to \a out. */

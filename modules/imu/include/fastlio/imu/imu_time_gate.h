@@ -32,7 +32,8 @@ class ImuTimeGate
  public:
   explicit ImuTimeGate(double max_gap) : max_gap_ns_(toNanoseconds(max_gap)) {}
 
-  /** Appends the samples that are believed now to \a out. \param sample its stamp is a time */
+  /** Appends the samples that are believed now to \a out.
+   * \param sample its stamp is a time */
   void push(ImuSample sample, std::vector<TimedSample>& out);
   /** Nothing more will come. */
   void finish(std::vector<TimedSample>& out);

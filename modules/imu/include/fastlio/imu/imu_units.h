@@ -45,7 +45,8 @@ struct AccelUnitVerdict
 };
 
 /** The unit in which the median magnitude is nearest to gravity.
- * \param samples of a platform at rest or in moderate motion \param gravity its magnitude [m/s^2]
+ * \param samples of a platform at rest or in moderate motion
+ * \param gravity its magnitude [m/s^2]
  */
 [[nodiscard]] AccelUnitVerdict findAccelUnit(const std::vector<ImuSample>& samples, double gravity);
 
@@ -58,7 +59,8 @@ struct AccelUnitVerdict
 class GyroUnitTest
 {
  public:
-  /** \param sample specific force in m/s^2 \param gravity its magnitude at rest [m/s^2] */
+  /** \param sample specific force in m/s^2
+   * \param gravity its magnitude at rest [m/s^2] */
   void add(const ImuSample& sample, double gravity);
 
   /** True once the samples are clearly in deg/s; stays so. */

@@ -45,7 +45,8 @@ class RestDetector
  public:
   explicit RestDetector(const RestOptions& parameters) : parameters_(parameters) {}
 
-  /** Takes the next scan. \return the platform is at rest */
+  /** Takes the next scan.
+   * \return the platform is at rest */
   bool update(const RestEvidence& evidence);
 
   [[nodiscard]] bool atRest() const { return at_rest_; }

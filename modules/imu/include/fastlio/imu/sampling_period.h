@@ -13,7 +13,8 @@ namespace fastlio
 class SamplingPeriod
 {
  public:
-  /** \param interval to the sample before [s] \param gap_periods longer intervals are gaps and tell
+  /** \param interval to the sample before [s]
+   * \param gap_periods longer intervals are gaps and tell
    * nothing about the scatter */
   void add(double interval, double gap_periods);
 

@@ -41,8 +41,9 @@ class Deskewer
   explicit Deskewer(std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
 
   /** Compensates the chosen points with the motion of backwardPropagate(), to first order within
-   * short steps of it; points outside of the knots' span move with the nearest step. \param indices
-   * which points of the scan, any order; output i belongs to indices[i] \param body reused storage
+   * short steps of it; points outside of the knots' span move with the nearest step.
+   * \param indices which points of the scan, any order; output i belongs to indices[i]
+   * \param body reused storage
    * of the result */
   void deskew(
       const LidarScan& scan, const std::vector<std::uint32_t>& indices,

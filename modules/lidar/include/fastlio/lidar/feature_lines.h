@@ -37,7 +37,8 @@ class ScanLineSorter
 {
  public:
   /** \param usable indices of the points that take part, ascending; they must be finite and not at
-   * the origin \param lines reused storage of the result; empty lines are left out
+   * the origin
+   * \param lines reused storage of the result; empty lines are left out
    * \return the order in use: what Automatic has chosen */
   ScanLineOrder sort(
       const PointColumns& points, const std::vector<std::uint32_t>& usable, ScanLineOrder order,

@@ -26,7 +26,8 @@ class PointSelector
   /** \param points the raw scan
    * \param at_least takes the place of downsampling.target_points where that is smaller
    * \param surfaces points to be matched with planes, about downsampling.target_points of them,
-   * evenly spread: of all points, or of the planar features \param edges points to be matched with
+   * evenly spread: of all points, or of the planar features
+   * \param edges points to be matched with
    * lines, about features.target_edges of them; none but in the mode `planar_and_edge` */
   void select(
       const PointColumns& points, std::size_t at_least, ScanSelection& surfaces,

@@ -73,7 +73,8 @@ struct PointTimeFinding
   double begin = 0, end = 0;                 //!< Found: median of earliest, latest minus stamp [s]
 };
 
-/** Looks at the times of one scan. \param single_precision they were stored as 32-bit numbers */
+/** Looks at the times of one scan.
+ * \param single_precision they were stored as 32-bit numbers */
 [[nodiscard]] PointTimeSample sampleOf(
     std::int64_t stamp_ns, const std::vector<double>& times, bool single_precision);
 
@@ -91,11 +92,13 @@ struct PointTimeFinding
     const PointTimeReading& given = {PointTimeUnit::Auto, PointTimeReference::Auto});
 
 /** Times of a scan's points as seconds after its stamp, in place. Times that are not finite stay
- * so. \exception std::invalid_argument the unit or the reference is Auto */
+ * so.
+ * \exception std::invalid_argument the unit or the reference is Auto */
 void toSecondsAfterStamp(
     std::vector<double>& times, std::int64_t stamp_ns, const PointTimeReading& reading);
 
-/** Seconds per unit. \exception std::invalid_argument PointTimeUnit::Auto */
+/** Seconds per unit.
+ * \exception std::invalid_argument PointTimeUnit::Auto */
 [[nodiscard]] double secondsPer(PointTimeUnit unit);
 
 /** "s", "ms", "us", "ns" or "auto": also the value of input.point_time_unit. */

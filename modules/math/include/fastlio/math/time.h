@@ -11,14 +11,17 @@ namespace fastlio
 {
 constexpr double kNsPerSecond = 1e9;
 
-/** \param duration_ns a difference of stamps, small enough to be exact in a double [ns] \return [s]
+/** \param duration_ns a difference of stamps, small enough to be exact in a double [ns]
+ * \return [s]
  */
 [[nodiscard]] constexpr double toSeconds(std::int64_t duration_ns)
 {
   return static_cast<double>(duration_ns) * 1e-9;
 }
 
-/** The inverse of toSeconds(), rounded. \param duration_s [s] \return [ns] */
+/** The inverse of toSeconds(), rounded.
+ * \param duration_s [s]
+ * \return [ns] */
 [[nodiscard]] inline std::int64_t toNanoseconds(double duration_s)
 {
   return std::llround(duration_s * 1e9);

@@ -37,7 +37,8 @@ class Workers
   }
 
   /** Calls body(chunk, first, last) once for each chunk [first, last) of [0, n), in any order and
-   * on any thread. \exception whatever the body threw, once the running chunks have ended */
+   * on any thread.
+   * \exception whatever the body threw, once the running chunks have ended */
   template <typename Body>
   void forEachChunk(std::size_t n, std::size_t chunk_size, const Body& body) const
   {

@@ -29,7 +29,8 @@ class ScanMerger
   /** \param lidar 0 is the first */
   void add(std::size_t lidar, LidarScan scan);
 
-  /** The oldest scan of the first LiDAR, if its time is over. \param now_ns stamp that the
+  /** The oldest scan of the first LiDAR, if its time is over.
+   * \param now_ns stamp that the
    * recording has reached */
   [[nodiscard]] std::optional<LidarScan> next(std::int64_t now_ns);
 

@@ -44,13 +44,15 @@ struct VelodyneSweep
 
 /** Decodes all packets: VLP-16 and Puck LITE, Puck Hi-Res, HDL-32E, HDL-64E; strongest, last and
  * dual returns. Angles come from the observation's calibration when it fits the model, else from
- * the model's default. Corrupt blocks are skipped and counted. \exception std::runtime_error a
+ * the model's default. Corrupt blocks are skipped and counted.
+ * \exception std::runtime_error a
  * model that is not supported (the message names it) */
 [[nodiscard]] VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan);
 
 /** MRPT's calibration of a model, for several threads at once: MRPT keeps those that it has loaded
  * in a container that nothing guards. Without lasers where MRPT cannot read its own table (HDL64 in
- * 2.5.8). \param model "VLP16", "HDL32", "HDL64" */
+ * 2.5.8).
+ * \param model "VLP16", "HDL32", "HDL64" */
 [[nodiscard]] mrpt::obs::VelodyneCalibration defaultVelodyneCalibration(const std::string& model);
 
 }  // namespace fastlio

@@ -27,7 +27,8 @@ struct ImuSurvey
   std::string accel_unit;              //!< "m/s^2", "g", "mg"; empty: unclear
 };
 
-/** \param samples as recorded, of ascending stamps \param rate [Hz] */
+/** \param samples as recorded, of ascending stamps
+ * \param rate [Hz] */
 [[nodiscard]] ImuSurvey surveyImu(const std::vector<ImuSample>& samples, double rate);
 
 }  // namespace fastlio
