@@ -9,7 +9,7 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/config/config.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <string>
 #include <variant>
@@ -24,7 +24,7 @@ struct Inputs
 {
   std::string name;
   std::vector<Input> data;
-  Parameters parameters;
+  OdometryOptions parameters;
 };
 
 /** All usable observations of a rawlog.

@@ -51,7 +51,7 @@ void keepLeast(StageTimings& least, const StageTimings& t)
 /** The tracked scans of one run, in their order. */
 std::vector<ScanResult> runOnce(const Inputs& inputs, int threads)
 {
-  Parameters parameters = inputs.parameters;
+  OdometryOptions parameters = inputs.parameters;
   parameters.threads = threads;
   Odometry odometry(parameters);
   std::vector<ScanResult> results;

@@ -44,7 +44,7 @@ struct Span
 };
 }  // namespace
 
-StreamingResult stream(const std::string& rawlog, const Parameters& parameters)
+StreamingResult stream(const std::string& rawlog, const OdometryOptions& parameters)
 {
   StreamingResult outcome;
   const double before = statusMegabytes("VmRSS");

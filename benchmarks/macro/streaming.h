@@ -5,7 +5,7 @@
  * included. */
 #pragma once
 
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <cstddef>
 #include <string>
@@ -22,6 +22,6 @@ struct StreamingResult
 
 /** Reads, decodes ahead and runs the odometry on a rawlog. Peaks count from the program's start:
  * the first pass of a program says most. \exception std::runtime_error unusable file */
-[[nodiscard]] StreamingResult stream(const std::string& rawlog, const Parameters& parameters);
+[[nodiscard]] StreamingResult stream(const std::string& rawlog, const OdometryOptions& parameters);
 
 }  // namespace fastlio::benchmarks

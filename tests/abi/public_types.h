@@ -46,7 +46,7 @@ std::vector<TypeLayout> baselineLayouts();
   X(MeasurementEvaluation) X(UpdateResult) X(UpdateStep) X(LidarScan) X(PointColumns)             \
   X(Downsampler) X(ScanSelection) X(PlaneVoxel) X(VoxelPlane) X(PlaneMatch) X(VoxelPlaneMap)      \
   X(KnnSurfaceMap) X(CIncrementalPointsMap) X(CVoxelPlanesMap) X(PlaneFit) X(LineFit)             \
-  X(MotionStep) X(Deskewer) X(PlaneMeasurement) X(Parameters) X(ScanStatistics) X(ScanResult)     \
+  X(MotionStep) X(Deskewer) X(PlaneMeasurement) X(OdometryOptions) X(ScanStatistics) X(ScanResult)     \
   X(InputStatistics) X(Odometry)
 #define FASTLIO_LAYOUT(Type) layoutOf<Type>(#Type),
 #define FASTLIO_PUBLIC_LAYOUTS {FASTLIO_PUBLIC_TYPES(FASTLIO_LAYOUT)}

@@ -135,7 +135,7 @@ TEST(AccuracyGates, FailWithoutMotionCompensation)
 {
   const AccuracyGate& gate = *gateOf("shake");
   const SimulationSettings settings = settingsOf(gate, 1);
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   parameters.lidar.deskew = false;
   // Half a scan's offset would make up for some of it.

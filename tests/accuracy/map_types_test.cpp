@@ -37,7 +37,7 @@ constexpr Comparison kComparisons[] = {
 /** RMSE of the position with a map type [m]; first poses aligned. */
 double positionError(const Simulation& simulation, MapType type)
 {
-  Parameters parameters = matchingParameters(simulation.settings());
+  OdometryOptions parameters = matchingParameters(simulation.settings());
   parameters.threads = 1;
   parameters.map.type = type;
   const SimulatedRun run = runOdometry(simulation, parameters);

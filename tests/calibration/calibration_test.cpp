@@ -23,10 +23,10 @@ SimulationSettings officeWalk()
   return settings;
 }
 
-/** Parameters as of a user who trusts what the sensors' files say. */
-Parameters unawareParameters(const SimulationSettings& settings)
+/** OdometryOptions as of a user who trusts what the sensors' files say. */
+OdometryOptions unawareParameters(const SimulationSettings& settings)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.lidar.time_offset = 0.0;
   parameters.threads = 1;
   return parameters;
@@ -45,7 +45,7 @@ TEST(Calibration, FindsTheTimeOffset)
   {
     SimulationSettings settings = officeWalk();
     settings.lidar.time_offset = offset;
-    Parameters parameters = unawareParameters(settings);
+    OdometryOptions parameters = unawareParameters(settings);
     const SimulatedRun with = runOdometry(Simulation(settings), parameters);
     parameters.calibration.estimate_time_offset = false;
     const SimulatedRun without = runOdometry(Simulation(settings), parameters);
@@ -62,7 +62,7 @@ TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
   SimulationSettings settings = defaultSettings("open_area");
   settings.duration = 12.0;
   settings.lidar.stride = 2;
-  const Parameters parameters = unawareParameters(settings);
+  const OdometryOptions parameters = unawareParameters(settings);
   const SimulatedRun run = runOdometry(Simulation(settings), parameters);
   const auto estimated = [](const JudgedScan& scan)
   { return scan.result.filter.P(kTimeOffset, kTimeOffset) > 0.0; };
@@ -95,7 +95,7 @@ TEST(Calibration, RestTellsNothingOfTheTimeOffset)
 }
 
 /** Runs on scans that come with a wrong extrinsic: the true one is \a correction times theirs. */
-FilterState endOfMiscalibratedRun(const Pose& correction, const Parameters& parameters)
+FilterState endOfMiscalibratedRun(const Pose& correction, const OdometryOptions& parameters)
 {
   const Simulation simulation(officeWalk());
   Odometry odometry(parameters);
@@ -116,7 +116,7 @@ FilterState endOfMiscalibratedRun(const Pose& correction, const Parameters& para
 TEST(Calibration, FindsTheExtrinsic)
 {
   const Pose correction{expSO3(Vec3(0.02, -0.015, 0.01)), Vec3(0.03, -0.02, 0.0)};
-  Parameters parameters = unawareParameters(officeWalk());
+  OdometryOptions parameters = unawareParameters(officeWalk());
   parameters.calibration.estimate_extrinsic = true;
   const FilterState end = endOfMiscalibratedRun(correction, parameters);
   const Pose error = correction.inverse() * end.x.extrinsic_correction;
@@ -135,7 +135,7 @@ TEST(Calibration, KeepsItsWayWhereTheStartSeesLittle)
 {
   SimulationSettings settings = defaultSettings("open_area");
   settings.duration = 14.0;
-  Parameters parameters = unawareParameters(settings);
+  OdometryOptions parameters = unawareParameters(settings);
   parameters.calibration.estimate_extrinsic = true;
   const SimulatedRun run = runOdometry(Simulation(settings), parameters);
   std::size_t open = 0;
@@ -149,7 +149,7 @@ TEST(Calibration, KeepsItsWayWhereTheStartSeesLittle)
 TEST(Calibration, StaysAsGivenUnlessAskedFor)
 {
   const Pose correction{expSO3(Vec3(0.01, 0.0, 0.0)), Vec3(0.02, 0.0, 0.0)};
-  Parameters parameters = unawareParameters(officeWalk());
+  OdometryOptions parameters = unawareParameters(officeWalk());
   parameters.calibration.estimate_time_offset = false;
   const FilterState end = endOfMiscalibratedRun(correction, parameters);
   EXPECT_EQ(end.x.extrinsic_correction.R, Mat3::Identity());
@@ -162,7 +162,7 @@ TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
   SimulationSettings settings = defaultSettings("tunnel");
   settings.duration = 12.0;
   settings.lidar.stride = 4;
-  Parameters parameters = unawareParameters(settings);
+  OdometryOptions parameters = unawareParameters(settings);
   const auto sigmaAlong = [&](double min_signal_to_noise, std::size_t& open)
   {
     parameters.measurement.min_signal_to_noise = min_signal_to_noise;

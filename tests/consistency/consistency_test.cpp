@@ -85,9 +85,9 @@ SimulationSettings settingsOf(const ConsistencyCase& c, std::uint64_t seed)
   return settings;
 }
 
-Parameters parametersOf(const SimulationSettings& settings)
+OdometryOptions parametersOf(const SimulationSettings& settings)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.initialization.gravity = InitializationOptions{}.gravity;
   parameters.threads = 1;
   return parameters;
@@ -201,7 +201,7 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
     SimulationSettings settings = settingsOf(c, seed);
     settings.duration = 6.0;
     settings.lidar.time_offset = 0.02;
-    Parameters parameters = parametersOf(settings);
+    OdometryOptions parameters = parametersOf(settings);
     parameters.lidar.time_offset = 0.0;
     parameters.calibration.estimate_time_offset = false;
     const SimulatedRun run = runOdometry(Simulation(settings), parameters);

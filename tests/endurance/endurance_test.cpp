@@ -78,9 +78,9 @@ class Walk
     return s;
   }
 
-  static Parameters parameters()
+  static OdometryOptions parameters()
   {
-    Parameters p = matchingParameters(settings());
+    OdometryOptions p = matchingParameters(settings());
     p.threads = 1;
     return p;
   }

@@ -21,9 +21,9 @@ SimulationSettings shortRun(const char* scenario, double duration)
   return settings;
 }
 
-Parameters withFeatures(const SimulationSettings& settings, FeatureMode mode)
+OdometryOptions withFeatures(const SimulationSettings& settings, FeatureMode mode)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   parameters.features.mode = mode;
   return parameters;
@@ -77,7 +77,7 @@ TEST(FeatureModes, EdgesAloneHoldThePose)
 {
   const SimulationSettings settings = shortRun("office", 10.0);
   const Simulation simulation(settings);
-  Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
+  OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.downsampling.target_points = 1;  // next to nothing for planes
   parameters.features.target_edges = 0;
   parameters.features.half_width = 0.5;  // clear edges only: nothing else is left to tell
@@ -95,7 +95,7 @@ TEST(FeatureModes, PlanarLeavesOutWhatIsNotSmooth)
 {
   const SimulationSettings settings = shortRun("office", 4.0);
   const Simulation simulation(settings);
-  Parameters parameters = withFeatures(settings, FeatureMode::None);
+  OdometryOptions parameters = withFeatures(settings, FeatureMode::None);
   parameters.downsampling.target_points = 0;
   const SimulatedRun direct = runOdometry(simulation, parameters);
   parameters.features.mode = FeatureMode::Planar;
@@ -113,7 +113,7 @@ TEST(FeatureModes, BothGainsAgree)
 {
   const SimulationSettings settings = shortRun("office", 5.0);
   const Simulation simulation(settings);
-  Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
+  OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.downsampling.target_points = 200;
   parameters.features.target_edges = 50;
   const SimulatedRun information = runOdometry(simulation, parameters);
@@ -130,7 +130,7 @@ TEST(FeatureModes, GiveTheSameBitsOnAnyNumberOfThreads)
 {
   const SimulationSettings settings = shortRun("office", 5.0);
   const Simulation simulation(settings);
-  Parameters parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
+  OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   const SimulatedRun one = runOdometry(simulation, parameters);
   parameters.threads = 3;
   const SimulatedRun three = runOdometry(simulation, parameters);

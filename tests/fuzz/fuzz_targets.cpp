@@ -51,9 +51,9 @@ class MemoryFile
   int descriptor_;
 };
 
-Parameters smallParameters()
+OdometryOptions smallParameters()
 {
-  Parameters parameters;
+  OdometryOptions parameters;
   parameters.threads = 1;
   parameters.initialization.duration = 0.1;
   return parameters;

@@ -11,7 +11,7 @@
 // What is counted: simulating the recording is left out. A plain name, which the script can give to
 // valgrind.
 extern "C" __attribute__((noinline)) void fastlioCountedRun(
-    const fastlio::Parameters& parameters, const fastlio::testing::RoomRecording& recording,
+    const fastlio::OdometryOptions& parameters, const fastlio::testing::RoomRecording& recording,
     fastlio::testing::Results& results)
 {
   results = fastlio::testing::runInOrder(parameters, recording);
@@ -22,7 +22,7 @@ int main()
   fastlio::testing::RoomSettings settings;
   settings.duration = 4.0;
   settings.columns = 900;  // 14400 points per scan
-  fastlio::Parameters parameters = fastlio::testing::roomParameters(settings);
+  fastlio::OdometryOptions parameters = fastlio::testing::roomParameters(settings);
   parameters.downsampling.target_points = 1500;
   const fastlio::testing::RoomRecording recording = fastlio::testing::recordRoom(settings);
   fastlio::testing::Results results;

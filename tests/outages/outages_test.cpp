@@ -45,7 +45,7 @@ PointColumns firstOf(const PointColumns& points, std::size_t count)
 
 SimulatedRun runWithOutage(const Simulation& simulation, const Outage& outage, Missing missing)
 {
-  Parameters options = matchingParameters(simulation.settings());
+  OdometryOptions options = matchingParameters(simulation.settings());
   options.threads = 2;
   SimulatedRun run = runOdometryWithScans(
       simulation, options,

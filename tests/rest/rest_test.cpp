@@ -23,7 +23,7 @@ constexpr double kTurningRate = 0.05;  // [rad/s]
 
 SimulatedRun runWithRest(const SimulationSettings& settings, bool enabled = true)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   parameters.rest.enabled = parameters.rest.at_start = enabled;
   return runOdometry(Simulation(settings), parameters);
@@ -110,7 +110,7 @@ TEST(Rest, AStartAtRestStaysWhereItIs)
   settings.duration = 2.5;
   for (settings.seed = 1; settings.seed <= 3; ++settings.seed)
   {
-    Parameters parameters = matchingParameters(settings);
+    OdometryOptions parameters = matchingParameters(settings);
     parameters.threads = 1;
     const SimulatedRun with = runOdometry(Simulation(settings), parameters);
     parameters.rest.at_start = false;

@@ -74,7 +74,7 @@ SimulationSettings settingsOf(std::string_view scenario)
 
 SimulatedRun runInMode(const SimulationSettings& settings, InitializationMode mode)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   parameters.initialization.mode = mode;
   return runOdometryFrom(kSwitchedOn, Simulation(settings), parameters);
@@ -179,7 +179,7 @@ TEST(StartAutomatically, AtRestIsTheRestingStart)
   SimulationSettings settings = settingsOf("office");
   settings.duration = 6.0;
   const Simulation simulation(settings);
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   const SimulatedRun rest = runOdometry(simulation, parameters);
   parameters.initialization.mode = InitializationMode::Auto;
@@ -204,7 +204,7 @@ TEST_P(StartInMotionWithTheClocksApart, IsNotRefused)
     SimulationSettings settings = settingsOf(GetParam());
     settings.seed = seed;
     settings.lidar.time_offset = kOffset;
-    Parameters parameters = matchingParameters(settings);
+    OdometryOptions parameters = matchingParameters(settings);
     parameters.threads = 1;
     parameters.lidar.time_offset = 0.0;
     parameters.initialization.mode = InitializationMode::Motion;

@@ -47,7 +47,7 @@ inline Results runInOrder(Odometry& odometry, const RoomRecording& recording)
   return results;
 }
 
-inline Results runInOrder(const Parameters& parameters, const RoomRecording& recording)
+inline Results runInOrder(const OdometryOptions& parameters, const RoomRecording& recording)
 {
   Odometry odometry(parameters);
   return runInOrder(odometry, recording);

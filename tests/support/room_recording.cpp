@@ -143,9 +143,9 @@ RoomRecording recordRoom(double duration)
   return recordRoom(settings);
 }
 
-Parameters roomParameters(const RoomSettings& settings)
+OdometryOptions roomParameters(const RoomSettings& settings)
 {
-  Parameters p;
+  OdometryOptions p;
   p.imu.noise = settings.noise;
   p.measurement.range_noise = settings.range_noise;
   p.initialization.accel_bias_std = 0.03;

@@ -7,7 +7,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <cstdint>
 #include <vector>
@@ -45,7 +45,7 @@ constexpr std::int64_t kRecordingStart = 1'700'000'000'000'000'000;
 /** The same room for so many seconds. */
 [[nodiscard]] RoomRecording recordRoom(double duration);
 
-/** Parameters with the recording's noise. */
-[[nodiscard]] Parameters roomParameters(const RoomSettings& settings = {});
+/** OdometryOptions with the recording's noise. */
+[[nodiscard]] OdometryOptions roomParameters(const RoomSettings& settings = {});
 
 }  // namespace fastlio::testing

@@ -48,13 +48,13 @@ void drain(Odometry& odometry, const Simulation& simulation, SimulatedRun& run)
 }
 }  // namespace
 
-SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters)
+SimulatedRun runOdometry(const Simulation& simulation, const OdometryOptions& parameters)
 {
   return runOdometryWithScans(simulation, parameters, [](LidarScan&) { return true; });
 }
 
 SimulatedRun runOdometryWithScans(
-    const Simulation& simulation, const Parameters& parameters,
+    const Simulation& simulation, const OdometryOptions& parameters,
     const std::function<bool(LidarScan&)>& filter)
 {
   SimulatedRun run;
@@ -75,7 +75,7 @@ SimulatedRun runOdometryWithScans(
 }
 
 SimulatedRun runOdometryFrom(
-    double begin, const Simulation& simulation, const Parameters& parameters)
+    double begin, const Simulation& simulation, const OdometryOptions& parameters)
 {
   SimulatedRun run;
   run.gravity = {0.0, 0.0, -simulation.settings().gravity};
@@ -101,7 +101,7 @@ SimulatedRun runOdometryFrom(
 
 SimulatedRun runOdometry(const SimulationSettings& settings)
 {
-  Parameters parameters = matchingParameters(settings);
+  OdometryOptions parameters = matchingParameters(settings);
   parameters.threads = 1;
   return runOdometry(Simulation(settings), parameters);
 }

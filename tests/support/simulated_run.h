@@ -34,19 +34,19 @@ struct SimulatedRun
 
 /** Feeds a whole recording to an odometry of its own. \param parameters mostly
  * matchingParameters() */
-[[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const Parameters& parameters);
+[[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const OdometryOptions& parameters);
 
 /** The same with scans as they come out of \a filter, which may change them; false: the scan does
  * not arrive. */
 [[nodiscard]] SimulatedRun runOdometryWithScans(
-    const Simulation& simulation, const Parameters& parameters,
+    const Simulation& simulation, const OdometryOptions& parameters,
     const std::function<bool(LidarScan&)>& filter);
 
 /** The same for what is left of a recording \a begin seconds after its start, when the platform may
  * be in motion. The filter's world is fixed by the true pose at the end of the first scan with a
  * pose, which is where a start in motion fixes it. */
 [[nodiscard]] SimulatedRun runOdometryFrom(
-    double begin, const Simulation& simulation, const Parameters& parameters);
+    double begin, const Simulation& simulation, const OdometryOptions& parameters);
 
 /** The same with the parameters that match the simulated sensors, on one thread. */
 [[nodiscard]] SimulatedRun runOdometry(const SimulationSettings& settings);

@@ -97,7 +97,7 @@ const std::vector<RemovedKey>& removedKeys()
 const std::vector<RemovedChoice>& removedChoices()
 {
   static const std::vector<RemovedChoice> choices = {
-      {"map.type", "kdtree", "kdtree is gone: knn finds the same neighbours, faster"},
+      {"map.type", "kdtree", "kdtree is gone: knn finds the same neighbours"},
   };
   return choices;
 }

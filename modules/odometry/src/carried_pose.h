@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 namespace fastlio
 {

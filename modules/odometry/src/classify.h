@@ -8,7 +8,7 @@
 #include "pose_search.h"
 #include "queued_scan.h"
 #include <fastlio/imu/noise_inflation.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <cstddef>

@@ -15,7 +15,7 @@
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/rest_detector.h>
 #include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
 #include <fastlio/parallel/workers.h>

@@ -7,7 +7,7 @@
 #include "motion_window.h"
 #include "queued_scan.h"
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/static_initializer.h>
 
 #include <optional>

@@ -9,7 +9,7 @@
 #include <fastlio/map/edge_map.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/map_error.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/plane_groups.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>

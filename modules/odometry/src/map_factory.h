@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/parallel/workers.h>
 
 #include <memory>

@@ -8,7 +8,7 @@
 #include "local_map.h"
 #include "pose_search.h"
 #include "scan_matcher.h"
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <optional>
 

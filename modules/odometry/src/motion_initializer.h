@@ -20,7 +20,7 @@
 #include "queued_scan.h"
 #include <fastlio/filter/state.h>
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <optional>
 #include <string>

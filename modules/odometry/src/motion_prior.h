@@ -6,7 +6,7 @@
 
 #include "motion_window.h"
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <vector>
 

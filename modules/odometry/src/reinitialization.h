@@ -5,7 +5,7 @@
 #pragma once
 
 #include "carried_pose.h"
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <cstdint>

@@ -10,7 +10,7 @@
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/map/edge_map.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/point_to_plane.h>
 #include <fastlio/parallel/workers.h>
 

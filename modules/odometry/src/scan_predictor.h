@@ -8,7 +8,7 @@
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/map_error.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <cstdint>
 #include <optional>

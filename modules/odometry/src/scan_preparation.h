@@ -9,7 +9,7 @@
 #include <fastlio/imu/rest_detector.h>
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/lidar/point_selector.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <cstdint>

@@ -262,7 +262,7 @@ TEST(Classify, TheMapDoesNotGrowWhileThePoseIsLost)
   RoomRecording recording = recordRoom(settings);
   for (std::size_t i = 700; i < recording.imu.size(); ++i)
     recording.imu[i].gyro = Vec3(3.0, -4.0, 2.0);  // nonsense from 3.5 s on
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.recovery.enabled = false;
   p.imu.gyro_unit = GyroUnit::Radians;
   const Results results = runInOrder(p, recording);

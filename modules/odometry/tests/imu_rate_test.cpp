@@ -22,9 +22,9 @@ const RoomRecording& room()
   return recording;
 }
 
-Parameters imuRateParameters(int threads = 1)
+OdometryOptions imuRateParameters(int threads = 1)
 {
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.imu_rate = true;
   p.threads = threads;
   return p;
@@ -51,7 +51,7 @@ std::vector<Step> stepsOf(Odometry& odometry, const RoomRecording& recording)
   return steps;
 }
 
-std::vector<Step> stepsOf(const Parameters& parameters, const RoomRecording& recording)
+std::vector<Step> stepsOf(const OdometryOptions& parameters, const RoomRecording& recording)
 {
   Odometry odometry(parameters);
   return stepsOf(odometry, recording);
@@ -178,7 +178,7 @@ TEST(ImuRate, StopsWhereThePoseIsNotTrusted)
   RoomRecording absurd = room();
   for (ImuSample& sample : absurd.imu)
     if (sample.stamp_ns > kRecordingStart + 3'000'000'000) sample.accel = Vec3::Constant(5e5);
-  Parameters p = imuRateParameters();
+  OdometryOptions p = imuRateParameters();
   p.measurement.max_unaided_time = 0.3;
   p.recovery.enabled = false;
   const auto steps = stepsOf(p, absurd);

@@ -44,7 +44,7 @@ TEST_P(OdometryAllocations, AScanInAKnownPlaceAllocatesNothing)
   RoomSettings settings;
   settings.duration = 12.0;
   const RoomRecording recording = recordRoom(settings);
-  Parameters parameters = roomParameters(settings);
+  OdometryOptions parameters = roomParameters(settings);
   parameters.threads = GetParam();
   Odometry odometry(parameters);
   const std::vector<std::size_t> allocations = allocationsPerScan(odometry, recording);

@@ -227,7 +227,7 @@ TEST(OdometryInput, RefusesUnusableParametersByName)
 {
   const auto refusal = [](auto change) -> std::string
   {
-    Parameters p = roomParameters();
+    OdometryOptions p = roomParameters();
     change(p);
     try
     {

@@ -68,7 +68,7 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
 {
   RoomRecording recording = room();
   recording.imu.erase(recording.imu.begin() + 900, recording.imu.begin() + 1140);  // 1.2 s
-  Parameters parameters = roomParameters();
+  OdometryOptions parameters = roomParameters();
   parameters.calibration.estimate_time_offset = true;
   Odometry odometry(parameters);
   const Results results = runInOrder(odometry, recording);
@@ -99,7 +99,7 @@ TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
   // 1.5 s of consistent nonsense at once: the gyro's axes are exchanged.
   for (std::size_t i = 700; i < 1000; ++i)
     recording.imu[i].gyro = Vec3(3.0 + recording.imu[i].gyro.z(), -4.0, 2.0);
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.measurement.max_unaided_time = 0.5;
   p.recovery.patience = 0.3;
   Odometry odometry(p);
@@ -137,7 +137,7 @@ TEST(OdometryRecovery, UnitsThatAreGivenCostNothing)
     s.accel /= 9.80665;
     s.gyro *= 180.0 / M_PI;
   }
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.imu.accel_unit = AccelUnit::G;
   p.imu.gyro_unit = GyroUnit::Degrees;
   const Results results = runInOrder(p, recording);

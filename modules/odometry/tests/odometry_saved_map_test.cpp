@@ -89,7 +89,7 @@ void expectInMap(const Results& results, const Pose& T_map_room, double toleranc
 
 TEST(SavedMap, PointsInAFrameOfTheirOwnAreFound)
 {
-  Parameters parameters = roomParameters();
+  OdometryOptions parameters = roomParameters();
   parameters.map.update = false;
   Odometry odometry(parameters);
   SavedMap map;
@@ -104,7 +104,7 @@ TEST(SavedMap, PointsInAFrameOfTheirOwnAreFound)
 
 TEST(SavedMap, ReadyPlanesAreUsedAsTheyAre)
 {
-  Parameters parameters = roomParameters();
+  OdometryOptions parameters = roomParameters();
   parameters.map.update = false;
   Odometry odometry(parameters);
   SavedMap map;
@@ -121,7 +121,7 @@ TEST(SavedMap, WhatIsKnownOfGravityAndBiasesDoesNotDependOnTheGuess)
 {
   for (const double heading : {-0.25, -0.12, 0.0, 0.12, 0.25})
   {
-    Parameters parameters = roomParameters();
+    OdometryOptions parameters = roomParameters();
     parameters.map.update = false;
     Odometry odometry(parameters);
     SavedMap map;
@@ -147,7 +147,7 @@ TEST(SavedMap, GrowsOnWhenItMay)
 {
   for (const MapType type : {MapType::Planes, MapType::Knn})
   {
-    Parameters parameters = roomParameters();
+    OdometryOptions parameters = roomParameters();
     parameters.map.type = type;
     Odometry odometry(parameters);
     SavedMap map;

@@ -68,7 +68,7 @@ TEST(OdometryStart, WithoutAnyInertialDataTheEndSaysSo)
 
 TEST(OdometryStart, ScansDoNotPileUpWithoutInertialData)
 {
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.lidar.max_waiting = 1.0;
   Odometry odometry(p);
   Results results;
@@ -83,7 +83,7 @@ TEST(OdometryStart, ScansDoNotPileUpWithoutInertialData)
 
 TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
 {
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.lidar.max_waiting = 0.5;
   p.imu_rate = true;
   Odometry odometry(p);
@@ -108,7 +108,7 @@ TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
 
 TEST(OdometryStart, APlatformThatNeverRestsSaysSo)
 {
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.initialization.max_gyro_mean = 0.02;
   p.initialization.max_gyro_std = 0.02;
   const RoomRecording recording = movingFromTheStart(200.0);
@@ -128,7 +128,7 @@ TEST(OdometryStart, APlatformThatNeverRestsSaysSo)
 TEST(OdometryStart, ASlowImuThatNeverRestsEndsTheSearchForRestToo)
 {
   // Samples farther apart than the search's steps.
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.initialization.max_gyro_mean = 0.02;
   p.initialization.max_gyro_std = 0.02;
   const RoomRecording recording = movingFromTheStart(2.0);

@@ -37,7 +37,7 @@ TEST(Odometry, FollowsTheTruthWithEachTypeOfMap)
   for (const MapType type : {MapType::Planes, MapType::Knn})
   {
     SCOPED_TRACE(static_cast<int>(type));
-    Parameters p = roomParameters();
+    OdometryOptions p = roomParameters();
     p.map.type = type;
     p.map.min_spacing = 0.2;
     expectTracked(runInOrder(p, room()), room());
@@ -48,7 +48,7 @@ TEST(Odometry, FollowsTheTruthWithEachHoldOfTheImu)
 {
   for (const ImuHold hold : {ImuHold::Midpoint, ImuHold::Left})
   {
-    Parameters p = roomParameters();
+    OdometryOptions p = roomParameters();
     p.imu.hold = hold;
     expectTracked(runInOrder(p, room()), room());
   }
@@ -56,7 +56,7 @@ TEST(Odometry, FollowsTheTruthWithEachHoldOfTheImu)
 
 TEST(Odometry, NeedsTheMotionCompensation)
 {
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.lidar.deskew = false;
   const auto without = worstPoseErrors(runInOrder(p, room()), room());
   p.lidar.deskew = true;
@@ -117,7 +117,7 @@ TEST(Odometry, BothFormsOfTheGainGiveTheSameTrajectory)
   RoomSettings settings;
   settings.duration = 4.0;
   const RoomRecording recording = recordRoom(settings);
-  Parameters p = roomParameters();
+  OdometryOptions p = roomParameters();
   p.downsampling.target_points = 150;  // the cost of eq. 18 grows with the cube of it
   p.gain = GainForm::Information;
   const Results information = runInOrder(p, recording);
@@ -137,7 +137,7 @@ TEST(Odometry, ThreadsChangeNoBit)
 {
   for (const MapType type : {MapType::Planes, MapType::Knn})
   {
-    Parameters p = roomParameters();
+    OdometryOptions p = roomParameters();
     p.map.type = type;
     const Results one = runInOrder(p, room());
     for (const int threads : {2, 3, 0})

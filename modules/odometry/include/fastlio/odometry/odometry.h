@@ -10,7 +10,7 @@
 #include <fastlio/imu/imu_report.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
 

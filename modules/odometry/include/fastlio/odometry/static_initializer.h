@@ -6,7 +6,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/filter/state.h>
-#include <fastlio/odometry/parameters.h>
+#include <fastlio/odometry/odometry_options.h>
 
 #include <optional>
 #include <string>
