@@ -47,7 +47,7 @@ TEST_F(Configuration, DumpsLoadBackAndTellOrigins)
   const std::string config = write("c.yaml", "lidar:\n  max_range: 50\ngain: standard\n");
   const auto dump = replay({"-c", config, "--threads", "3", "--dump-config"});
   EXPECT_EQ(dump.exit_status, 0) << dump.output;
-  for (const std::string text :
+  for (const std::string& text :
        {"  max_range: 50  # " + config + ", line 2\n", "gain: standard  # " + config + ", line 3\n",
         std::string("threads: 3  # command line, --threads\n"),
         std::string("  min_range: 0.5  # default\n")})

@@ -29,8 +29,9 @@ std::string shortestText(double value)
 {
   constexpr double kPlainFrom = 1e-4;
   constexpr double kPlainBelow = 1e9;
+  if (value == 0.0) return "0";  // of either sign
   const double size = std::abs(value);
-  const bool plain = size == 0.0 || (size >= kPlainFrom && size < kPlainBelow);
+  const bool plain = size >= kPlainFrom && size < kPlainBelow;
   std::array<char, 40> buffer{};
   const auto end = std::to_chars(
       buffer.data(), buffer.data() + buffer.size(), value,
