@@ -86,7 +86,6 @@ const std::vector<RemovedKey>& removedKeys()
       {"rest.velocity_std", "is a constant of the method now, 0.01 m/s; remove the line"},
       {"rest.rate_std", "is a constant of the method now, 0.05 deg/s; remove the line"},
       {"rest.map_time", "is a constant of the method now, 3 s; remove the line"},
-      {"output.tile_size", "is a constant of the method now, 50 m; remove the line"},
       {"reduction.target_points", "is named downsampling.target_points now"},
       {"reduction.wide_points", "is named downsampling.wide_points now"},
       {"reduction.wide_range", "is a constant of the method now, 20 m; remove the line"},

@@ -48,6 +48,11 @@ Rows exportRows()
          return RealValue{&o.scan_2d_thickness, 0.01, 10.0};
        },
        "thickness of the slice that the planar scan is made of; the nearest point in a ray counts"},
+      {"output.tile_size", "m",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.tile_size, 1.0, 1e4};
+       },
+       "the map that is saved is kept in pieces of this size"},
       {"output.map_memory", "million",
        [](auto& o) -> OptionValue {
          return RealValue{&o.map_memory, 0.01, 1e4};

@@ -15,7 +15,7 @@ enum class RawlogForm
   Actions        //!< pairs of actions (motion) and sensory frames
 };
 
-/** Group `output`. Members without a row in export_option_table.h are constants. */
+/** Group `output`. */
 struct ExportOptions
 {
   std::string exporters;           //!< names, separated by commas; empty: the standard ones
