@@ -40,7 +40,7 @@ run() {
   mkdir -p "$to"
   awk -v changes="$*" -f "$library/change_parameters.awk" "$from/config.yaml" >"$to/config.yaml"
   # A key that there is not any more ends the experiment.
-  "$(program fastlio-replay)" --config "$to/config.yaml" --dump-config >"$to/effective.yaml"
+  "$(program fastlio-replay)" --config "$to/config.yaml" --dump-config >"$to/effective.yaml" || return 1
   "$(program fastlio-replay)" --config "$to/config.yaml" --frame imu --threads 1 \
     --input-rawlog "$from/recording.rawlog" --output-dir "$to" >"$to/replay.log" 2>&1 || true
   "$(program fastlio-eval)" "$from/ground_truth.tum" "$to/covariance.csv" --align first \

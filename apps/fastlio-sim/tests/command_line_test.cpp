@@ -124,7 +124,7 @@ TEST_F(FastlioSim, WrongValuesAreRefusedWithWhatIsAllowed)
     EXPECT_EQ(result.exit_status, 1) << result.output;
     EXPECT_FALSE(result.output.empty());
   }
-  EXPECT_TRUE(mentions(run({"office", "--duration", "-3"}), "from 0 to"));
+  EXPECT_TRUE(mentions(run({"office", "--duration", "-3"}), "allowed: 0 to"));
   EXPECT_TRUE(mentions(run({}), "campus"));
 }
 

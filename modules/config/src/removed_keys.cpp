@@ -7,9 +7,13 @@
 
 namespace fastlio
 {
-const std::vector<RemovedKey>& removedKeys()
+namespace
 {
-  static const std::vector<RemovedKey> keys = {
+using Removed = std::vector<RemovedKey>;
+
+Removed ofTheStart()
+{
+  return {
       {"initialization.gravity_std",
        "is a constant of the method now, 0.02 m/s^2; remove the line"},
       {"initialization.gyro_bias_std",
@@ -35,21 +39,12 @@ const std::vector<RemovedKey>& removedKeys()
       {"imu.gap_accel_std", "is a constant of the method now, 2 m/s^2; remove the line"},
       {"imu.spike_gyro", "is a constant of the method now, 600 deg/s; remove the line"},
       {"imu.spike_accel", "is a constant of the method now, 100 m/s^2; remove the line"},
-      {"health.min_share", "is a constant of the method now, 0.2; remove the line"},
-      {"health.max_innovation", "is a constant of the method now, 3; remove the line"},
-      {"health.min_information", "is a constant of the method now, 100; remove the line"},
-      {"health.max_inflated", "is a constant of the method now, 0.25; remove the line"},
-      {"health.max_gyro_bias", "is a constant of the method now, 10 deg/s; remove the line"},
-      {"health.max_accel_bias", "is a constant of the method now, 2 m/s^2; remove the line"},
-      {"health.max_scan_interval", "is a constant of the method now, 0.5 s; remove the line"},
-      {"health.freeze_map",
-       "is always on now: scans that match too badly do not join the map; remove the line"},
-      {"recovery.patience", "is a constant of the method now, 1 s; remove the line"},
-      {"recovery.match_time", "is a constant of the method now, 1.5 s; remove the line"},
-      {"recovery.max_heading", "is a constant of the method now, 90 deg; remove the line"},
-      {"recovery.min_share", "is a constant of the method now, 0.3; remove the line"},
-      {"recovery.accel_std", "is a constant of the method now, 1 m/s^2; remove the line"},
-      {"recovery.gyro_std", "is a constant of the method now, 20 deg/s; remove the line"},
+  };
+}
+
+Removed ofTheScan()
+{
+  return {
       {"features.min_neighbors", "is a constant of the method now, 3; remove the line"},
       {"features.max_planar_smoothness", "is a constant of the method now, 0.2; remove the line"},
       {"features.min_edge_smoothness", "is a constant of the method now, 0.4; remove the line"},
@@ -72,6 +67,30 @@ const std::vector<RemovedKey>& removedKeys()
       {"map.max_insertion_std", "is a constant of the method now, 0.2 m; remove the line"},
       {"map.min_incidence", "is a constant of the method now, 0.1; remove the line"},
       {"map.max_thickness", "is a constant of the method now, 0.1 m; remove the line"},
+      {"reduction.target_points", "is named downsampling.target_points now"},
+      {"reduction.wide_points", "is named downsampling.wide_points now"},
+      {"reduction.wide_range", "is a constant of the method now, 20 m; remove the line"},
+  };
+}
+
+Removed ofTheFilter()
+{
+  return {
+      {"health.min_share", "is a constant of the method now, 0.2; remove the line"},
+      {"health.max_innovation", "is a constant of the method now, 3; remove the line"},
+      {"health.min_information", "is a constant of the method now, 100; remove the line"},
+      {"health.max_inflated", "is a constant of the method now, 0.25; remove the line"},
+      {"health.max_gyro_bias", "is a constant of the method now, 10 deg/s; remove the line"},
+      {"health.max_accel_bias", "is a constant of the method now, 2 m/s^2; remove the line"},
+      {"health.max_scan_interval", "is a constant of the method now, 0.5 s; remove the line"},
+      {"health.freeze_map",
+       "is always on now: scans that match too badly do not join the map; remove the line"},
+      {"recovery.patience", "is a constant of the method now, 1 s; remove the line"},
+      {"recovery.match_time", "is a constant of the method now, 1.5 s; remove the line"},
+      {"recovery.max_heading", "is a constant of the method now, 90 deg; remove the line"},
+      {"recovery.min_share", "is a constant of the method now, 0.3; remove the line"},
+      {"recovery.accel_std", "is a constant of the method now, 1 m/s^2; remove the line"},
+      {"recovery.gyro_std", "is a constant of the method now, 20 deg/s; remove the line"},
       {"update.attitude", "is a constant of the method now, 0.0001 rad; remove the line"},
       {"update.position", "is a constant of the method now, 0.0001 m; remove the line"},
       {"update.velocity", "is a constant of the method now, 0.001 m/s; remove the line"},
@@ -86,10 +105,21 @@ const std::vector<RemovedKey>& removedKeys()
       {"rest.velocity_std", "is a constant of the method now, 0.01 m/s; remove the line"},
       {"rest.rate_std", "is a constant of the method now, 0.05 deg/s; remove the line"},
       {"rest.map_time", "is a constant of the method now, 3 s; remove the line"},
-      {"reduction.target_points", "is named downsampling.target_points now"},
-      {"reduction.wide_points", "is named downsampling.wide_points now"},
-      {"reduction.wide_range", "is a constant of the method now, 20 m; remove the line"},
   };
+}
+
+Removed allKeys()
+{
+  Removed all;
+  for (const Removed& keys : {ofTheStart(), ofTheScan(), ofTheFilter()})
+    all.insert(all.end(), keys.begin(), keys.end());
+  return all;
+}
+}  // namespace
+
+const std::vector<RemovedKey>& removedKeys()
+{
+  static const Removed keys = allKeys();
   return keys;
 }
 

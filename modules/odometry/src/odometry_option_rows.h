@@ -12,7 +12,9 @@ using OdometryOptionRows = OptionTable<OdometryOptions>;
 
 // Defined in odometry_option_rows_inputs.cpp.
 [[nodiscard]] OdometryOptionRows initializationRows();
+[[nodiscard]] OdometryOptionRows startRows();
 [[nodiscard]] OdometryOptionRows imuRows();
+[[nodiscard]] OdometryOptionRows imuReadingRows();
 [[nodiscard]] OdometryOptionRows lidarRows();
 [[nodiscard]] OdometryOptionRows calibrationRows();
 

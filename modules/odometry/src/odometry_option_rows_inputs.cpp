@@ -39,6 +39,12 @@ OdometryOptionRows initializationRows()
        },
        "the platform does not rest when the mean angular rate is above this; must exceed the gyro "
        "bias"},
+  };
+}
+
+OdometryOptionRows startRows()
+{
+  return {
       {"initialization.gravity", "m/s^2",
        [](auto& o) -> OptionValue {
          return RealValue{&o.initialization.gravity, 1.0, 30.0};
@@ -109,6 +115,12 @@ OdometryOptionRows imuRows()
          return RealValue{&o.imu.noise.accel_bias_walk, 0.0, 100.0};
        },
        "how fast the accelerometer bias wanders", OptionTier::Main},
+  };
+}
+
+OdometryOptionRows imuReadingRows()
+{
+  return {
       {"imu.hold", "",
        [](auto& o) -> OptionValue {
          return choice(&o.imu.hold, {"midpoint", "left"});

@@ -13,8 +13,8 @@ OdometryOptionRows allRows()
 {
   OdometryOptionRows all;
   for (const auto& rows :
-       {initializationRows(), imuRows(), lidarRows(), calibrationRows(), scanRows(),
-        measurementRows(), behaviourRows()})
+       {initializationRows(), startRows(), imuRows(), imuReadingRows(), lidarRows(),
+        calibrationRows(), scanRows(), measurementRows(), behaviourRows()})
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }

@@ -82,6 +82,12 @@ Rows lidarRows()
          return RealValue{&s.lidar.point_rate, 100.0, 1e7};
        },
        "livox: shots per second"},
+  };
+}
+
+Rows lidarFaultRows()
+{
+  return {
       {"lidar.stride", "",
        [](S& s) -> OptionValue {
          return IntegerValue{&s.lidar.stride, 1, 10000};
@@ -219,7 +225,8 @@ Rows imuFaultRows()
 Rows makeTable()
 {
   Rows table;
-  for (const Rows& rows : {generalRows(), lidarRows(), cloudRows(), imuNoiseRows(), imuFaultRows()})
+  for (const Rows& rows :
+       {generalRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(), imuFaultRows()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }
