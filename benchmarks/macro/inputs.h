@@ -6,9 +6,9 @@
  */
 #pragma once
 
+#include <fastlio/config/config.h>
 #include <fastlio/filter/imu.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/config/config.h>
 #include <fastlio/odometry/odometry_options.h>
 
 #include <string>

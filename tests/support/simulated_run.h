@@ -34,7 +34,8 @@ struct SimulatedRun
 
 /** Feeds a whole recording to an odometry of its own. \param parameters mostly
  * matchingParameters() */
-[[nodiscard]] SimulatedRun runOdometry(const Simulation& simulation, const OdometryOptions& parameters);
+[[nodiscard]] SimulatedRun runOdometry(
+    const Simulation& simulation, const OdometryOptions& parameters);
 
 /** The same with scans as they come out of \a filter, which may change them; false: the scan does
  * not arrive. */

@@ -11,7 +11,7 @@ namespace
 {
 constexpr int kCoordinateDecimals = 4;  // a tenth of a millimetre
 
-void writeTile(const OutputPoints& p, AtomicFile& file)
+void writeTextTile(const OutputPoints& p, AtomicFile& file)
 {
   std::string lines;
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -35,7 +35,7 @@ class TextMapExporter : public Exporter
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
     file_.write("# x y z [m, world] intensity time [s]\n");
-    end.map.forEachTile([this](const OutputPoints& tile) { writeTile(tile, file_); });
+    end.map.forEachTile([this](const OutputPoints& tile) { writeTextTile(tile, file_); });
     return {file_.commit()};
   }
 

@@ -49,7 +49,7 @@ void readColumn(std::ifstream& in, std::vector<T>& column, std::size_t n)
   in.read(reinterpret_cast<char*>(column.data()), static_cast<std::streamsize>(n * sizeof(T)));
 }
 
-void writeTile(const std::string& path, const OutputPoints& points)
+void writeTileFile(const std::string& path, const OutputPoints& points)
 {
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
   writeColumn(out, points.x);
@@ -190,7 +190,7 @@ std::string OutputMap::pathOf(const Key& key)
 void OutputMap::store(const Key& key, Tile& tile)
 {
   tile.path = pathOf(key);
-  writeTile(tile.path, tile.points);
+  writeTileFile(tile.path, tile.points);
   in_memory_ -= tile.size;
   tile.points = {};
   tile.index.reset();

@@ -64,7 +64,8 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
   const TwistCovariance growth = positivePart(
-      twistCovariance(b.map_covariance, b.T_world_body) - twistCovariance(a.map_covariance, a.T_world_body));
+      twistCovariance(b.map_covariance, b.T_world_body) -
+      twistCovariance(a.map_covariance, a.T_world_body));
   const Matrix6 of_b = own_b + poseCovariance(growth, b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
@@ -79,7 +80,8 @@ void PoseTrack::add(const ScanResult& result)
   pose.stamp_ns = result.stamp_ns;
   pose.T_world_body = estimate.T_world_body;
   pose.covariance = estimate.covariance;
-  pose.map_covariance = poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
+  pose.map_covariance =
+      poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
   if (poses_.empty())
     begin_ns_ = result.begin_ns;
   else

@@ -22,7 +22,7 @@ constexpr std::size_t kRefusedShare = 2;
 constexpr double kRestSpeed = 0.05;  // [m/s]
 constexpr double kRestSpeedSigmas = 4.0;
 // A sample holds a little before its stamp, too.
-constexpr std::int64_t kHoldBeforeNs = 20'000'000;
+constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
 
 std::int64_t nanoseconds(double seconds)
 {
@@ -101,7 +101,7 @@ StartDecision startedInMotion(const MotionStart& start, std::int64_t stamp_ns)
 std::string inertialGap(const ScanQueue& scans, const ImuBuffer& imu)
 {
   const double missing_s = secondsBetween(scans.front().span.begin_ns, imu.oldestStamp());
-  if (missing_s <= toSeconds(kHoldBeforeNs)) return {};
+  if (missing_s <= toSeconds(kSampleHoldBeforeNs)) return {};
   return mrpt::format(
       "no start in motion: the inertial data begin %.3f s after the scan", missing_s);
 }

@@ -247,7 +247,8 @@ TEST(Recording, ConfigLoadsStrictly)
   const RecordingFiles files = writeRecording(Simulation(settings), directory.path());
   const Config loaded = loadConfigFromFile(files.config);
   const Config meant = matchingConfig(settings);
-  EXPECT_EQ(loaded.odometry.imu.noise.gyro_noise_density, meant.odometry.imu.noise.gyro_noise_density);
+  EXPECT_EQ(
+      loaded.odometry.imu.noise.gyro_noise_density, meant.odometry.imu.noise.gyro_noise_density);
   EXPECT_EQ(loaded.sensors.imu_sensor_label, "imu");
 }
 

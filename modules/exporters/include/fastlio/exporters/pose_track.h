@@ -22,9 +22,9 @@ struct TrackedPose
   std::int64_t stamp_ns = 0;
   Pose T_world_body;
   Matrix6 covariance = Matrix6::Zero();
-  Matrix6 map_covariance = Matrix6::Zero();   //!< part of the covariance that neighbours share
-  Vec3 velocity = Vec3::Zero();          //!< of the body's origin, body frame [m/s]
-  Vec3 angular_velocity = Vec3::Zero();  //!< body frame [rad/s]
+  Matrix6 map_covariance = Matrix6::Zero();  //!< part of the covariance that neighbours share
+  Vec3 velocity = Vec3::Zero();              //!< of the body's origin, body frame [m/s]
+  Vec3 angular_velocity = Vec3::Zero();      //!< body frame [rad/s]
 };
 
 /** The motion from one pose to a later one. Covariance: attitude error in the frame of the latter,

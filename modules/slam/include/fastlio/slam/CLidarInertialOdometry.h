@@ -5,8 +5,8 @@
  * YAML, fed with observations. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/config/config.h>
+#include <fastlio/exporters/pose_track.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <mrpt/containers/yaml.h>
