@@ -85,7 +85,7 @@ int confidentlyWrong(const SimulatedRun& run)
 SimulationSettings walk(const std::string& scenario)
 {
   SimulationSettings settings = defaultSettings(scenario);
-  settings.duration = 30.0;
+  settings.duration = 24.0;
   return settings;
 }
 
@@ -97,9 +97,9 @@ TEST_P(OutageOfTheLidar, IsNeverFollowedByAWrongPoseThatIsSureOfItself)
 {
   const auto& [scenario, length] = GetParam();
   const Simulation simulation(walk(scenario));
-  // Every second begins an outage in the full grid, every sixth here.
+  // An outage begins at every second in the full grid, at two of them here.
   const double step = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr ? 1.0 : 6.0;
-  for (double begin = 5.0; begin + length < 29.0; begin += step)
+  for (double begin = 6.0; begin + length < 23.0; begin += step)
   {
     const SimulatedRun run = runWithOutage(simulation, {begin, length}, Missing::Scans);
     EXPECT_EQ(confidentlyWrong(run), 0) << length << " s from " << begin << " s on";
@@ -108,8 +108,7 @@ TEST_P(OutageOfTheLidar, IsNeverFollowedByAWrongPoseThatIsSureOfItself)
 
 INSTANTIATE_TEST_SUITE_P(
     Sample, OutageOfTheLidar,
-    ::testing::Combine(
-        ::testing::Values("office", "campus", "uav"), ::testing::Values(2.0, 5.0, 10.0)),
+    ::testing::Combine(::testing::Values("office", "campus"), ::testing::Values(3.0, 8.0)),
     [](const auto& instance)
     {
       return std::string(std::get<0>(instance.param)) + "For" +
