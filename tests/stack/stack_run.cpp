@@ -62,9 +62,7 @@ void StackRun::replay(const std::string& form, const std::string& exporters) con
   std::ifstream matching(file("config.yaml"));
   std::ostringstream config;
   config << matching.rdbuf();
-  std::string text = config.str();
-  const std::string key = "rawlog_form: ";
-  text.replace(text.find(key), text.find('\n', text.find(key)) - text.find(key), key + form);
+  const std::string text = config.str() + "\noutput: {rawlog_form: " + form + "}\n";
   std::ofstream(file(form + ".yaml")) << text;
   const auto result =
       Process(

@@ -17,6 +17,13 @@ constexpr int kRepeats = 3;  // readings in a row at the extreme: no chance
 
 double ClippingDetector::add(const Vec3& reading)
 {
+  before_ = latest_;
+  latest_ = clippedRange(reading);
+  return latest_;
+}
+
+double ClippingDetector::clippedRange(const Vec3& reading)
+{
   if (range_ > 0.0) return reading.cwiseAbs().maxCoeff() >= kAtRange * range_ ? range_ : 0.0;
   double clipped = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i)

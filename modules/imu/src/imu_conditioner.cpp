@@ -24,9 +24,9 @@ constexpr double kAccelFloor = 17.0;  // [m/s^2]
 ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
     : parameters_(parameters),
       gravity_(gravity),
-      accel_scale_(siPerUnit(parameters.accel_unit)),
-      gyro_scale_(siPerUnit(parameters.gyro_unit)),
-      accel_unit_known_(parameters.accel_unit != AccelUnit::Auto),
+      units_{
+          siPerUnit(parameters.accel_unit), siPerUnit(parameters.gyro_unit),
+          parameters.accel_unit != AccelUnit::Auto},
       time_gate_(parameters.max_gap),
       spike_gate_(parameters.spike_gyro, parameters.spike_accel),
       gyro_clipping_(parameters.gyro_range, kGyroFloor),
@@ -45,7 +45,7 @@ const std::vector<ConditionedSample>& ImuConditioner::add(const ImuSample& raw)
     ++report_.bad_stamps;
     return ready_;
   }
-  if (accel_unit_known_)
+  if (units_.accel_known)
   {
     scaled(raw);
     return ready_;
@@ -74,8 +74,8 @@ const std::vector<ConditionedSample>& ImuConditioner::finish()
 void ImuConditioner::decideAccelUnit()
 {
   const AccelUnitVerdict verdict = findAccelUnit(without_unit_, gravity_);
-  accel_unit_known_ = true;
-  accel_scale_ = siPerUnit(verdict.unit);
+  units_.accel_known = true;
+  units_.accel_scale = siPerUnit(verdict.unit);
   report_.accel_unit = verdict.unit;
   const std::int64_t stamp_ns = without_unit_.front().stamp_ns;
   if (!verdict.clear)
@@ -100,9 +100,9 @@ void ImuConditioner::decideAccelUnit()
 void ImuConditioner::scaled(ImuSample sample)
 {
   // Not multiplied by 1: clean samples stay as they are, minus zeros included.
-  if (accel_scale_ != 1.0) sample.accel *= accel_scale_;
+  if (units_.accel_scale != 1.0) sample.accel *= units_.accel_scale;
   if (parameters_.invert_acceleration) sample.accel = -sample.accel;
-  if (gyro_scale_ != 1.0) sample.gyro *= gyro_scale_;
+  if (units_.gyro_scale != 1.0) sample.gyro *= units_.gyro_scale;
   const std::size_t steps = time_gate_.clockSteps();
   timed_.clear();
   time_gate_.push(sample, timed_);
@@ -150,13 +150,13 @@ double ImuConditioner::considerGyroUnit(ConditionedSample& next)
   gyro_unit_test_.add(next.sample, gravity_);
   if (!gyro_unit_test_.degrees()) return 1.0;
   report_.gyro_unit = GyroUnit::Degrees;
-  gyro_scale_ = siPerUnit(GyroUnit::Degrees);
-  next.sample.gyro *= gyro_scale_;
+  units_.gyro_scale = siPerUnit(GyroUnit::Degrees);
+  next.sample.gyro *= units_.gyro_scale;
   diagnostics_.push_back(
       {next.sample.stamp_ns,
        "the angular rate is in deg/s, not in rad/s (" + gyro_unit_test_.evidence() +
            "): converted, and the run starts anew here; imu.gyro_unit: deg/s avoids that"});
-  return gyro_scale_;
+  return units_.gyro_scale;
 }
 
 std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample& timed)
@@ -187,10 +187,8 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
 std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample& sample)
 {
   const double gyro = gyro_clipping_.add(sample.gyro), accel = accel_clipping_.add(sample.accel);
-  const double gyro_between = std::max(gyro, gyro_clipped_);
-  const double accel_between = std::max(accel, accel_clipped_);
-  gyro_clipped_ = gyro;
-  accel_clipped_ = accel;
+  const double gyro_between = std::max(gyro, gyro_clipping_.before());
+  const double accel_between = std::max(accel, accel_clipping_.before());
   if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
   if (!last_ns_ || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
   return NoiseInflation{

@@ -133,7 +133,7 @@ void writeText(const std::string& path, std::string_view text)
 
 std::string configText(const SimulationSettings& settings)
 {
-  const std::string header = "# OdometryOptions that match the simulated recording '" +
+  const std::string header = "# Parameters that match the simulated recording '" +
                              settings.scenario + "', seed " + std::to_string(settings.seed) + ".\n";
   return toYaml(matchingConfig(settings), header);
 }

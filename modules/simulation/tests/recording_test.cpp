@@ -27,7 +27,6 @@ namespace fastlio
 namespace
 {
 using mrpt::obs::CObservationVelodyneScan;
-
 std::string contentOf(const std::string& path)
 {
   std::ifstream in(path, std::ios::binary);

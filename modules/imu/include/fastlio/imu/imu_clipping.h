@@ -20,8 +20,12 @@ class ClippingDetector
   /** Takes the next reading.
    * \return the full scale when an axis is clipped, otherwise 0 */
   double add(const Vec3& reading);
+  /** What add() returned for the reading before the latest one; 0 when there was none. */
+  [[nodiscard]] double before() const { return before_; }
 
  private:
+  [[nodiscard]] double clippedRange(const Vec3& reading);
+
   struct Axis
   {
     double extreme = 0.0;
@@ -29,6 +33,7 @@ class ClippingDetector
   };
 
   double range_, floor_;
+  double latest_ = 0.0, before_ = 0.0;  // full scales of clipped readings
   std::array<Axis, 3> axes_;
 };
 

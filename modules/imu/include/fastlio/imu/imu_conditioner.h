@@ -48,6 +48,13 @@ class ImuConditioner
   [[nodiscard]] std::vector<Diagnostic> takeDiagnostics();
 
  private:
+  /** What readings are multiplied by. */
+  struct Units
+  {
+    double accel_scale = 1.0, gyro_scale = 1.0;
+    bool accel_known = false;
+  };
+
   void decideAccelUnit();
   void scaled(ImuSample sample);
   void emit(const TimedSample& timed);
@@ -59,15 +66,13 @@ class ImuConditioner
 
   ImuOptions parameters_;
   double gravity_;
-  double accel_scale_ = 1.0, gyro_scale_ = 1.0;
-  bool accel_unit_known_;
+  Units units_;
   ImuReport report_;
   std::vector<ImuSample> without_unit_;
   ImuTimeGate time_gate_;
   ImuSpikeGate spike_gate_;
   SamplingPeriod period_;
   ClippingDetector gyro_clipping_, accel_clipping_;
-  double gyro_clipped_ = 0.0, accel_clipped_ = 0.0;  // full scales, of the sample before
   GyroUnitTest gyro_unit_test_;
   std::optional<std::int64_t> last_ns_;
   std::vector<Diagnostic> diagnostics_;

@@ -1,0 +1,63 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// How the estimator matches a scan in each of its modes.
+
+#include "estimator.h"
+#include <fastlio/math/stopwatch.h>
+
+#include <utility>
+
+namespace fastlio
+{
+MapSearchResult Estimator::matchWithMap(
+    const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
+{
+  const Stopwatch watch;
+  const auto timed = [&](MapSearchResult result)
+  {
+    timings_.associate = result.match.association_ms;
+    timings_.update = watch.milliseconds() - timings_.associate;
+    return result;
+  };
+  if (auto* entering = std::get_if<EnteringMap>(&mode_))
+  {
+    MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted);
+    if (search.found) mode_ = Tracking{std::move(entering->run)};
+    return timed(std::move(search));
+  }
+  if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
+  {
+    if (end_ns > relocalizing->give_up_ns) beginNewMap(scan);
+    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted));
+  }
+  return timed(trackOrSearch(scan, predicted));
+}
+
+/** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
+ * wrong pose would agree with it ever after, so a match that does not convince is no match. */
+MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const FilterState& predicted)
+{
+  Tracking& tracking = std::get<Tracking>(mode_);
+  const bool map_can_tell = options_.recovery.enabled && !map_.isYoung();
+  if (map_can_tell && needsPoseSearch(predicted)) tracking.searching = true;
+  if (!tracking.searching)
+  {
+    MatchResult match = matcher_.match(scan, predicted, map_, ordinaryMatching(options_));
+    const bool good = !match.update.updated || isConvincing(match, scan, map_, options_);
+    if (!map_can_tell || good) return {std::move(match), true, std::nullopt};
+  }
+  MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted);
+  tracking.searching = !search.found;
+  return search;
+}
+
+/** A given map stays, as the world is that of the map. */
+void Estimator::beginNewMap(const DeskewedScan& scan)
+{
+  const auto needed = static_cast<std::size_t>(options_.measurement.min_effective_points);
+  if (map_.isGiven() || scan.surfaces.size() < needed) return;
+  map_ = LocalMap(options_, workers_);
+}
+
+}  // namespace fastlio
