@@ -77,9 +77,8 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   workers_->alongside(
       [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
-  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);  // eq. 9-10
-  const MapSearchResult matched =
-      matchWithMap(deskewed, predicted.state, span.end_ns);  // eq. 12-20
+  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);             // eq. 9-10
+  const MapSearchResult matched = matchWithMap(deskewed, predicted, span.end_ns);  // eq. 12-20
   const MatchResult& match = matched.match;
 
   Work work{scan, deskewed, predicted, {}};
@@ -111,7 +110,8 @@ ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
   ScanPrediction predicted = predictor_.predict(state_, end_ns, imu, map_.error(), run().trusted);
-  considerUnmodelledAcceleration(predicted.state, toSeconds(end_ns - state_.stamp_ns));
+  predicted.blind_s = toSeconds(end_ns - state_.stamp_ns);
+  considerUnmodelledAcceleration(predicted.state, predicted.blind_s);
   map_.propagateError(predicted.transition);
   timings_.propagate = watch.milliseconds();
   return predicted;

@@ -102,9 +102,9 @@ class Estimator
   [[nodiscard]] const DeskewedScan& deskew(
       const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted);
   [[nodiscard]] MapSearchResult matchWithMap(
-      const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
+      const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns);
   [[nodiscard]] MapSearchResult trackOrSearch(
-      const DeskewedScan& scan, const FilterState& predicted);
+      const DeskewedScan& scan, const ScanPrediction& predicted);
   void beginNewMap(const DeskewedScan& scan);
   void adopt(const MatchResult& match, const Work& work, ScanResult& result);
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);

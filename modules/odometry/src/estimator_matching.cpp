@@ -11,7 +11,7 @@
 namespace fastlio
 {
 MapSearchResult Estimator::matchWithMap(
-    const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
+    const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns)
 {
   const Stopwatch watch;
   const auto timed = [&](MapSearchResult result)
@@ -22,32 +22,35 @@ MapSearchResult Estimator::matchWithMap(
   };
   if (auto* entering = std::get_if<EnteringMap>(&mode_))
   {
-    MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted);
+    MapSearchResult search =
+        MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted.state);
     if (search.found) mode_ = Tracking{std::move(entering->run)};
     return timed(std::move(search));
   }
   if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
   {
     if (end_ns > relocalizing->give_up_ns) beginNewMap(scan);
-    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted));
+    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted.state));
   }
   return timed(trackOrSearch(scan, predicted));
 }
 
 /** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
  * wrong pose would agree with it ever after, so a match that does not convince is no match. */
-MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const FilterState& predicted)
+MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPrediction& predicted)
 {
   Tracking& tracking = std::get<Tracking>(mode_);
   const bool map_can_tell = options_.recovery.enabled && !map_.isYoung();
-  if (map_can_tell && needsPoseSearch(predicted)) tracking.searching = true;
+  if (map_can_tell && needsPoseSearch(predicted.state, predicted.blind_s))
+    tracking.searching = true;
   if (!tracking.searching)
   {
-    MatchResult match = matcher_.match(scan, predicted, map_, ordinaryMatching(options_));
+    MatchResult match = matcher_.match(scan, predicted.state, map_, ordinaryMatching(options_));
     const bool good = !match.update.updated || isConvincing(match, scan, map_, options_);
     if (!map_can_tell || good) return {std::move(match), true, std::nullopt};
   }
-  MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted);
+  MapSearchResult search =
+      MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted.state);
   tracking.searching = !search.found;
   return search;
 }

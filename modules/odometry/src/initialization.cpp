@@ -24,11 +24,6 @@ constexpr double kRestSpeedSigmas = 4.0;
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
 
-std::int64_t nanoseconds(double seconds)
-{
-  return toNanoseconds(seconds);
-}
-
 double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
 {
   return toSeconds(to_ns - from_ns);
@@ -46,9 +41,9 @@ RestSearch searchRest(
     const ImuBuffer& imu, const InitializationOptions& parameters, std::int64_t first_scan_begin_ns)
 {
   RestSearch search;
-  const std::int64_t duration_ns = nanoseconds(parameters.duration);
+  const std::int64_t duration_ns = toNanoseconds(parameters.duration);
   const std::int64_t step_ns =
-      std::max<std::int64_t>(nanoseconds(kWindowStep * parameters.duration), 1);
+      std::max<std::int64_t>(toNanoseconds(kWindowStep * parameters.duration), 1);
   const std::int64_t latest_ns = std::max(imu.oldestStamp(), first_scan_begin_ns - duration_ns);
   if (imu.newestStamp() < latest_ns + duration_ns)
   {
@@ -146,7 +141,7 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
   const QueuedScan& oldest = scans.front();
   if (oldest.span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
   // The search for rest looks back by its duration.
-  imu.forgetBefore(oldest.span.begin_ns - nanoseconds(parameters_.initialization.duration));
+  imu.forgetBefore(oldest.span.begin_ns - toNanoseconds(parameters_.initialization.duration));
   const std::string gap = inertialGap(scans, imu);
   if (!gap.empty()) return waitOrDrop(true, gap);
 

@@ -14,7 +14,7 @@ namespace fastlio
 namespace
 {
 // Of a given pose: from its whole uncertainty down, each pass looks nearer.
-constexpr int kPasses = 4;
+constexpr int kGivenPosePasses = 4;
 constexpr double kShrink = 0.25;  // of the variances of place and heading, per pass
 // Of a carried pose.
 constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
@@ -103,7 +103,7 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
   // Once more, so that matches and constraints are those of the best.
   const FilterState from = withUncertainPlace(
       standingAt(predicted, best.posterior.x.pose()), options_.initialization,
-      std::pow(kShrink, kPasses));
+      std::pow(kShrink, kGivenPosePasses));
   return {matcher_.match(scan_, from, map_, ordinaryMatching(options_)), true, std::nullopt};
 }
 
@@ -112,7 +112,7 @@ MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candid
   MatchResult match;
   Pose at = candidate;
   double scale = 1.0;
-  for (int pass = 0; pass < kPasses; ++pass)
+  for (int pass = 0; pass < kGivenPosePasses; ++pass)
   {
     scale *= kShrink;
     const FilterState from =

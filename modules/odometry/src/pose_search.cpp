@@ -20,7 +20,7 @@ constexpr double kShortTime = 0.5;  // [s]
 constexpr double kPullInStd = 0.05;  // [m]
 // Planes of the coarser voxels pull in from half of this and more.
 constexpr double kGridStep = 0.5;  // [m]
-constexpr double kSigmas = 3.5;
+constexpr double kSearchSigmas = 3.5;
 // Bounds the time that a search takes, to about a second.
 constexpr std::size_t kMostCandidates = 2000;
 constexpr std::size_t kSamplePoints = 300;
@@ -135,9 +135,10 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s)
   P.block<3, 3>(kVelocity, kPosition).diagonal().array() += q * t * t * t / 2.0;
 }
 
-bool needsPoseSearch(const FilterState& predicted)
+bool needsPoseSearch(const FilterState& predicted, double blind_s)
 {
-  return predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
+  return blind_s >= kShortTime &&
+         predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
 }
 
 std::vector<Vec3> candidateOffsets(const FilterState& predicted)
@@ -159,7 +160,7 @@ std::vector<Vec3> candidateOffsets(const FilterState& predicted)
       for (int z = -nz; z <= nz; ++z)
       {
         const Vec3 offset = kGridStep * Vec3(x, y, z);
-        if (offset.cwiseProduct(scale).norm() <= kSigmas) offsets.push_back(offset);
+        if (offset.cwiseProduct(scale).norm() <= kSearchSigmas) offsets.push_back(offset);
       }
   std::stable_sort(
       offsets.begin(), offsets.end(),

@@ -20,9 +20,10 @@ namespace fastlio
  * \param blind_s time without a scan [s] */
 void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
 
-/** The prediction is too uncertain for the matching of ordinary scans, which pulls in a few
- * centimetres. */
-[[nodiscard]] bool needsPoseSearch(const FilterState& predicted);
+/** After a time without scans, the prediction is too uncertain for the matching of ordinary scans,
+ * which pulls in a few centimetres. (With scans, it is uncertain along degenerate directions only.)
+ * \param blind_s time without a scan [s] */
+[[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
 
 /** Positions on a grid within three standard deviations of the predicted one, the likeliest first.
  * \return offsets from the predicted position, world frame [m] */

@@ -16,11 +16,6 @@ constexpr std::size_t kMostPast = 64;    // a clock step is known long before
 constexpr std::size_t kMostFuture = 16;  // more are no accident, but still no scans
 constexpr std::size_t kFewBelieved = 3;  // so few may have had wrong stamps themselves
 
-std::int64_t nanoseconds(double seconds)
-{
-  return toNanoseconds(seconds);
-}
-
 QueuedScan shifted(QueuedScan scan, std::int64_t shift_ns)
 {
   scan.scan.stamp_ns += shift_ns;
@@ -31,7 +26,7 @@ QueuedScan shifted(QueuedScan scan, std::int64_t shift_ns)
 }  // namespace
 
 ScanIntake::ScanIntake(double max_step, double max_ahead)
-    : max_step_ns_(nanoseconds(max_step)), max_ahead_ns_(nanoseconds(max_ahead))
+    : max_step_ns_(toNanoseconds(max_step)), max_ahead_ns_(toNanoseconds(max_ahead))
 {
 }
 

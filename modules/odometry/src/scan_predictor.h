@@ -19,6 +19,7 @@ namespace fastlio
 /** The state at a scan's end before the scan is looked at. */
 struct ScanPrediction
 {
+  double blind_s = 0.0;  //!< since the scan before [s]
   FilterState state;
   StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it

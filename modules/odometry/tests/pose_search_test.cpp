@@ -131,7 +131,8 @@ TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
   // 0.05 m/s^2 for 10 s.
   EXPECT_NEAR(std::sqrt(s.P(kPosition, kPosition)), 2.5, 0.01);
   EXPECT_NEAR(std::sqrt(s.P(kVelocity, kVelocity)), 0.5, 0.01);
-  EXPECT_TRUE(needsPoseSearch(s));
+  EXPECT_TRUE(needsPoseSearch(s, 10.0));
+  EXPECT_FALSE(needsPoseSearch(s, 0.1)) << "uncertain along a tunnel, but not blind";
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(s.P)};
   EXPECT_GE(solver.eigenvalues().minCoeff(), 0.0);
 }
