@@ -89,7 +89,7 @@ SimulationSettings walk(const std::string& scenario)
   return settings;
 }
 
-class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<const char*, double>>
+class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<std::string, double>>
 {
 };
 
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Combine(::testing::Values("office", "campus"), ::testing::Values(3.0, 8.0)),
     [](const auto& instance)
     {
-      return std::string(std::get<0>(instance.param)) + "For" +
+      return std::get<0>(instance.param) + "For" +
              std::to_string(static_cast<int>(std::get<1>(instance.param))) + "Seconds";
     });
 
