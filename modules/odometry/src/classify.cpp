@@ -56,8 +56,7 @@ void considerInlierRatio(const ScanStatistics& s, const HealthOptions& limits, S
       [&]
       {
         return mrpt::format(
-            "%zu of %zu points match the map, less than %g of the share that matched before, %.3f "
-            "(health.min_share)",
+            "%zu of %zu points match the map, less than %g of the share that matched before, %.3f",
             s.points_effective, s.points_downsampled, limits.min_share, s.usual_inlier_ratio);
       });
 }
@@ -69,8 +68,8 @@ void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanH
       [&]
       {
         return mrpt::format(
-            "the residuals are %.1f times what their noise explains, more than %g "
-            "(health.max_innovation): wrong pose, extrinsic, time offset or point times?",
+            "the residuals are %.1f times what their noise explains, more than %g: "
+            "wrong pose, extrinsic, time offset or point times?",
             s.normalized_innovation, limits.max_innovation);
       });
   const double information = above(s.information_eigenvalues[0], limits.min_information);
@@ -82,7 +81,7 @@ void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanH
       {
         return mrpt::format(
             "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
-            "less than %g (health.min_information)",
+            "less than %g",
             s.information_eigenvalues[0], limits.min_information);
       });
 }
@@ -96,7 +95,7 @@ void considerInertialData(
       {
         return mrpt::format(
             "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
-            "more than %.0f %% (health.max_inflated)",
+            "more than %.0f %%",
             100.0 * inflated, 100.0 * limits.max_inflated);
       });
   consider(
@@ -104,7 +103,7 @@ void considerInertialData(
       [&]
       {
         return mrpt::format(
-            "the gyro's bias has run to %.2f deg/s, more than %.2f (health.max_gyro_bias)",
+            "the gyro's bias has run to %.2f deg/s, more than %.2f",
             kDegPerRad * x.gyro_bias.norm(), kDegPerRad * limits.max_gyro_bias);
       });
   consider(
@@ -112,17 +111,15 @@ void considerInertialData(
       [&]
       {
         return mrpt::format(
-            "the accelerometer's bias has run to %.2f m/s^2, more than %.2f "
-            "(health.max_accel_bias)",
-            x.accel_bias.norm(), limits.max_accel_bias);
+            "the accelerometer's bias has run to %.2f m/s^2, more than %.2f", x.accel_bias.norm(),
+            limits.max_accel_bias);
       });
 }
 
 std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s, int needed)
 {
   return mrpt::format(
-      "%zu of %zu points match the map, at least %i are needed "
-      "(measurement.min_effective_points); "
+      "%zu of %zu points match the map, at least %i are needed; "
       "%.2f s on inertial data alone, position uncertain by %.3f m%s",
       s.points_effective, outcome.points, needed, outcome.unaided_s, outcome.position_std,
       outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
@@ -150,8 +147,8 @@ std::string searchFailure(const ScanOutcome& outcome)
 std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
 {
   return mrpt::format(
-      "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match "
-      "(health.min_share); the last one was %.2f s ago",
+      "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match; "
+      "the last one was %.2f s ago",
       s.points_effective, outcome.points, s.normalized_innovation, outcome.unaided_s);
 }
 
@@ -168,7 +165,7 @@ std::string relocalisationFailure(
 {
   return mrpt::format(
       "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
-      "needed (initialization.map_share); is the pose within initialization.pose_position_std "
+      "needed; is the pose within initialization.pose_position_std "
       "(%.2f m) and pose_yaw_std of the true one?",
       100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)), 100.0 * p.map_share,
       p.pose_position_std);
@@ -252,7 +249,7 @@ ScanHealth healthOf(
       [&]
       {
         return mrpt::format(
-            "%.2f s since the scan before, more than %g (health.max_scan_interval): scans are "
+            "%.2f s since the scan before, more than %g: scans are "
             "missing, or the LiDAR's stamps jump",
             interval_s, limits.max_scan_interval);
       });

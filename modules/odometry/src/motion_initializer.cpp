@@ -171,7 +171,7 @@ std::string refusal(const Pass& pass, bool agreed, const InitializationOptions& 
   if (pass.blind || !(pass.velocity_std < p.motion_max_velocity_std))
     return mrpt::format(
         "no start in motion: the scans leave the velocity along (%.2f, %.2f, %.2f) of the IMU open "
-        "(%.2f m/s, limit initialization.motion_max_velocity_std %.2f m/s); go where there is more "
+        "(%.2f m/s, limit %.2f m/s); go where there is more "
         "to see, or start at rest",
         pass.least_known.x(), pass.least_known.y(), pass.least_known.z(), pass.velocity_std,
         p.motion_max_velocity_std);

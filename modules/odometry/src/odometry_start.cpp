@@ -92,7 +92,7 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
       popScan(),
       (imu_.empty() ? "no inertial sample has arrived" : "the inertial data have ended") +
           std::string(", but scans of ") + std::to_string(waits_s) +
-          " s have after this one (lidar.max_waiting); is the IMU running, does it share "
+          " s have after this one; is the IMU running, does it share "
           "the LiDAR's clock (lidar.time_offset)?",
       estimator_.started() || reinitialization_.pending());
 }

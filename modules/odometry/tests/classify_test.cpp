@@ -84,25 +84,25 @@ TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
     std::function<void(ScanResult&, double)> set;  // to a multiple of the limit, > 1 is worse
   };
   const std::vector<Case> cases{
-      {HealthCause::FewMatches, "health.min_share",
+      {HealthCause::FewMatches, "of the share that matched before",
        [&](ScanResult& r, double k)
        {
          r.statistics.points_downsampled = 100000;
          r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 50000 / k);
        }},
-      {HealthCause::LargeResidual, "health.max_innovation",
+      {HealthCause::LargeResidual, "times what their noise explains",
        [&](ScanResult& r, double k)
        { r.statistics.normalized_innovation = k * limits.max_innovation; }},
-      {HealthCause::DegenerateDirection, "health.min_information",
+      {HealthCause::DegenerateDirection, "leave a direction open",
        [&](ScanResult& r, double k)
        { r.statistics.information_eigenvalues[0] = limits.min_information / k; }},
-      {HealthCause::Bias, "health.max_gyro_bias",
+      {HealthCause::Bias, "the gyro's bias",
        [&](ScanResult& r, double k)
        { r.filter.x.gyro_bias = Vec3(0, k * limits.max_gyro_bias, 0); }},
-      {HealthCause::Bias, "health.max_accel_bias",
+      {HealthCause::Bias, "the accelerometer's bias",
        [&](ScanResult& r, double k)
        { r.filter.x.accel_bias = Vec3(k * limits.max_accel_bias, 0, 0); }},
-      {HealthCause::ScanTiming, "health.max_scan_interval",
+      {HealthCause::ScanTiming, "since the scan before",
        [&](ScanResult& r, double k) {
          r.begin_ns = r.stamp_ns - static_cast<std::int64_t>(1e9 * k * limits.max_scan_interval);
        }},
@@ -186,7 +186,7 @@ TEST(Classify, AScanWithoutUpdateIsPredictedAndThenDiverged)
   outcome.unaided_s = 0.1;
   const ScanResult predicted = classified(outcome);
   EXPECT_EQ(predicted.status, ScanStatus::PredictionOnly);
-  EXPECT_NE(predicted.message.find("measurement.min_effective_points"), std::string::npos);
+  EXPECT_NE(predicted.message.find("are needed"), std::string::npos);
   EXPECT_EQ(predicted.health.reason, predicted.message);
   outcome.unaided_s = 2.0 * OdometryOptions{}.measurement.max_unaided_time;
   EXPECT_EQ(classified(outcome).status, ScanStatus::Diverged);

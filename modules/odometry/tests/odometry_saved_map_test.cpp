@@ -172,7 +172,7 @@ TEST(SavedMap, APlaceOutsideOfTheMapIsToldInsteadOfBelieved)
   const Results results = runInOrder(odometry, earlierRun().recording);
   ASSERT_FALSE(results.empty());
   EXPECT_EQ(countOf(results, ScanStatus::Initializing), results.size());
-  EXPECT_NE(results.back().message.find("initialization.map_share"), std::string::npos)
+  EXPECT_NE(results.back().message.find("match the given map"), std::string::npos)
       << results.back().message;
 }
 
