@@ -26,7 +26,7 @@ struct Outage
   double begin_s, length_s;
 };
 
-/** A scan that the outage leaves nothing of, or that is not touched, or what is left of it. */
+/** What the outage takes away. */
 enum class Missing
 {
   Scans,  //!< no scan arrives
