@@ -169,7 +169,7 @@ std::string toJson(const RecordingSurvey& survey)
     all["imu"] = imuJson(survey);
     all["overlap"] = {
         {"seconds", survey.overlap.seconds},
-        {"share_of_lidar", survey.overlap.share},
+        {"share_of_lidar", survey.overlap.fraction},
         {"lidar_lead_s", survey.overlap.lead}};
     if (survey.motion) all["motion"] = motionJson(survey);
   }

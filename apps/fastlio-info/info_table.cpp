@@ -127,7 +127,7 @@ std::string motionText(const RecordingSurvey& survey)
       format(
           "%.2f s in common (%.0f %% of the LiDAR's); in the file a scan's stamp is %.3f s "
           "after the newest IMU stamp",
-          survey.overlap.seconds, 100.0 * survey.overlap.share, survey.overlap.lead));
+          survey.overlap.seconds, 100.0 * survey.overlap.fraction, survey.overlap.lead));
   if (!survey.motion) return text;
   const MotionCheck& motion = *survey.motion;
   if (!motion.conclusive)

@@ -22,12 +22,12 @@ SurveyOptions optionsOf(const InfoArguments& arguments)
   SurveyOptions options;
   options.check_motion = arguments.check_motion;
   if (isatty(STDERR_FILENO) == 0) return options;
-  options.progress = [last = -1](double share) mutable
+  options.progress = [last = -1](double fraction) mutable
   {
-    const int percent = static_cast<int>(100.0 * share);
+    const int percent = static_cast<int>(100.0 * fraction);
     if (percent == last) return;
     last = percent;
-    std::cerr << "\rreading " << percent << " %  " << (share >= 1.0 ? "\r             \r" : "")
+    std::cerr << "\rreading " << percent << " %  " << (fraction >= 1.0 ? "\r             \r" : "")
               << std::flush;
   };
   return options;

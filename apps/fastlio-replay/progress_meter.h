@@ -15,7 +15,7 @@ namespace fastlio
 /** Where a run stands. */
 struct Progress
 {
-  double done = 0;               //!< share of the input [0, 1]
+  double done = 0;               //!< fraction of the input [0, 1]
   double recording_seconds = 0;  //!< recording time processed so far
 };
 

@@ -62,7 +62,7 @@ Problem makeProblem(std::size_t count)
   return problem;
 }
 
-/** What eq. 20 needs of the rows: its share of the cost grows with their number. */
+/** What eq. 20 needs of the rows: its part of the cost grows with their number. */
 InformationSums sumsOf(const StackedMeasurements& m)
 {
   InformationSums sums;

@@ -33,7 +33,7 @@ struct RunTimes
 [[nodiscard]] std::vector<RunTimes> measure(
     const Inputs& inputs, const std::vector<int>& threads, int repeats);
 
-/** Value below which the share \a p of them lies, by the nearest rank; 0 for none. */
+/** Value below which the fraction \a p of them lies, by the nearest rank; 0 for none. */
 [[nodiscard]] double percentile(std::vector<double> values, double p);
 
 }  // namespace fastlio::benchmarks

@@ -66,7 +66,7 @@ TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
   const SimulatedRun run = runOdometry(Simulation(settings), parameters);
   const auto estimated = [](const JudgedScan& scan)
   { return scan.result.filter.P(kTimeOffset, kTimeOffset) > 0.0; };
-  const auto share = [](const JudgedScan& scan)
+  const auto fraction = [](const JudgedScan& scan)
   {
     const ScanStatistics& s = scan.result.statistics;
     return static_cast<double>(s.points_effective) / static_cast<double>(s.points_downsampled);
@@ -76,8 +76,8 @@ TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
   ASSERT_GT(first - run.scans.begin(), 5);
   const double min_share = parameters.calibration.time_offset_min_share;
   for (auto scan = run.scans.begin(); scan + 1 != first; ++scan)
-    EXPECT_LT(share(*scan), min_share);
-  EXPECT_GE(share(*(first - 1)), min_share);
+    EXPECT_LT(fraction(*scan), min_share);
+  EXPECT_GE(fraction(*(first - 1)), min_share);
   EXPECT_TRUE(std::all_of(first, run.scans.end(), estimated));
 }
 

@@ -65,8 +65,8 @@ constexpr ConsistencyCase kCases[] = {
 double pathStart(const ConsistencyCase& c, std::uint64_t seed)
 {
   const double whole = Simulation(defaultSettings(c.scenario)).settings().duration;
-  const double share = static_cast<double>(seed - 1) / static_cast<double>(kRuns);
-  return share * (whole - kDuration);
+  const double fraction = static_cast<double>(seed - 1) / static_cast<double>(kRuns);
+  return fraction * (whole - kDuration);
 }
 
 /** The noise is white and Gaussian, and gravity as well known as the filter takes it to be. */

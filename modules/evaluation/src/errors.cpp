@@ -21,7 +21,8 @@ PoseError operator/(const PoseError& e, double span)
   return {e.translation / span, e.rotation / span};
 }
 
-/** Spans shorter by this share still count: sums of steps and rounded stamps miss a span by a hair.
+/** Spans shorter by this fraction still count: sums of steps and rounded stamps miss a span by a
+ * hair.
  */
 constexpr double kSpanTolerance = 1e-6;
 

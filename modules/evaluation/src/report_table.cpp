@@ -94,10 +94,10 @@ std::string segmentTable(const EvaluationReport& r)
 std::string driftLine(const EndToEndDrift& d)
 {
   const auto ratio = d.ratio();
-  const std::string share =
+  const std::string fraction =
       ratio ? format("%.4f %% of %.2f m", toPercent(*ratio), d.path_length) : "no path";
   return format(
-      "end-to-end drift           %.4f m (%s), %.4f deg\n", d.error.translation, share.c_str(),
+      "end-to-end drift           %.4f m (%s), %.4f deg\n", d.error.translation, fraction.c_str(),
       toDegrees(d.error.rotation));
 }
 

@@ -53,7 +53,7 @@ Json imuJson(const ImuReport& imu)
       {"clock_steps", imu.clock_steps}};
 }
 
-Json remarksJson(const std::vector<Diagnostic>& diagnostics)
+Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics)
 {
   Json json = Json::array();
   for (const Diagnostic& diagnostic : diagnostics)

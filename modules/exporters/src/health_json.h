@@ -14,6 +14,6 @@ namespace fastlio
 {
 [[nodiscard]] nlohmann::ordered_json healthJson(const RunHealth& health);
 [[nodiscard]] nlohmann::ordered_json imuJson(const ImuReport& imu);
-[[nodiscard]] nlohmann::ordered_json remarksJson(const std::vector<Diagnostic>& diagnostics);
+[[nodiscard]] nlohmann::ordered_json diagnosticsJson(const std::vector<Diagnostic>& diagnostics);
 
 }  // namespace fastlio

@@ -105,15 +105,15 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
   const TrackedPose& before = *std::prev(next);
   const double gap = secondsBetween(before.stamp_ns, next->stamp_ns);
   if (gap > kMaxGap) return std::nullopt;
-  const double share = secondsBetween(before.stamp_ns, stamp_ns) / gap;
+  const double fraction = secondsBetween(before.stamp_ns, stamp_ns) / gap;
   const Pose& a = before.T_world_body;
   const Pose& b = next->T_world_body;
   TrackedPose pose;
   pose.stamp_ns = stamp_ns;
   pose.T_world_body = {
-      a.R * expSO3(share * logSO3(a.R.transpose() * b.R)), a.p + share * (b.p - a.p)};
-  pose.covariance = (1.0 - share) * before.covariance + share * next->covariance;
-  pose.map_covariance = (1.0 - share) * before.map_covariance + share * next->map_covariance;
+      a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
+  pose.covariance = (1.0 - fraction) * before.covariance + fraction * next->covariance;
+  pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
   setVelocity(pose, before, *next);
   return pose;
 }

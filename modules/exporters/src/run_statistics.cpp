@@ -14,10 +14,10 @@ namespace fastlio
 namespace
 {
 /** Nearest-rank quantile; reorders the values. */
-double quantile(std::vector<float>& values, double share)
+double quantile(std::vector<float>& values, double fraction)
 {
   const auto last = static_cast<double>(values.size() - 1);
-  const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * last));
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(fraction * last));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return static_cast<double>(values[static_cast<std::size_t>(rank)]);
 }

@@ -179,7 +179,7 @@ Json summaryJson(const RunSummary& run)
       {"calibration", calibrationJson(run)},
       {"health", healthJson(run.statistics.health())},
       {"imu", imuJson(run.imu)},
-      {"diagnostics", remarksJson(run.diagnostics)},
+      {"diagnostics", diagnosticsJson(run.diagnostics)},
       {"first_trouble", trouble ? troubleJson(*trouble) : Json(nullptr)},
       {"troubles", troublesJson(run.statistics)},
       {"outputs", filesJson(run.outputs)},

@@ -34,7 +34,7 @@ TrackedPose tracked(const Pose& pose, double own, double shared)
     for (int j = 0; j < 6; ++j)
       A(i, j) = 1e-2 * (1 + (5 * i + 3 * j) % 7);
   const Matrix6 twist = shared * A * A.transpose();
-  // The map's share is a rigid motion of the world.
+  // The map's part is a rigid motion of the world.
   Matrix6 L = Matrix6::Identity();
   L.topLeftCorner<3, 3>() = pose.R.transpose();
   L.bottomLeftCorner<3, 3>() = -skew(pose.p);
@@ -84,7 +84,7 @@ TEST(PoseTrack, KnowsNothingOutsideAndInGaps)
   EXPECT_FALSE(track.at(kStamp + 30 * kScan + 1));
 }
 
-/** Without a map's share: the two errors are independent, so numbers tell what the derivatives do.
+/** Without a map's part: the two errors are independent, so numbers tell what the derivatives do.
  */
 TEST(RelativePose, CovarianceIsThatOfTheErrorsOfBoth)
 {

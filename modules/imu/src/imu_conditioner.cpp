@@ -106,11 +106,11 @@ void ImuConditioner::scaled(ImuSample sample)
   const std::size_t steps = time_gate_.clockSteps();
   timed_.clear();
   time_gate_.push(sample, timed_);
-  if (time_gate_.clockSteps() != steps) remarkClockStep();
+  if (time_gate_.clockSteps() != steps) reportClockStep();
   emitAll();
 }
 
-void ImuConditioner::remarkClockStep()
+void ImuConditioner::reportClockStep()
 {
   const std::int64_t at_ns = timed_.empty() ? 0 : timed_.front().sample.stamp_ns;
   diagnostics_.push_back(
@@ -177,10 +177,10 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
   }
   if (!gap && !spike) return inflation;
   // What the motion does in between grows with the time it has.
-  const double share = std::min(1.0, interval / parameters_.max_gap);
+  const double fraction = std::min(1.0, interval / parameters_.max_gap);
   return NoiseInflation{
-      *last_ns_, sample.stamp_ns, share * parameters_.gap_gyro_std,
-      share * parameters_.gap_accel_std, gap ? InertialFault::Gap : InertialFault::Spike};
+      *last_ns_, sample.stamp_ns, fraction * parameters_.gap_gyro_std,
+      fraction * parameters_.gap_accel_std, gap ? InertialFault::Gap : InertialFault::Spike};
 }
 
 /** An input between two samples is in doubt when one of them is. */

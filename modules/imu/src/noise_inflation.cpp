@@ -41,9 +41,9 @@ ImuNoise noiseBetween(
   {
     const std::int64_t common_ns = overlap(inflation, begin_ns, end_ns);
     if (common_ns <= 0) continue;
-    const double share = static_cast<double>(common_ns) / duration_ns;
-    gyro_variance += share * inflation.gyro_std * inflation.gyro_std;
-    accel_variance += share * inflation.accel_std * inflation.accel_std;
+    const double fraction = static_cast<double>(common_ns) / duration_ns;
+    gyro_variance += fraction * inflation.gyro_std * inflation.gyro_std;
+    accel_variance += fraction * inflation.accel_std * inflation.accel_std;
   }
   if (gyro_variance == 0.0 && accel_variance == 0.0) return noise;
   const double dt = 1e-9 * duration_ns;

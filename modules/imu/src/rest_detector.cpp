@@ -19,9 +19,9 @@ InertialMean joined(const InertialMean& a, const InertialMean& b)
   InertialMean mean;
   mean.duration = a.duration + b.duration;
   if (!(mean.duration > 0.0)) return mean;
-  const double share = b.duration / mean.duration;
-  mean.gyro = a.gyro + share * (b.gyro - a.gyro);
-  mean.accel = a.accel + share * (b.accel - a.accel);
+  const double fraction = b.duration / mean.duration;
+  mean.gyro = a.gyro + fraction * (b.gyro - a.gyro);
+  mean.accel = a.accel + fraction * (b.accel - a.accel);
   return mean;
 }
 }  // namespace

@@ -73,8 +73,9 @@ Vec3 gyroAt(const std::vector<ImuSample>& samples, std::int64_t stamp_ns, ImuHol
       [](std::int64_t t, const ImuSample& s) { return t < s.stamp_ns; });
   const auto left = right - 1;
   if (hold == ImuHold::Left) return left->gyro;
-  const double share = double(stamp_ns - left->stamp_ns) / double(right->stamp_ns - left->stamp_ns);
-  return left->gyro + share * (right->gyro - left->gyro);
+  const double fraction =
+      double(stamp_ns - left->stamp_ns) / double(right->stamp_ns - left->stamp_ns);
+  return left->gyro + fraction * (right->gyro - left->gyro);
 }
 
 /** Integral of gyroAt by its corners: exact for steps and for straight lines. */

@@ -22,7 +22,7 @@ constexpr double kPossibleLeast = 0.001, kPossibleMost = 10.0;
 
 constexpr double kFarthest = 2.0;        // from the stamp [s]
 constexpr double kClockTolerance = 0.5;  // of the ratio between a clock and the stamps
-constexpr double kClockAgreement = 0.8;  // share of the intervals that show the ratio
+constexpr double kClockAgreement = 0.8;  // fraction of the intervals that show the ratio
 constexpr double kClockScans = 1.5;      // farthest from the stamp, in scans
 constexpr double kLeapSeconds = 60.0;    // clocks of satellites differ from UTC by less [s]
 constexpr double kFewestSteps = 16.0;    // of the stored numbers, within a scan
@@ -116,8 +116,8 @@ std::optional<PointTimeUnit> unitOfClock(const Question& question)
   for (const PointTimeUnit unit : kUnits)
   {
     if (!question.mayBe(unit)) continue;
-    const double share = question.facts.shareOfAdvances(secondsPer(unit), kClockTolerance);
-    if (share >= kClockAgreement) return unit;
+    const double fraction = question.facts.shareOfAdvances(secondsPer(unit), kClockTolerance);
+    if (fraction >= kClockAgreement) return unit;
   }
   return std::nullopt;
 }
@@ -154,11 +154,11 @@ PointTimeFinding readRelative(const Question& question)
   for (const PointTimeUnit unit : kUnits)
   {
     if (!question.mayBe(unit)) continue;
-    const double share = facts.span * secondsPer(unit) / facts.period();
-    const bool certain = share >= kCertainLeast && share <= kCertainMost;
+    const double fraction = facts.span * secondsPer(unit) / facts.period();
+    const bool certain = fraction >= kCertainLeast && fraction <= kCertainMost;
     if (certain) possible = {unit};
     if (certain) break;
-    if (share >= kPossibleLeast && share <= kPossibleMost) possible.push_back(unit);
+    if (fraction >= kPossibleLeast && fraction <= kPossibleMost) possible.push_back(unit);
   }
   // What is configured is done as long as it can be done at all.
   if (possible.empty() && question.given.unit != PointTimeUnit::Auto)

@@ -43,8 +43,8 @@ double coverageOf(const PointColumns& points)
   std::array<bool, kSectors> seen{};
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const double share = fractionOfTurn(azimuthOf(points, i));
-    seen.at(std::min(kSectors - 1, static_cast<std::size_t>(share * kSectors))) = true;
+    const double fraction = fractionOfTurn(azimuthOf(points, i));
+    seen.at(std::min(kSectors - 1, static_cast<std::size_t>(fraction * kSectors))) = true;
   }
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
 }
@@ -133,12 +133,12 @@ void assignSweepTimes(
   constexpr double kSeam = 0.02;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    double share = fractionOfTurn(sense * (azimuthOf(points, i) - start_azimuth));
+    double fraction = fractionOfTurn(sense * (azimuthOf(points, i) - start_azimuth));
     const double place = static_cast<double>(i) / static_cast<double>(points.size());
-    if (share > 1.0 - kSeam && place < kSeam) share -= 1.0;
-    if (share < kSeam && place > 1.0 - kSeam) share += 1.0;
+    if (fraction > 1.0 - kSeam && place < kSeam) fraction -= 1.0;
+    if (fraction < kSeam && place > 1.0 - kSeam) fraction += 1.0;
     points.time_offset_ns[i] =
-        static_cast<std::int32_t>(std::lround((share - at_stamp) * period * 1e9));
+        static_cast<std::int32_t>(std::lround((fraction - at_stamp) * period * 1e9));
   }
 }
 

@@ -51,8 +51,8 @@ LidarScan scanOver(std::int32_t first_offset_ns, std::int32_t last_offset_ns, in
   for (int i = 0; i < count; ++i)
   {
     const Vec3 p = kRange * Vec3(normal(rng), normal(rng), normal(rng)).normalized();
-    const double share = double(i) / double(count - 1);
-    const double offset = first_offset_ns + share * (double(last_offset_ns) - first_offset_ns);
+    const double fraction = double(i) / double(count - 1);
+    const double offset = first_offset_ns + fraction * (double(last_offset_ns) - first_offset_ns);
     scan.points.push_back(float(p.x()), float(p.y()), float(p.z()), 0.0F, std::int32_t(offset), 0);
   }
   return scan;

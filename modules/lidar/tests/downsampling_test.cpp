@@ -200,12 +200,12 @@ TEST(Downsampler, ChoosesEvenlyAlongTheScan)
   // a stretch would scatter by sqrt(200).
   const PointColumns points = scanAtRange(40000, 10.0);
   const ScanSelection s = selected(points, {0.5F, 100.0F, 8000});
-  const double share = double(s.indices.size()) / 40000.0;
+  const double fraction = double(s.indices.size()) / 40000.0;
   std::vector<int> stretches(40);
   for (const std::uint32_t i : s.indices)
     ++stretches[i / 1000];
   for (const int kept : stretches)
-    EXPECT_NEAR(kept, 1000.0 * share, 4.0);
+    EXPECT_NEAR(kept, 1000.0 * fraction, 4.0);
 }
 
 TEST(Downsampler, TheSameSequenceOfScansGivesTheSameChoices)

@@ -94,12 +94,12 @@ TEST_P(EveryUnit, RelativeToAnyPlaceOfTheScan)
 TEST_P(EveryUnit, AnyRateOfScansAndShareOfThePeriod)
 {
   for (const double period : {0.005, 0.02, 0.1, 1.0})
-    for (const double share : {0.06, 0.3, 1.0, 1.4})
+    for (const double fraction : {0.06, 0.3, 1.0, 1.4})
     {
       Driver driver;
       driver.unit = secondsPer(GetParam());
       driver.period = period;
-      driver.length = share * period;
+      driver.length = fraction * period;
       expectFound(findPointTimes(driver.samples()), GetParam(), Reference::Stamp);
     }
 }

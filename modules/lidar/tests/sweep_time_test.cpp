@@ -27,13 +27,13 @@ PointColumns revolution(int sense, double start, bool line_by_line, double stagg
   {
     const int column = line_by_line ? i % kColumns : i / kLines;
     const int line = line_by_line ? i / kColumns : i % kLines;
-    const double share = static_cast<double>(column) / kColumns;
-    const double azimuth = start + sense * kTwoPi * share + stagger * (line % 4 - 1.5);
+    const double fraction = static_cast<double>(column) / kColumns;
+    const double azimuth = start + sense * kTwoPi * fraction + stagger * (line % 4 - 1.5);
     const double range = 5.0 + std::sin(3.0 * azimuth);
     points.push_back(
         static_cast<float>(range * std::cos(azimuth)),
         static_cast<float>(range * std::sin(azimuth)), 0.1F * static_cast<float>(line), 0.0F,
-        static_cast<std::int32_t>(share * 1e8), static_cast<std::uint16_t>(line));
+        static_cast<std::int32_t>(fraction * 1e8), static_cast<std::uint16_t>(line));
   }
   return points;
 }

@@ -155,7 +155,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   plane_.roughness = static_cast<float>(across - noise_across);
   plane_.inverse_count = 1.0F / count_;
   plane_.leverage = leverageOf(spread, n);
-  if (!was_valid && plane_.born == 0) plane_.born = scan;
+  if (!was_valid && plane_.created_insertion == 0) plane_.created_insertion = scan;
 }
 
 }  // namespace fastlio

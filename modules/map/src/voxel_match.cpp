@@ -95,7 +95,7 @@ PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, flo
         variance,
         variance,
         VoxelShards::numberOf(number, query.shard),
-        plane.born,
+        plane.created_insertion,
         plane.normalVariance()};
   }
   return best;

@@ -102,8 +102,8 @@ void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
   {
     VoxelStorage& storage = impl_->shards[shard];
     std::uint32_t& sweep = impl_->sweep[shard];
-    const std::size_t share = storage.blocksEnd() / kCallsPerSweep + 1;
-    for (std::size_t k = 0; k < share && storage.blocksEnd() > 0; ++k)
+    const std::size_t part = storage.blocksEnd() / kCallsPerSweep + 1;
+    for (std::size_t k = 0; k < part && storage.blocksEnd() > 0; ++k)
     {
       sweep = sweep + 1 < storage.blocksEnd() ? sweep + 1 : 0;
       const VoxelBlock& block = storage.block(sweep);

@@ -32,7 +32,7 @@ void write(CArchive& out, const VoxelPlane& p)
   out << p.nx << p.ny << p.nz << p.roughness << p.qx << p.qy << p.qz << p.variance
       << p.inverse_count;
   write(out, p.leverage);
-  out << p.born;
+  out << p.created_insertion;
 }
 
 void read(CArchive& in, VoxelPlane& p)
@@ -40,7 +40,7 @@ void read(CArchive& in, VoxelPlane& p)
   in >> p.nx >> p.ny >> p.nz >> p.roughness >> p.qx >> p.qy >> p.qz >> p.variance >>
       p.inverse_count;
   read(in, p.leverage);
-  in >> p.born;
+  in >> p.created_insertion;
 }
 
 void write(CArchive& out, const PlaneVoxel& voxel)

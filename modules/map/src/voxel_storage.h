@@ -31,7 +31,7 @@ struct alignas(64) StoredVoxel : PlaneVoxel
 {
 };
 
-/** Owns blocks and voxels. Growth moves nothing but a share of the index, so that no insertion
+/** Owns blocks and voxels. Growth moves nothing but a part of the index, so that no insertion
  * stands out; what is dropped is used again. Const methods may run in several threads at once. */
 class VoxelStorage
 {

@@ -52,7 +52,8 @@ void expectSameMatches(const CVoxelPlanesMap& a, const CVoxelPlanesMap& b)
   {
     valid += of_a[i].valid() ? 1 : 0;
     ASSERT_TRUE(
-        of_a[i].nx == of_b[i].nx && of_a[i].d == of_b[i].d && of_a[i].born == of_b[i].born &&
+        of_a[i].nx == of_b[i].nx && of_a[i].d == of_b[i].d &&
+        of_a[i].created_insertion == of_b[i].created_insertion &&
         of_a[i].variance == of_b[i].variance)
         << i;
   }

@@ -20,7 +20,7 @@ TEST(PlaneVoxel, HasNoPlaneFromTooFewPoints)
   addPatch(voxel, planeAcross(Vector3d::UnitX()), 1, 0.4, 0.0, random);
   voxel.fit(Vector3f::Zero(), rules, 2);
   EXPECT_TRUE(voxel.plane().valid());
-  EXPECT_EQ(voxel.plane().born, 2U);
+  EXPECT_EQ(voxel.plane().created_insertion, 2U);
 }
 
 TEST(PlaneVoxel, HasNoPlaneFromALine)
@@ -117,7 +117,7 @@ TEST(PlaneVoxel, ClaimsARefitOncePerGrowth)
   addPatch(voxel, plane, 10, 0.4, 0.01, random);
   EXPECT_TRUE(voxel.claimRefit());
   voxel.fit(Vector3f::Zero(), rulesWithNoise(0.01), 2);
-  EXPECT_EQ(voxel.plane().born, 1U) << "founded by the first fit";
+  EXPECT_EQ(voxel.plane().created_insertion, 1U) << "created by the first fit";
 }
 
 TEST(PlaneVoxel, ForgetsOldPointsSlowly)

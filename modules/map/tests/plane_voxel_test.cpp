@@ -25,7 +25,7 @@ TEST(PlaneVoxel, RecoversAnExactPlane)
     EXPECT_NEAR(n.norm(), 1.0, 1e-6);
     EXPECT_NEAR(std::abs(n.dot(plane.n)), 1.0, 1e-6);
     EXPECT_NEAR(distanceTo(voxel.plane(), center + plane.at(0.1, -0.2)), 0.0, 1e-4);
-    EXPECT_EQ(voxel.plane().born, 3U);
+    EXPECT_EQ(voxel.plane().created_insertion, 3U);
   }
 }
 

@@ -73,8 +73,8 @@ TEST(VoxelPlaneMap, KeepsASmallFaceApartFromItsSurroundings)
   ASSERT_TRUE(top.valid());
   EXPECT_NEAR(std::abs(top.nz), 1.0F, 1e-2F);
   EXPECT_NEAR(residual(top, {0.25F, 0.25F, 0.75F}), 0.0, 0.01);
-  EXPECT_EQ(top.born, 1U);
-  EXPECT_EQ(matchOne(map, {1.7F, 1.7F, 0.25F}).born, 2U);
+  EXPECT_EQ(top.created_insertion, 1U);
+  EXPECT_EQ(matchOne(map, {1.7F, 1.7F, 0.25F}).created_insertion, 2U);
 }
 
 TEST(VoxelPlaneMap, DoesNotFoldNegativeCoordinatesOntoPositiveOnes)
@@ -160,7 +160,7 @@ TEST(VoxelPlaneMap, ForgetsWhatIsFarAndKeepsWhatIsNear)
   map.insert(worldPoints(patch(0.5F, 0.5F, 0.2F, 0.4F, 500)), {0.0, 0.0, 3.0});
   map.insert(worldPoints(patch(50.5F, 0.5F, 0.2F, 0.4F, 500)), {50.0, 0.0, 3.0});
   const std::size_t both = map.pointCount();
-  for (int call = 0; call < 40; ++call)  // each call looks at a share of the map
+  for (int call = 0; call < 40; ++call)  // each call looks at a part of the map
     map.removeOutside({50.0, 0.0, 0.0}, 20.0);
   EXPECT_EQ(map.pointCount(), both / 2);
   EXPECT_FALSE(matchOne(map, {0.5F, 0.5F, 0.2F}).valid());
@@ -171,7 +171,7 @@ TEST(VoxelPlaneMap, ForgetsWhatIsFarAndKeepsWhatIsNear)
   const PlaneMatch again = matchOne(map, {0.5F, 0.5F, 0.3F});
   ASSERT_TRUE(again.valid());
   EXPECT_NEAR(residual(again, {0.5F, 0.5F, 0.3F}), 0.0, 5e-3);
-  EXPECT_EQ(again.born, 3U);
+  EXPECT_EQ(again.created_insertion, 3U);
 }
 
 TEST(VoxelPlaneMap, EmptyMapAnswersAndForgetsNothing)

@@ -36,7 +36,8 @@ std::vector<PlaneMatch> matchesOf(const VoxelPlaneMap& map, const WorldPoints& p
 bool sameBits(const PlaneMatch& a, const PlaneMatch& b)
 {
   return a.nx == b.nx && a.ny == b.ny && a.nz == b.nz && a.d == b.d && a.variance == b.variance &&
-         a.shared_variance == b.shared_variance && a.plane == b.plane && a.born == b.born;
+         a.shared_variance == b.shared_variance && a.plane == b.plane &&
+         a.created_insertion == b.created_insertion;
 }
 }  // namespace
 

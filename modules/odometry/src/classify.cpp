@@ -56,7 +56,8 @@ void considerInlierRatio(const ScanStatistics& s, const HealthOptions& limits, S
       [&]
       {
         return mrpt::format(
-            "%zu of %zu points match the map, less than %g of the share that matched before, %.3f",
+            "%zu of %zu points match the map, less than %g of the fraction that matched before, "
+            "%.3f",
             s.points_effective, s.points_downsampled, limits.min_share, s.usual_inlier_ratio);
       });
 }

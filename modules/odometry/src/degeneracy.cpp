@@ -13,7 +13,7 @@ namespace
 {
 using Square6 = Eigen::Matrix<double, 6, 6>;
 
-// Scans whose weakest direction has more than this share of the strongest one's information are
+// Scans whose weakest direction has more than this fraction of the strongest one's information are
 // far from degenerate: normals would have to be off by tens of degrees.
 constexpr double kClearlyConstrained = 0.05;
 

@@ -14,9 +14,9 @@ namespace fastlio
 {
 namespace
 {
-// A window that does not rest moves on by this share of its length.
+// A window that does not rest moves on by this fraction of its length.
 constexpr double kWindowStep = 0.1;
-// After a refused start in motion this share of its window is given up.
+// After a refused start in motion this fraction of its window is given up.
 constexpr std::size_t kRefusedShare = 2;
 // A platform that "rests" faster than this, and than its uncertainty allows, moves steadily.
 constexpr double kRestSpeed = 0.05;  // [m/s]

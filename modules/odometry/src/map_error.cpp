@@ -117,7 +117,7 @@ TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>
     total += group.weight;
     // The last insertion at or before the plane's own; older ones may have been thinned out.
     const auto next = std::upper_bound(
-        insertions_.begin(), insertions_.end(), group.born,
+        insertions_.begin(), insertions_.end(), group.created_insertion,
         [](std::uint32_t scan, const Insertion& f) { return scan < f.scan; });
     if (next != insertions_.begin()) std::prev(next)->weight += group.weight;
   }

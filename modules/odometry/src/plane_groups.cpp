@@ -20,7 +20,7 @@ PlaneGroup& PlaneGrouping::groupOf(const PlaneMatch& match)
   if (entry.epoch != epoch_)
   {
     PlaneGroup& group = result_.groups.emplace_back();
-    group.born = match.born;
+    group.created_insertion = match.created_insertion;
     group.seen_before = entry.epoch + 1 == epoch_;
     entry = {epoch_, static_cast<std::uint32_t>(result_.groups.size() - 1)};
   }

@@ -27,7 +27,7 @@ constexpr std::size_t kSamplePoints = 300;
 constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
 constexpr double kSamePlace = 0.3;  // [m]
-// A rival as good as this share of the best: nobody knows which of the two is right.
+// A rival as good as this fraction of the best: nobody knows which of the two is right.
 constexpr double kRivalShare = 0.8;
 constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
 // The whole scan pulls a candidate in from wide to narrow.

@@ -14,7 +14,7 @@ namespace
 {
 constexpr std::size_t kNeighbors = 8;
 constexpr double kFarthestNeighbor = 1.0;  // [m]
-// A surface is thinner than this share of its extent.
+// A surface is thinner than this fraction of its extent.
 constexpr double kMaxThicknessRatio = 0.2;
 // A sensor so far away sees all points of a group from one direction.
 constexpr double kFar = 1e4;  // [m]

@@ -84,7 +84,7 @@ TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
     std::function<void(ScanResult&, double)> set;  // to a multiple of the limit, > 1 is worse
   };
   const std::vector<Case> cases{
-      {HealthCause::FewMatches, "of the share that matched before",
+      {HealthCause::FewMatches, "of the fraction that matched before",
        [&](ScanResult& r, double k)
        {
          r.statistics.points_downsampled = 100000;

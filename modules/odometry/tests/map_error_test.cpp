@@ -23,7 +23,7 @@ GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> insertions)
   {
     PlaneGroup& group = scan.groups.emplace_back();
     group.weight = 1.0;
-    group.born = insertion;
+    group.created_insertion = insertion;
   }
   return scan;
 }

@@ -61,8 +61,8 @@ TEST(OdometryInput, AnyInterleavingGivesTheSameBits)
   const Results in_order = runInOrder(roomParameters(), room());
   EXPECT_EQ(in_order.size(), room().scans.size());
   // From "all scans first" over mixtures to "all inertial samples first".
-  for (const double share : {0.0, 0.3, 0.9, 0.95, 0.99, 1.0})
-    EXPECT_TRUE(sameBits(runInterleaved(unsigned(100 * share), share), in_order)) << share;
+  for (const double fraction : {0.0, 0.3, 0.9, 0.95, 0.99, 1.0})
+    EXPECT_TRUE(sameBits(runInterleaved(unsigned(100 * fraction), fraction), in_order)) << fraction;
 }
 
 TEST(OdometryInput, AScanWaitsForItsInertialData)

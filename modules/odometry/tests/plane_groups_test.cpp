@@ -24,7 +24,7 @@ Matching onFewPlanes(unsigned seed, std::size_t n)
   for (PlaneMatch& match : m.matches)
   {
     match.plane = static_cast<std::uint32_t>(random.uniform(0.0, kPlanes));
-    match.born = match.plane / 3;
+    match.created_insertion = match.plane / 3;
     match.shared_variance = float(random.uniform(1e-6, 1e-5));
   }
   return m;
@@ -109,7 +109,7 @@ TEST(PlaneGrouping, GivesEachPlaneItsPointsInTheOrderOfTheFirst)
     EXPECT_NEAR(groups[k].weight, expected.weight.at(plane), kRelative * groups[k].weight);
     EXPECT_NEAR(
         groups[k].shared_variance, expected.shared.at(plane) / expected.weight.at(plane), 1e-12);
-    EXPECT_EQ(groups[k].born, plane / 3);
+    EXPECT_EQ(groups[k].created_insertion, plane / 3);
   }
 }
 

@@ -49,13 +49,13 @@ bool isEmptyFrom(const Scan& scan, int first_column)
   return true;
 }
 
-/** MRPT makes range images out of packets with as many columns as there are returns, of which the
- * lasers' share only is used; sweepDuration is about these. */
+/** MRPT makes range images out of packets with as many columns as there are returns. Only the
+ * columns of the lasers are used; sweepDuration is about these. */
 int usedColumns(const Scan& scan)
 {
   const int all = scan.columnCount;
-  const int share = all / std::max<int>(1, scan.rowCount);
-  return modelOf(scan) && share > 0 && isEmptyFrom(scan, share) ? share : all;
+  const int points = all / std::max<int>(1, scan.rowCount);
+  return modelOf(scan) && points > 0 && isEmptyFrom(scan, points) ? points : all;
 }
 
 /** Collects points of a scan column by column, in the order of their measurement. */

@@ -16,7 +16,7 @@ namespace
 {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNearest = 1e-6;
-constexpr double kSeam = 1e-9;  // triangles overlap by this share, so that no ray slips through
+constexpr double kSeam = 1e-9;  // triangles overlap by this fraction, so that no ray slips through
 
 struct Span
 {

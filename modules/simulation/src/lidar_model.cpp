@@ -107,8 +107,8 @@ class SpinningModel : public LidarModel
   [[nodiscard]] double elevation(int line) const
   {
     if (settings_.lines == 1) return settings_.elevation;
-    const double share = static_cast<double>(line) / (settings_.lines - 1);
-    return settings_.elevation + settings_.vertical_fov * (share - 0.5);
+    const double fraction = static_cast<double>(line) / (settings_.lines - 1);
+    return settings_.elevation + settings_.vertical_fov * (fraction - 0.5);
   }
 
   LidarSettings settings_;

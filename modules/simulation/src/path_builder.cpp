@@ -43,9 +43,9 @@ Resampled resample(const Points& corners, std::size_t n)
     const double s = result.length * static_cast<double>(i) / static_cast<double>(n);
     while (at[segment + 1] < s)
       ++segment;
-    const double share = (s - at[segment]) / std::max(at[segment + 1] - at[segment], 1e-12);
+    const double fraction = (s - at[segment]) / std::max(at[segment + 1] - at[segment], 1e-12);
     const Vec3& a = corners[segment];
-    result.points.push_back(a + share * (corners[(segment + 1) % corners.size()] - a));
+    result.points.push_back(a + fraction * (corners[(segment + 1) % corners.size()] - a));
   }
   return result;
 }

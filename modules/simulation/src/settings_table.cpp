@@ -112,7 +112,7 @@ Rows lidarFaultRows()
        [](S& s) -> OptionValue {
          return RealValue{&s.lidar.dropout, 0.0, 1.0};
        },
-       "share of returns that are lost"},
+       "fraction of returns that are lost"},
       {"lidar.time_offset", "s",
        [](S& s) -> OptionValue {
          return RealValue{&s.lidar.time_offset, -10.0, 10.0};
@@ -191,7 +191,7 @@ Rows imuFaultRows()
        [](S& s) -> OptionValue {
          return RealValue{&s.imu.dropout, 0.0, 0.99};
        },
-       "share of samples that are lost, one by one"},
+       "fraction of samples that are lost, one by one"},
       {"imu.gap_interval", "s",
        [](S& s) -> OptionValue {
          return RealValue{&s.imu.gap_interval, 0.0, 36000.0};

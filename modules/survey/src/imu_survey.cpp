@@ -15,9 +15,9 @@ namespace
 {
 constexpr std::int64_t kWindowNs = 250'000'000;
 constexpr std::size_t kFewestSamples = 5;     // in a window
-constexpr double kQuietAccel = 0.03;          // scatter as a share of the magnitude
+constexpr double kQuietAccel = 0.03;          // scatter as a fraction of the magnitude
 constexpr double kQuietGyro = 4.0;            // scatter as a multiple of the quietest tenth's
-constexpr double kStillForce = 0.02;          // change of the mean between windows, share
+constexpr double kStillForce = 0.02;          // change of the mean between windows, fraction
 constexpr double kLeastRest = 1.0;            // [s]
 constexpr double kStandardGravity = 9.80665;  // [m/s^2]
 constexpr double kNearGravity = 0.1;          // relative

@@ -14,10 +14,10 @@ namespace
 constexpr std::size_t kStride = 7;  // coprime to the usual numbers of lines
 constexpr std::size_t kMostLines = 256;
 
-double quantile(std::vector<float> values, double share)
+double quantile(std::vector<float> values, double fraction)
 {
   if (values.empty()) return 0.0;
-  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto index = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + index, values.end());
   return static_cast<double>(values[static_cast<std::size_t>(index)]);
 }
@@ -67,9 +67,9 @@ double LidarLook::coverage() const
   return static_cast<double>(std::count(sectors_.begin(), sectors_.end(), true)) / kSectors;
 }
 
-double LidarLook::rangeQuantile(double share) const
+double LidarLook::rangeQuantile(double fraction) const
 {
-  return quantile(ranges_, share);
+  return quantile(ranges_, fraction);
 }
 
 }  // namespace fastlio

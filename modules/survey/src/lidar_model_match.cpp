@@ -14,7 +14,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kFullCircle = 0.9;          // share of the azimuths
+constexpr double kFullCircle = 0.9;          // fraction of the azimuths
 constexpr double kElevationTolerance = 4.0;  // [deg]
 // The sky returns nothing: what is missing at the upper edge counts less, which allows ten degrees.
 constexpr double kMissingSky = 0.4;

@@ -54,9 +54,9 @@ class TurnedAngle
     const auto later = std::upper_bound(stamps_.begin(), stamps_.end(), stamp_ns);
     if (later == stamps_.end()) return sums_.back();
     const auto i = static_cast<std::size_t>(later - stamps_.begin());
-    const double share = static_cast<double>(stamp_ns - stamps_[i - 1]) /
-                         static_cast<double>(stamps_[i] - stamps_[i - 1]);
-    return sums_[i - 1] + share * (sums_[i] - sums_[i - 1]);
+    const double fraction = static_cast<double>(stamp_ns - stamps_[i - 1]) /
+                            static_cast<double>(stamps_[i] - stamps_[i - 1]);
+    return sums_[i - 1] + fraction * (sums_[i] - sums_[i - 1]);
   }
 
   std::vector<std::int64_t> stamps_;

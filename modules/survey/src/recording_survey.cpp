@@ -34,7 +34,7 @@ ClockOverlap overlapOf(
   const std::int64_t end_ns = std::min(lidar.last_ns, imu.last_ns);
   overlap.seconds = toSeconds(end_ns - begin_ns);
   const auto length = toSeconds(lidar.last_ns - lidar.first_ns);
-  overlap.share = length > 0 ? std::clamp(overlap.seconds / length, 0.0, 1.0) : 0.0;
+  overlap.fraction = length > 0 ? std::clamp(overlap.seconds / length, 0.0, 1.0) : 0.0;
   overlap.lead = median(leads);
   return overlap;
 }
@@ -135,7 +135,7 @@ void judgeLooks(RecordingSurvey& survey, SecondPass& pass)
 SurveyProgress half(const SurveyOptions& options, double begin)
 {
   if (!options.progress) return {};
-  return [&options, begin](double share) { options.progress(begin + 0.5 * share); };
+  return [&options, begin](double fraction) { options.progress(begin + 0.5 * fraction); };
 }
 }  // namespace
 

@@ -27,7 +27,7 @@ void warn(RecordingSurvey& survey, std::string text)
   survey.warnings.push_back(std::move(text));
 }
 
-void remarkOnRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const char* what)
+void reportRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const char* what)
 {
   const StampReport& stamps = sensor.stamps;
   const char* label = sensor.summary.label.c_str();
@@ -44,7 +44,7 @@ void remarkOnRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const
                     stamps.backwards, stamps.duplicates));
 }
 
-void remarkOnOverlap(RecordingSurvey& survey)
+void reportOverlap(RecordingSurvey& survey)
 {
   const ClockOverlap& overlap = survey.overlap;
   if (overlap.seconds <= 0)
@@ -54,13 +54,13 @@ void remarkOnOverlap(RecordingSurvey& survey)
             "LiDAR and IMU have no time in common: %.3f s lie between them. Are their clocks "
             "the same? lidar.time_offset shifts the LiDAR's.",
             -overlap.seconds));
-  else if (overlap.share < kLittleOverlap)
+  else if (overlap.fraction < kLittleOverlap)
     warn(
         survey,
-        mrpt::format("The IMU covers %.0f %% of the LiDAR's time only.", 100.0 * overlap.share));
+        mrpt::format("The IMU covers %.0f %% of the LiDAR's time only.", 100.0 * overlap.fraction));
 }
 
-void remarkOnImu(
+void reportImu(
     RecordingSurvey& survey, const SensorOptions& sensors, const OdometryOptions& odometry)
 {
   const ImuSurvey& imu = survey.imu;
@@ -137,10 +137,10 @@ void addRemarks(
     RecordingSurvey& survey, const SensorOptions& sensors, const OdometryOptions& odometry)
 {
   for (const SurveyedLidar& lidar : survey.lidars)
-    remarkOnRhythm(survey, survey.sensors[lidar.index], "LiDAR");
-  remarkOnRhythm(survey, survey.sensors[*survey.imu_index], "IMU");
-  remarkOnOverlap(survey);
-  remarkOnImu(survey, sensors, odometry);
+    reportRhythm(survey, survey.sensors[lidar.index], "LiDAR");
+  reportRhythm(survey, survey.sensors[*survey.imu_index], "IMU");
+  reportOverlap(survey);
+  reportImu(survey, sensors, odometry);
   diagnoseMotion(survey, odometry);
 }
 

@@ -15,7 +15,7 @@
 
 namespace fastlio
 {
-using SurveyProgress = std::function<void(double share)>;
+using SurveyProgress = std::function<void(double fraction)>;
 
 /** What the first reading gathers; one entry per sensor. */
 struct FirstPass

@@ -131,12 +131,12 @@ TEST(MotionCheck, SaysWhenItDoesNotKnow)
 TEST(MotionCheck, ScansOfARoomTellHowTheyWereTurned)
 {
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const Pose T_first_second{expSO3(Vec3(0.03, -0.05, 0.1)), Vec3(0.1, 0.05, -0.02)};
   PointColumns first, second;
   for (int i = 0; i < 12000; ++i)
   {
-    Vec3 p(5.0 * share(random), 4.0 * share(random), 2.0 * share(random));
+    Vec3 p(5.0 * uniform(random), 4.0 * uniform(random), 2.0 * uniform(random));
     const int wall = i % 3;
     p[wall] = std::copysign(wall == 0 ? 5.0 : wall == 1 ? 4.0 : 2.0, p[wall]);
     const auto add = [](PointColumns& points, const Vec3& q)

@@ -24,7 +24,7 @@ struct AssociationCounts
   std::size_t before = 0;     //!< older than the reference
   std::size_t after = 0;      //!< newer than the reference
   std::size_t in_gap = 0;     //!< inside a gap of the reference
-  double coverage = 0.0;  //!< share of the reference's time span between the first and last used
+  double coverage = 0.0;  //!< fraction of the reference's time span between the first and last used
 };
 
 /** Both trajectories at common stamps. */

@@ -21,7 +21,7 @@ struct GateLimits
   std::optional<double> max_nees;              //!< mean NEES of the pose (6 when consistent)
   std::optional<double> max_nees_position;     //!< mean NEES of the position (3 when consistent)
   std::optional<double> max_nees_rotation;     //!< mean NEES of the rotation (3 when consistent)
-  std::optional<double> min_coverage_percent;  //!< share of the reference's time span [%]
+  std::optional<double> min_coverage_percent;  //!< fraction of the reference's time span [%]
 };
 
 /** One limit and what was measured. */

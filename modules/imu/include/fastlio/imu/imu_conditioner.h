@@ -59,7 +59,7 @@ class ImuConditioner
   void scaled(ImuSample sample);
   void emit(const TimedSample& timed);
   void emitAll();
-  void remarkClockStep();
+  void reportClockStep();
   [[nodiscard]] double considerGyroUnit(ConditionedSample& next);
   [[nodiscard]] std::optional<NoiseInflation> inflationBefore(const TimedSample& timed);
   [[nodiscard]] std::optional<NoiseInflation> clippingInflation(const ImuSample& sample);

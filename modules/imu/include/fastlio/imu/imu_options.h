@@ -21,7 +21,7 @@ struct ImuOptions
   bool invert_acceleration = false;          //!< the sensor gives gravity, not specific force
   double gyro_range = 0.0;                   //!< full scale [rad/s]; 0: found
   double accel_range = 0.0;                  //!< full scale [m/s^2]; 0: found
-  double saturation_std = 0.5;               //!< of a clipped axis, share of the full scale
+  double saturation_std = 0.5;               //!< of a clipped axis, fraction of the full scale
   double gap_periods = 4.0;                  //!< so many periods without a sample are a gap
   double gap_gyro_std = 0.5235987755982988;  //!< of the rate in a gap of max_gap [rad/s]; 30 deg/s
   double gap_accel_std = 2.0;                //!< of the force in a gap of max_gap [m/s^2]

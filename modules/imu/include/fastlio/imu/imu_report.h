@@ -25,12 +25,12 @@ struct ImuReport
   AccelUnit accel_unit = AccelUnit::Auto;  //!< in use; Auto: not known yet
   GyroUnit gyro_unit = GyroUnit::Radians;  //!< in use
   double rate = 0.0;                       //!< samples per second, median of the latest [Hz]
-  double jitter = 0.0;          //!< standard deviation of the intervals, share of the period; gaps
-                                //!< do not count
-  double longest_gap = 0.0;     //!< [s]
-  std::size_t gaps = 0;         //!< longer than imu.gap_periods
-  std::size_t spikes = 0;       //!< samples left out
-  std::size_t saturated = 0;    //!< samples with a clipped axis
+  double jitter = 0.0;        //!< standard deviation of the intervals, fraction of the period; gaps
+                              //!< do not count
+  double longest_gap = 0.0;   //!< [s]
+  std::size_t gaps = 0;       //!< longer than imu.gap_periods
+  std::size_t spikes = 0;     //!< samples left out
+  std::size_t saturated = 0;  //!< samples with a clipped axis
   std::size_t bad_stamps = 0;   //!< samples with absurd stamps, left out
   std::size_t late = 0;         //!< samples of a stretch that came too late
   std::size_t clock_steps = 0;  //!< the clock was set back; stamps go on as before

@@ -20,7 +20,7 @@ class SamplingPeriod
 
   /** Median of the latest intervals [s]; 0 until there are enough of them. */
   [[nodiscard]] double median() const { return median_; }
-  /** Standard deviation of the intervals, gaps left out, as a share of the median. */
+  /** Standard deviation of the intervals, gaps left out, as a fraction of the median. */
   [[nodiscard]] double jitter() const;
 
  private:

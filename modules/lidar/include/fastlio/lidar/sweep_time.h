@@ -27,8 +27,8 @@ struct SweepShape
   bool spinning = false;     //!< the order shows in which sense the sensor turns
   int sense = 0;             //!< +1: counter-clockwise seen from above; -1: clockwise
   double start_azimuth = 0;  //!< of the first points [rad]
-  double coverage = 0;       //!< share of the directions that have points, 0..1
-  double agreement = 0;      //!< share of the steps that go the way of most, 0.5..1
+  double coverage = 0;       //!< fraction of the directions that have points, 0..1
+  double agreement = 0;      //!< fraction of the steps that go the way of most, 0.5..1
 };
 
 /** Looks at the order of the points: column by column, or line by line. */
@@ -41,7 +41,7 @@ struct SweepShape
 /** For people: "turns clockwise (97 % of the steps), starts at 179 deg, covers 100 %". */
 [[nodiscard]] std::string describe(const SweepShape& shape);
 
-/** Replaces the time of every point by its share of a revolution.
+/** Replaces the time of every point by its fraction of a revolution.
  * \param sense +1 counter-clockwise, -1 clockwise
  * \param start_azimuth where the revolution begins [rad]
  * \param period of a revolution [s]

@@ -33,8 +33,9 @@ struct PlaneMatch
   float variance = -1;           //!< of the plane's offset at the point [m^2]; negative: no match
   float shared_variance = 0;     //!< part of variance that all points on the plane share [m^2]
   std::uint32_t plane = 0;       //!< which plane: points with the same number share its error
-  std::uint32_t born = 0;        //!< insertion (1, 2, ...) that founded the plane; 0: not known
-  float normal_variance = 0;     //!< of the normal, summed over its two free directions [rad^2]
+  std::uint32_t created_insertion =
+      0;                      //!< insertion (1, 2, ...) that created the plane; 0: not known
+  float normal_variance = 0;  //!< of the normal, summed over its two free directions [rad^2]
 
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
 };
@@ -57,7 +58,7 @@ class SurfaceMap
   /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
   virtual void removeOutside(const Vec3& center, double radius) = 0;
 
-  /** Insertions so far, which PlaneMatch::born counts; 0 for maps that do not tell. */
+  /** Insertions so far, which PlaneMatch::created_insertion counts; 0 for maps that do not tell. */
   [[nodiscard]] virtual std::uint32_t insertionCount() const { return 0; }
 
   /** Number of points held. */

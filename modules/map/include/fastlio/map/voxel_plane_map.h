@@ -30,7 +30,7 @@ struct VoxelPlaneOptions
  * size; a query takes, of up to three planes at the point, the one whose offset there is known
  * best: a wall is averaged over the whole block, a small face over its own voxel.
  *
- * removeOutside() looks at a share of the blocks per call, so that no call stands out; storage of
+ * removeOutside() looks at a part of the blocks per call, so that no call stands out; storage of
  * dropped blocks is used again. */
 class VoxelPlaneMap : public SurfaceMap
 {

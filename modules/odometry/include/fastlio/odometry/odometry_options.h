@@ -45,7 +45,7 @@ struct InitializationOptions
   double pose_position_std = 0.5;        //!< of a start in a given map [m]
   double pose_yaw_std = 0.08726646259971648;    //!< the same [rad]; 5 deg
   double pose_tilt_std = 0.008726646259971648;  //!< of the map's vertical [rad]; 0.5 deg
-  double map_share = 0.5;          //!< share of the points that must match a given map at first
+  double map_share = 0.5;          //!< fraction of the points that must match a given map at first
   bool align_with_gravity = true;  //!< world z axis up; false: world = first IMU frame (paper)
 };
 
@@ -95,10 +95,10 @@ struct MapOptions
 /** Group `health`: limits beyond which a scan is in trouble. */
 struct HealthOptions
 {
-  double min_share = 0.2;        //!< of the share of the points that matched the map before
+  double min_share = 0.2;        //!< of the fraction of the points that matched the map before
   double max_innovation = 3.0;   //!< mean of z^2/r
   double min_information = 100;  //!< smallest eigenvalue of H^T R^-1 H
-  double max_inflated = 0.25;    //!< share of the time that the inertial data are in doubt
+  double max_inflated = 0.25;    //!< fraction of the time that the inertial data are in doubt
   double max_gyro_bias = 0.17453292519943295;  //!< [rad/s]; 10 deg/s
   double max_accel_bias = 2.0;                 //!< [m/s^2]
   double max_scan_interval = 0.5;              //!< from scan to scan [s]

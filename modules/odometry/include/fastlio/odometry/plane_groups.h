@@ -23,8 +23,8 @@ struct PlaneGroup
   Vector6 g = Vector6::Zero();   //!< sum of w h
   double shared_variance = 0.0;  //!< of the plane's offset, weighted mean over the points [m^2]
   double weight = 0.0;           //!< sum of w
-  std::uint32_t born = 0;        //!< insertion that founded the plane
-  bool seen_before = false;      //!< the scan before had points on it, too
+  std::uint32_t created_insertion = 0;  //!< insertion that created the plane
+  bool seen_before = false;             //!< the scan before had points on it, too
 };
 
 /** A scan's measurements by plane. */
@@ -32,7 +32,7 @@ struct GroupedMeasurements
 {
   Matrix6 information = Matrix6::Zero();   //!< sum of w h h^T
   Matrix6 shared_noise = Matrix6::Zero();  //!< sum of w^2 s h h^T, s the points' shared variance
-  double persistence = 0.0;                //!< share of the weight on planes seen before
+  double persistence = 0.0;                //!< fraction of the weight on planes seen before
   std::vector<PlaneGroup> groups;          //!< in the order of their first point
 };
 

@@ -22,7 +22,7 @@ struct RayHit
 {
   double range = 0.0;           //!< distance along the ray [m]
   Vec3 normal = Vec3::UnitZ();  //!< unit normal of the surface, towards the ray's origin
-  double reflectivity = 0.0;    //!< share of light that is scattered back, 0..1
+  double reflectivity = 0.0;    //!< fraction of light that is scattered back, 0..1
 };
 
 /** A body in its own frame, placed in the frame that contains it. */

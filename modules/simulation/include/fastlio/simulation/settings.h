@@ -61,7 +61,7 @@ struct LidarSettings
   double min_range = 1.0;       //!< nearer surfaces give no return [m]
   double max_range = 100.0;     //!< farther surfaces give no return [m]
   double range_noise = 0.02;    //!< standard deviation of a range [m]
-  double dropout = 0.01;        //!< share of returns that are lost
+  double dropout = 0.01;        //!< fraction of returns that are lost
   double time_offset = 0.0;     //!< added to the true stamps (LiDAR clock minus IMU clock) [s]
   Pose T_imu_lidar;             //!< mounting
   LidarCloud cloud = LidarCloud::Native;
@@ -81,7 +81,7 @@ struct ImuSettings
   double stamp_jitter = 0.0;               //!< standard deviation of the stamps' error [s]
   double gyro_limit = 34.9;                //!< saturation [rad/s]
   double accel_limit = 157.0;              //!< saturation [m/s^2]
-  double dropout = 0.0;                    //!< share of samples that are lost, one by one
+  double dropout = 0.0;                    //!< fraction of samples that are lost, one by one
   double gap_interval = 0.0;               //!< a gap every so often after the rest; 0: none [s]
   double gap_length = 0.05;                //!< length of such a gap [s]
   double vibration_gyro = 0.0;             //!< amplitude [rad/s]

@@ -24,8 +24,8 @@ class LidarLook
   [[nodiscard]] int lines() const;        //!< distinct lines; 0: points have none, or too many
   [[nodiscard]] double lowest() const;    //!< elevation, 1 % of the points are below [deg]
   [[nodiscard]] double highest() const;   //!< elevation, 1 % of the points are above [deg]
-  [[nodiscard]] double coverage() const;  //!< share of the azimuths with points, 0..1
-  [[nodiscard]] double rangeQuantile(double share) const;  //!< [m]; share 0..1
+  [[nodiscard]] double coverage() const;  //!< fraction of the azimuths with points, 0..1
+  [[nodiscard]] double rangeQuantile(double fraction) const;  //!< [m]; fraction 0..1
 
  private:
   static constexpr std::size_t kSectors = 72;

@@ -42,7 +42,7 @@ struct LidarAppearance
   int lines = 0;        //!< 0: unknown
   double lowest = 0;    //!< elevations [deg]
   double highest = 0;   //!< [deg]
-  double coverage = 0;  //!< share of the azimuths with points, 0..1
+  double coverage = 0;  //!< fraction of the azimuths with points, 0..1
 };
 
 /** A preset and how well it fits. */

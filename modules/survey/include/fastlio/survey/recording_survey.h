@@ -38,8 +38,8 @@ struct SurveyedLidar
 /** Whether stamps of LiDAR and IMU are of the same time. */
 struct ClockOverlap
 {
-  double seconds = 0;  //!< that both sensors cover; negative: the time between them
-  double share = 0;    //!< of the LiDAR's time, 0..1
+  double seconds = 0;   //!< that both sensors cover; negative: the time between them
+  double fraction = 0;  //!< of the LiDAR's time, 0..1
   double lead = 0;  //!< median of LiDAR stamp minus the newest IMU stamp before it in the file [s]
 };
 
