@@ -124,7 +124,8 @@ void fitVoxel(benchmark::State& state)
   for (auto _ : state)
   {
     voxel.fit(Eigen::Vector3f::Zero(), PlaneRules{}, 1);
-    benchmark::DoNotOptimize(voxel.plane());
+    VoxelPlane plane = voxel.plane();
+    benchmark::DoNotOptimize(plane);
   }
 }
 
