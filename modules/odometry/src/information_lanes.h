@@ -34,8 +34,8 @@ std::size_t weigh(
   std::size_t count = 0;
   for (std::size_t l = 0; l < N; ++l)
   {
-    const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
-    counts[l] = l < filled && withinGate(m.z[l], m.variance[l], lever, model);
+    const double h[6] = {m.h[0][l], m.h[1][l], m.h[2][l], m.h[3][l], m.h[4][l], m.h[5][l]};
+    counts[l] = l < filled && withinGate(m.z[l], m.variance[l], h, model);
     weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
     m.z[l] = counts[l] ? m.z[l] : 0.0;
     count += counts[l] ? 1 : 0;

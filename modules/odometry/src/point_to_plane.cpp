@@ -39,7 +39,8 @@ PlaneMeasurement planeMeasurement(
 
 bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
 {
-  return withinGate(m.z, m.variance, m.h.head<3>().squaredNorm(), model);
+  const double h[6] = {m.h[0], m.h[1], m.h[2], m.h[3], m.h[4], m.h[5]};
+  return withinGate(m.z, m.variance, h, model);
 }
 
 InformationSums accumulate(

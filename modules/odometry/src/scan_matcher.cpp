@@ -20,7 +20,7 @@ ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predic
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;
   model.gate = p.max_normalized_residual;
-  model.prior_position_variance = predicted.bottomRightCorner<3, 3>().trace();
+  model.prior_position_covariance = predicted.bottomRightCorner<3, 3>();
   model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
   return model;
 }

@@ -104,7 +104,7 @@ TEST(IsConsistent, GatesByTheStandardDeviationOfResidualAndPrediction)
   EXPECT_TRUE(isConsistent(m, model));
   m.z = -0.0301;
   EXPECT_FALSE(isConsistent(m, model));
-  model.prior_position_variance = 3e-4;
+  model.prior_position_covariance = 3e-4 * Mat3::Identity();
   m.z = 0.0599;
   EXPECT_TRUE(isConsistent(m, model));
   m.z = 0.0601;
@@ -114,6 +114,24 @@ TEST(IsConsistent, GatesByTheStandardDeviationOfResidualAndPrediction)
   EXPECT_TRUE(isConsistent(m, model));
   m.z = -0.0901;
   EXPECT_FALSE(isConsistent(m, model));
+}
+
+// A prediction that is uncertain by metres along a tunnel says as much about its walls as ever.
+TEST(IsConsistent, GatesByThePredictionAcrossThePlane)
+{
+  ResidualModel model;
+  model.gate = 3.0;
+  model.prior_position_covariance = Vec3(64.0, 3e-4, 3e-4).asDiagonal();
+  PlaneMeasurement wall, end;
+  wall.h << 0.0, 0.0, 0.0, 0.0, 1.0, 0.0;
+  end.h << 0.0, 0.0, 0.0, 1.0, 0.0, 0.0;
+  wall.variance = end.variance = 1e-4;
+  wall.z = end.z = 0.0599;
+  EXPECT_TRUE(isConsistent(wall, model));
+  EXPECT_TRUE(isConsistent(end, model));
+  wall.z = end.z = 0.0601;
+  EXPECT_FALSE(isConsistent(wall, model));
+  EXPECT_TRUE(isConsistent(end, model));
 }
 
 TEST(IsConsistent, RefusesAResidualThatIsNoNumber)

@@ -31,10 +31,11 @@ struct PlaneMeasurement
 /** What decides on a match: the noise model, the gate and how far the prediction may be off. */
 struct ResidualModel
 {
-  double range_variance = 4e-4;          //!< [m^2]
-  double gate = 3.0;                     //!< in standard deviations
-  double prior_position_variance = 0.0;  //!< of the prediction [m^2]
-  double prior_attitude_variance = 0.0;  //!< of the prediction [rad^2]
+  double range_variance = 4e-4;  //!< [m^2]
+  double gate = 3.0;             //!< in standard deviations
+  /** Of the prediction's position, world frame [m^2]. */
+  Mat3 prior_position_covariance = Mat3::Zero();
+  double prior_attitude_variance = 0.0;  //!< of the prediction, summed over the axes [rad^2]
 };
 
 /** Eq. 14 for point i of the scan at the attitude and position of an iterate. The variance is that
@@ -43,13 +44,19 @@ struct ResidualModel
     const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
     const ResidualModel& model);
 
-/** True when a residual is within the gate of what noise and prediction explain; not for NaN.
- * \param squared_lever_arm of the first three elements of its row [m^2] */
+/** True when a residual is within the gate of what noise and prediction explain; not for NaN. A
+ * prediction that is uncertain along a tunnel says no less about its walls. \param h the row of
+ * the residual */
 [[nodiscard]] inline bool withinGate(
-    double z, double variance, double squared_lever_arm, const ResidualModel& model)
+    double z, double variance, const double (&h)[6], const ResidualModel& model)
 {
+  const Mat3& P = model.prior_position_covariance;
+  const double squared_lever_arm = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
+  const double position_variance =
+      h[3] * (P(0, 0) * h[3] + 2.0 * (P(0, 1) * h[4] + P(0, 2) * h[5])) +
+      h[4] * (P(1, 1) * h[4] + 2.0 * P(1, 2) * h[5]) + h[5] * P(2, 2) * h[5];
   const double prior_variance =
-      model.prior_position_variance + model.prior_attitude_variance * squared_lever_arm;
+      position_variance + model.prior_attitude_variance * squared_lever_arm;
   return z * z <= model.gate * model.gate * (variance + prior_variance);
 }
 
