@@ -19,6 +19,8 @@ namespace
 constexpr double kTrouble = 0.5;
 constexpr double kKnownDegeneracy = 0.6;  // a direction that is left to the inertial data
 constexpr double kPredicted = 0.25;
+// Position error along a degenerate direction that few users of a trajectory can live with [m].
+constexpr double kMaxDegenerateStd = 0.5;
 constexpr int kSparseMapScans = 20;
 
 /** Health of a measure that must not exceed a limit: 1 at zero, 1/2 at the limit. */
@@ -73,10 +75,9 @@ void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanH
             "wrong pose, extrinsic, time offset or point times?",
             s.normalized_innovation, limits.max_innovation);
       });
-  const double information = above(s.information_eigenvalues[0], limits.min_information);
-  const bool known = s.constraints.unconstrained > 0;
+  if (s.constraints.unconstrained > 0) return;
   consider(
-      health, known ? std::max(information, kKnownDegeneracy) : information,
+      health, above(s.information_eigenvalues[0], limits.min_information),
       HealthCause::DegenerateDirection,
       [&]
       {
@@ -84,6 +85,27 @@ void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanH
             "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
             "less than %g",
             s.information_eigenvalues[0], limits.min_information);
+      });
+}
+
+/** A direction that is left to the inertial data is fine as long as they know it well enough. */
+void considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
+{
+  const ScanConstraints& constraints = result.statistics.constraints;
+  if (constraints.unconstrained == 0) return;
+  const Matrix6 own = result.filter.P.topLeftCorner<6, 6>() - result.map_covariance;
+  const double std = std::sqrt(own.bottomRightCorner<3, 3>().diagonal().maxCoeff());
+  consider(
+      health, std::min(kKnownDegeneracy, below(std, kMaxDegenerateStd)),
+      HealthCause::DegenerateDirection,
+      [&]
+      {
+        const MotionDirection open = unconstrainedMotions(constraints).front();
+        return mrpt::format(
+            "the surroundings do not constrain the %s (%.2f, %.2f, %.2f): the position is "
+            "uncertain by %.2f m, more than %g m",
+            open.is_rotation ? "rotation about" : "motion along", open.axis.x(), open.axis.y(),
+            open.axis.z(), std, kMaxDegenerateStd);
       });
 }
 
@@ -243,6 +265,7 @@ ScanHealth healthOf(
   {
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, limits, health);
     considerMatches(result.statistics, limits, health);
+    considerDegenerateDirections(result, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, limits, health);
   consider(

@@ -75,7 +75,11 @@ void ScanMatcher::findConstraints(
   Matrix6 noise = Matrix6::Zero();
   for (const Matrix6& part : chunk_noise_)
     noise += part;
-  call.result.constraints = scanConstraints(sums.HtRinvH, noise, min_signal_to_noise);
+  ScanConstraints& constraints = call.result.constraints;
+  constraints = informationByDirection(sums.HtRinvH, noise);
+  withoutStrongestPlanes(
+      T_world_scan, points, matches_, call.result.model, plane_information_, constraints);
+  leaveOutUnconstrained(min_signal_to_noise, constraints);
 }
 
 // Eq. 12-14 at an iterate.

@@ -67,6 +67,7 @@ class ScanMatcher
   std::vector<LineMatch> edge_matches_;
   std::vector<InformationSums> chunk_sums_;
   std::vector<Matrix6> chunk_noise_;
+  std::vector<PlaneInformation> plane_information_;
 };
 
 }  // namespace fastlio

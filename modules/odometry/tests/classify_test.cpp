@@ -140,6 +140,22 @@ TEST(Classify, ADirectionThatIsKnownToBeDegenerateIsNoTrouble)
   EXPECT_GT(health.value, 0.5);
 }
 
+TEST(Classify, ADegenerateDirectionIsTroubleOnceThePositionIsUncertain)
+{
+  const ScanHealth health = healthAfter(
+      [](ScanResult& r)
+      {
+        r.statistics.constraints.unconstrained = 1;
+        r.statistics.constraints.directions.col(0) = Vector6::Unit(3);
+        r.filter.P(kPosition, kPosition) = 0.6 * 0.6;
+      });
+  EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
+  EXPECT_LT(health.value, 0.5);
+  EXPECT_NE(health.reason.find("motion along (1.00, 0.00, 0.00)"), std::string::npos)
+      << health.reason;
+  EXPECT_NE(health.reason.find("0.60 m"), std::string::npos) << health.reason;
+}
+
 TEST(Classify, ScansWithoutUpdateAreInTrouble)
 {
   const ScanHealth predicted =

@@ -38,6 +38,7 @@ void addPoint(MatchedScan& scan, const Vec3& p, const Vec3& normal, double norma
   match.d = static_cast<float>(-normal.dot(p));
   match.variance = 1e-4F;
   match.normal_variance = static_cast<float>(2.0 * normal_std * normal_std);
+  match.plane = static_cast<std::uint32_t>(n / 5);
   scan.matches.push_back(match);
 }
 
@@ -80,7 +81,10 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   a.sums = accumulate(pose, scan.body, scan.matches, model, 0, scan.body.size());
   const Matrix6 noise =
       normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size());
-  a.constraints = scanConstraints(a.sums.HtRinvH, noise, min_signal_to_noise);
+  a.constraints = informationByDirection(a.sums.HtRinvH, noise);
+  std::vector<PlaneInformation> storage;
+  withoutStrongestPlanes(pose, scan.body, scan.matches, model, storage, a.constraints);
+  leaveOutUnconstrained(min_signal_to_noise, a.constraints);
   return a;
 }
 
@@ -129,6 +133,25 @@ TEST(Degeneracy, noiseIsTheSumOfTheRowsCovariances)
       normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half) +
       normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size());
   EXPECT_LT((parts - expected).norm(), 1e-6 * expected.norm());
+}
+
+// A voxel at an edge can fit a plane that stands across the tunnel: much information, and wrong.
+TEST(Degeneracy, FewPlanesAcrossTheTunnelDoNotConstrainIt)
+{
+  MatchedScan scan = tunnel(0.01, 0);
+  for (int i = 0; i < 30; ++i)
+  {
+    addPoint(scan, {3.0, 0.1 * i, 1.9}, Vec3::UnitX(), 0.01);
+    scan.matches.back().plane = 10000U + static_cast<std::uint32_t>(i / 10);
+  }
+  const Analysis three = analyse(scan);
+  EXPECT_GT(three.constraints.information[0], 100.0 * three.constraints.noise_information[0]);
+  ASSERT_EQ(three.constraints.unconstrained, 1);
+  EXPECT_GT(std::abs(unconstrainedMotions(three.constraints)[0].axis.x()), 0.99);
+
+  for (std::size_t i = scan.matches.size() - 30; i < scan.matches.size(); ++i)
+    scan.matches[i].plane = 10000U + static_cast<std::uint32_t>(i % 6);
+  EXPECT_EQ(analyse(scan).constraints.unconstrained, 0) << "six planes agree";
 }
 
 TEST(Degeneracy, aWallAtTheEndConstrainsTheTunnel)

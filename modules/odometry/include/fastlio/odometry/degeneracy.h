@@ -10,6 +10,7 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/point_to_plane.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace fastlio
@@ -22,8 +23,11 @@ struct ScanConstraints
   Matrix6 directions = Matrix6::Identity();     //!< columns: (rotation * lever_arm, translation)
   Vector6 information = Vector6::Zero();        //!< along each direction [1/m^2]
   Vector6 noise_information = Vector6::Zero();  //!< what noisy normals alone make of it [1/m^2]
-  int unconstrained = 0;                        //!< number of directions that are left alone
-  Matrix6 projection = Matrix6::Identity();     //!< of a scan pose step on the constrained ones
+  /** Information of the weak directions that is left without the few planes that say most about
+   * them; of the others all of it [1/m^2]. */
+  Vector6 supported_information = Vector6::Zero();
+  int unconstrained = 0;  //!< number of directions that are left alone, the weakest ones
+  Matrix6 projection = Matrix6::Identity();  //!< of a scan pose step on the constrained ones
 };
 
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
@@ -34,11 +38,29 @@ struct ScanConstraints
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last);
 
-/** Analyses the information of a scan: a direction is unconstrained where the information is less
- * than \a min_signal_to_noise times that of the noise, or none at all. \param information the sum
- * of w h h^T \param noise_information from normalNoiseInformation() */
-[[nodiscard]] ScanConstraints scanConstraints(
-    const Matrix6& information, const Matrix6& noise_information, double min_signal_to_noise);
+/** The information of a scan by direction, of which none is left out yet. \param information the
+ * sum of w h h^T \param noise_information from normalNoiseInformation() */
+[[nodiscard]] ScanConstraints informationByDirection(
+    const Matrix6& information, const Matrix6& noise_information);
+
+/** What the points on one plane tell about a direction. */
+struct PlaneInformation
+{
+  std::uint32_t plane = 0;
+  double information = 0.0;  //!< [1/m^2]
+};
+
+/** Computes the supported information of the weak directions. A plane that a voxel at an edge has
+ * fitted to points of two walls may stand across a tunnel. It is certain of a position that nothing
+ * else confirms, so one or two planes never constrain a direction. \param storage reused */
+void withoutStrongestPlanes(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::vector<PlaneInformation>& storage,
+    ScanConstraints& constraints);
+
+/** A direction is unconstrained where its supported information is not more than
+ * \a min_signal_to_noise times that of the noise, and so are all weaker ones. */
+void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
 
 /** True when some direction has so much less information than the best one that it is worth the
  * while to look for noise in it. */
