@@ -6,6 +6,8 @@
 
 #include "simulated_run.h"
 #include <fastlio/imu/imu_buffer.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
 #include <fastlio/simulation/scenario.h>
 
@@ -161,6 +163,45 @@ TEST_P(Tunnel, ThePositionAlongItIsNeverSurerThanItIsRight)
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Tunnel, ::testing::Values(1, 2, 4));
+
+// The map of a LiDAR that is mounted otherwise than the options say is consistent in itself.
+TEST(Mounting, AWrongOneIsReportedWithItsAngle)
+{
+  SimulationSettings settings = walk("office");
+  settings.duration = 30.0;
+  const Simulation simulation(settings);
+  OdometryOptions options = matchingParameters(simulation.settings());
+  const Mat3 R_wrong = expSO3({0.0, 0.0, 5.0 / kDegPerRad});
+  const auto turned = [&](LidarScan& scan)
+  {
+    scan.T_imu_lidar.R = R_wrong * scan.T_imu_lidar.R;
+    return true;
+  };
+  const SimulatedRun run = runOdometryWithScans(simulation, options, turned);
+  const ScanResult& last = run.scans.back().result;
+  EXPECT_EQ(last.health.cause, HealthCause::MotionDisagreement);
+  EXPECT_LT(last.health.value, 0.5);
+  ASSERT_TRUE(last.statistics.mounting_error.has_value());
+  EXPECT_NEAR(kDegPerRad * last.statistics.mounting_error->angle, 5.0, 1.6);
+  EXPECT_LT(
+      kDegPerRad * logSO3(last.statistics.mounting_error->R_true_given * R_wrong).norm(), 1.6);
+}
+
+TEST(Mounting, ARightOneIsNoTrouble)
+{
+  for (const char* scenario : {"office", "shake", "car"})
+  {
+    const SimulatedRun run =
+        runOdometry(Simulation(walk(scenario)), matchingParameters(walk(scenario)));
+    for (const JudgedScan& scan : run.scans)
+    {
+      ASSERT_TRUE(
+          scan.result.health.cause != HealthCause::MotionDisagreement ||
+          scan.result.health.value > 0.5)
+          << scenario << ": " << scan.result.health.reason;
+    }
+  }
+}
 
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
 {

@@ -21,6 +21,11 @@ constexpr double kKnownDegeneracy = 0.6;  // a direction that is left to the ine
 constexpr double kPredicted = 0.25;
 // Position error along a degenerate direction that few users of a trajectory can live with [m].
 constexpr double kMaxDegenerateStd = 0.5;
+// Corrections of the prediction over what its covariance explains. Realistic sensors reach 8; a
+// mounting that is 5 deg wrong 29.
+constexpr double kMaxMotionInnovation = 15.0;
+// An estimate from the motion is good to some tenths of a degree.
+constexpr double kMaxMountingError = 0.017453292519943295;  // [rad]; 1 deg
 constexpr int kSparseMapScans = 20;
 
 /** Health of a measure that must not exceed a limit: 1 at zero, 1/2 at the limit. */
@@ -106,6 +111,30 @@ void considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
             "uncertain by %.2f m, more than %g m",
             open.is_rotation ? "rotation about" : "motion along", open.axis.x(), open.axis.y(),
             open.axis.z(), std, kMaxDegenerateStd);
+      });
+}
+
+/** What scans correct again and again, the inertial data got wrong, or the scans' pose did. */
+void considerMotion(const ScanStatistics& s, ScanHealth& health)
+{
+  if (s.mounting_error)
+    consider(
+        health, below(s.mounting_error->angle, kMaxMountingError), HealthCause::MotionDisagreement,
+        [&]
+        {
+          return mrpt::format(
+              "scans and inertial data show a mounting of the LiDAR that is %.1f deg off the one "
+              "in use, more than %.1f",
+              kDegPerRad * s.mounting_error->angle, kDegPerRad * kMaxMountingError);
+        });
+  consider(
+      health, below(s.motion_innovation, kMaxMotionInnovation), HealthCause::MotionDisagreement,
+      [&]
+      {
+        return mrpt::format(
+            "scans and inertial data see different motions, %.0f times as far apart as their noise "
+            "explains: wrong mounting (T_imu_lidar), units, point times or clocks?",
+            s.motion_innovation);
       });
 }
 
@@ -266,6 +295,7 @@ ScanHealth healthOf(
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, limits, health);
     considerMatches(result.statistics, limits, health);
     considerDegenerateDirections(result, health);
+    considerMotion(result.statistics, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, limits, health);
   consider(

@@ -84,6 +84,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   Work work{scan, deskewed, predicted, {}};
   work.outcome.search = matched.poses;
   state_.stamp_ns = span.end_ns;
+  compareMotion(matched, work, result.statistics);
   adopt(match, work, result);
   noteSupport(match, work, result);
   applyZeroVelocityUpdate(statusOf(work.outcome, options_) == ScanStatus::Tracking, result);
@@ -135,6 +136,19 @@ const DeskewedScan& Estimator::deskew(
       preparation_.deskew(scan, end_ns, predicted.state.x, predictor_.inputs());
   timings_.deskew = watch.milliseconds();
   return deskewed;
+}
+
+/** Along a degenerate direction the prediction is not corrected, so it cannot be compared. */
+void Estimator::compareMotion(
+    const MapSearchResult& matched, const Work& work, ScanStatistics& statistics)
+{
+  const MatchResult& match = matched.match;
+  if (matched.poses || run().motion_window)
+    agreement_.restart();
+  else if (match.update.updated && match.constraints.unconstrained == 0)
+    agreement_.add(state_.filter.x, work.predicted.state, match.update.posterior);
+  statistics.motion_innovation = agreement_.innovation();
+  statistics.mounting_error = agreement_.mountingError();
 }
 
 /** The posterior becomes the state; what the map's errors add to its covariance is reported. */

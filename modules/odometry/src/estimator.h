@@ -9,6 +9,7 @@
 #include "estimator_mode.h"
 #include "local_map.h"
 #include "map_search.h"
+#include "motion_agreement.h"
 #include "scan_matcher.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
@@ -106,6 +107,7 @@ class Estimator
   [[nodiscard]] MapSearchResult trackOrSearch(
       const DeskewedScan& scan, const ScanPrediction& predicted);
   void beginNewMap(const DeskewedScan& scan);
+  void compareMotion(const MapSearchResult& matched, const Work& work, ScanStatistics& statistics);
   void adopt(const MatchResult& match, const Work& work, ScanResult& result);
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);
   void applyZeroVelocityUpdate(bool matched, ScanResult& result);
@@ -121,6 +123,7 @@ class Estimator
   ScanMatcher matcher_;
   LocalMap map_;
   RestDetector rest_;
+  MotionAgreement agreement_;
   ScanClassifier classifier_;
   Mode mode_;
   StampedState state_;

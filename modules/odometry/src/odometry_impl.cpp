@@ -3,9 +3,13 @@
 
 #include "odometry_impl.h"
 
+#include <fastlio/math/angles.h>
+#include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
 #include <fastlio/odometry/odometry_option_table.h>
 #include <fastlio/parallel/stack_anchor.h>
+
+#include <mrpt/core/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -14,6 +18,8 @@ namespace fastlio
 {
 namespace
 {
+// As classify() has it.
+constexpr double kOddMounting = 0.017453292519943295;  // [rad]; 1 deg
 
 const OdometryOptions& validated(const OdometryOptions& parameters)
 {
@@ -144,7 +150,23 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   const auto loss =
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
   if (loss) reinitialise(*loss, result.stamp_ns);
+  reportMounting(result);
   return result;
+}
+
+void Odometry::Impl::reportMounting(const ScanResult& result)
+{
+  const std::optional<MountingError>& error = result.statistics.mounting_error;
+  if (mounting_reported_ || !error || error->angle < kOddMounting) return;
+  mounting_reported_ = true;
+  const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
+          "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
+          "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
+          kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
 }
 
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)

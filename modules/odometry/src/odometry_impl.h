@@ -46,6 +46,7 @@ class Odometry::Impl
   void start(const StartDecision& decision);
   void reinitialise(const std::string& why, std::int64_t stamp_ns);
   void report(std::int64_t stamp_ns, std::string text);
+  void reportMounting(const ScanResult& result);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
   [[nodiscard]] bool usable(const ScanSpan& span);
   [[nodiscard]] QueuedScan popScan();
@@ -57,6 +58,7 @@ class Odometry::Impl
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;
+  bool mounting_reported_ = false;
 };
 
 }  // namespace fastlio

@@ -27,7 +27,7 @@ const char* toString(ScanStatus status)
 
 const char* toString(HealthCause cause)
 {
-  constexpr std::array<const char*, 10> kNames{
+  constexpr std::array<const char*, 11> kNames{
       "none",
       "starting",
       "lost",
@@ -37,7 +37,8 @@ const char* toString(HealthCause cause)
       "degenerate_direction",
       "inertial_data",
       "bias",
-      "scan_timing"};
+      "scan_timing",
+      "motion_disagreement"};
   return kNames.at(static_cast<std::size_t>(cause));
 }
 

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,8 @@ enum class HealthCause
   DegenerateDirection,  //!< the matches do not constrain a direction
   InertialData,         //!< gaps, clipping or spikes of the inertial sensor
   Bias,                 //!< a bias runs away
-  ScanTiming            //!< a long time since the scan before
+  ScanTiming,           //!< a long time since the scan before
+  MotionDisagreement    //!< scans and inertial data see different motions
 };
 
 /** Printable name of a cause ("few_matches", ...). */
@@ -61,6 +63,13 @@ struct StageTimings
          total = 0;
 };
 
+/** The mounting of the LiDAR that the turns seen by both sensors show, against the one in use. */
+struct MountingError
+{
+  Mat3 R_true_given = Mat3::Identity();  //!< true R_imu_lidar = R_true_given * R_imu_lidar in use
+  double angle = 0.0;                    //!< of R_true_given [rad]
+};
+
 /** Counts and measures of one scan. */
 struct ScanStatistics
 {
@@ -78,6 +87,9 @@ struct ScanStatistics
   bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
+  double motion_innovation = 0.0;  //!< of the last scans: corrections of the predicted pose over
+                                   //!< what is expected of them; 0: too few scans
+  std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
 };

@@ -1,0 +1,121 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "motion_agreement.h"
+
+#include <fastlio/math/so3.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using Square6 = Eigen::Matrix<double, 6, 6>;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kFewestTurns = 90.0;
+// Of the sums, per turn: the mounting in use may be estimated along the way, so that what was seen
+// a minute ago counts less.
+constexpr double kForgetting = 0.998;
+// Turns of less than this, root mean square, are mostly noise [rad].
+constexpr double kLeastTurn = 0.004;
+constexpr double kLeastCorrelation = 0.95;
+// A second axis of rotation with less of the first one's singular value tells nothing.
+constexpr double kLeastSecondAxis = 0.05;
+
+/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P. */
+double normalized(
+    const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
+    int block)
+{
+  const Vec3 e = correction.segment<3>(block);
+  const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block);
+  const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
+  if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
+  return e.dot(ldlt.solve(e).eval()) / 3.0;
+}
+
+/** The attitude that the scan alone shows: without the weight that the prediction had. */
+Mat3 attitudeOfScan(
+    const StateVector& correction, const FilterState& predicted, const FilterState& posterior)
+{
+  const Square6 P = predicted.P.topLeftCorner<6, 6>();
+  const Square6 S = P - posterior.P.topLeftCorner<6, 6>();
+  const Vec6 e = P * S.ldlt().solve(correction.head<6>());
+  return predicted.x.R * expSO3(e.head<3>());
+}
+
+double medianOf(std::array<double, MotionAgreement::kWindow> values)
+{
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+}  // namespace
+
+void MotionAgreement::add(
+    const NavState& before, const FilterState& predicted, const FilterState& posterior)
+{
+  const StateVector correction = boxminus(posterior.x, predicted.x);
+  attitude_[corrections_ % kWindow] = normalized(correction, predicted, posterior, kAttitude);
+  position_[corrections_ % kWindow] = normalized(correction, predicted, posterior, kPosition);
+  ++corrections_;
+  const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
+  if (R_last_scan_)
+    addTurn(
+        logSO3(before.R.transpose() * predicted.x.R), logSO3(R_last_scan_->transpose() * R_scan));
+  R_last_scan_ = R_scan;
+}
+
+void MotionAgreement::restart()
+{
+  corrections_ = 0;
+  R_last_scan_.reset();
+}
+
+double MotionAgreement::innovation() const
+{
+  return corrections_ < kWindow ? 0.0 : std::max(medianOf(attitude_), medianOf(position_));
+}
+
+void MotionAgreement::addTurn(const Vec3& inertial, const Vec3& scans)
+{
+  products_ = kForgetting * products_ + scans * inertial.transpose();
+  inertial_sum_ = kForgetting * inertial_sum_ + inertial;
+  scan_sum_ = kForgetting * scan_sum_ + scans;
+  inertial_squares_ = kForgetting * inertial_squares_ + inertial.squaredNorm();
+  scan_squares_ = kForgetting * scan_squares_ + scans.squaredNorm();
+  turns_ = kForgetting * turns_ + 1.0;
+}
+
+std::optional<MountingError> MotionAgreement::mountingError() const
+{
+  if (turns_ < kFewestTurns) return std::nullopt;
+  const double n = turns_;
+  // Without means: the bias of the gyro does not matter.
+  const Mat3 products = products_ - scan_sum_ * inertial_sum_.transpose() / n;
+  const double inertial_squares = inertial_squares_ - inertial_sum_.squaredNorm() / n;
+  const double scan_squares = scan_squares_ - scan_sum_.squaredNorm() / n;
+  if (!(inertial_squares > n * kLeastTurn * kLeastTurn) || !(scan_squares > 0.0))
+    return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3 strengths = svd.singularValues();
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  const Vec3 signs(1.0, 1.0, sign);
+  const double correlation = strengths.dot(signs) / std::sqrt(inertial_squares * scan_squares);
+  if (correlation < kLeastCorrelation || strengths[1] < kLeastSecondAxis * strengths[0])
+    return std::nullopt;
+  MountingError error;
+  error.R_true_given = Mat3(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
+  error.R_true_given.transposeInPlace();
+  error.angle = logSO3(error.R_true_given).norm();
+  return error;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,56 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file motion_agreement.h Do the scans and the inertial sensor see the same motion? A wrong
+ * mounting, a wrong unit or clocks that are apart make a map that is consistent in itself, so that
+ * the residuals stay small. What they cannot hide: scan after scan, the correction of the
+ * prediction is many times what its covariance explains. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/odometry/scan_result.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace fastlio
+{
+/** Compares predictions and their corrections, scan after scan. */
+class MotionAgreement
+{
+ public:
+  static constexpr std::size_t kWindow = 21;  //!< scans: two seconds of most LiDARs
+
+  /** A scan corrected a prediction.
+   * \param before state that the prediction began with
+   * \param posterior of the update, before anything else changes it */
+  void add(const NavState& before, const FilterState& predicted, const FilterState& posterior);
+  /** The next correction says nothing: the run begins, or the pose was searched. */
+  void restart();
+
+  /** Median over the last scans of e^T S^-1 e / 3 for the correction e of attitude or position,
+   * whichever is larger, with S its covariance; about 1 when the model is true, 0 while too few
+   * scans are known. */
+  [[nodiscard]] double innovation() const;
+
+  /** The rotation between the mounting in use and the one that the turns of the last minute show;
+   * nothing while they do not tell. */
+  [[nodiscard]] std::optional<MountingError> mountingError() const;
+
+ private:
+  void addTurn(const Vec3& inertial, const Vec3& scans);
+
+  using Window = std::array<double, kWindow>;
+
+  Window attitude_{}, position_{};  // rings of e^T S^-1 e / 3
+  std::size_t corrections_ = 0;
+  std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
+  // Sums over the turns between scans, for Wahba's problem.
+  Mat3 products_ = Mat3::Zero();
+  Vec3 inertial_sum_ = Vec3::Zero(), scan_sum_ = Vec3::Zero();
+  double inertial_squares_ = 0.0, scan_squares_ = 0.0;
+  double turns_ = 0.0;
+};
+
+}  // namespace fastlio
