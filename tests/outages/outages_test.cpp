@@ -164,6 +164,34 @@ TEST_P(Tunnel, ThePositionAlongItIsNeverSurerThanItIsRight)
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Tunnel, ::testing::Values(1, 2, 4));
 
+TEST(Units, ALidarInMillimetresIsReportedAndRead)
+{
+  const Simulation simulation(walk("office"));
+  const OdometryOptions options = matchingParameters(simulation.settings());
+  const auto inMillimetres = [&](LidarScan& scan)
+  {
+    for (auto* column : {&scan.points.x, &scan.points.y, &scan.points.z})
+      for (float& value : *column)
+        value *= 1000.0F;
+    return true;
+  };
+  const SimulatedRun run = runOdometryWithScans(simulation, options, inMillimetres);
+  EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
+  EXPECT_LT(positionError(run, run.scans.back()), 0.02);
+}
+
+TEST(Units, ALidarWhosePointsAreAllOutOfRangeIsNeverOk)
+{
+  const Simulation simulation(walk("office"));
+  OdometryOptions options = matchingParameters(simulation.settings());
+  options.lidar.max_range = 0.2;
+  options.lidar.min_range = 0.1;
+  const SimulatedRun run = runOdometry(simulation, options);
+  EXPECT_EQ(countOf(run, ScanStatus::Tracking) + countOf(run, ScanStatus::FirstScan), 0U);
+  for (const JudgedScan& scan : run.scans)
+    EXPECT_LT(scan.result.health.value, 0.5);
+}
+
 // The map of a LiDAR that is mounted otherwise than the options say is consistent in itself.
 TEST(Mounting, AWrongOneIsReportedWithItsAngle)
 {

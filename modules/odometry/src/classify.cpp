@@ -177,6 +177,17 @@ std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s, int 
       outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
 }
 
+/** There is no map yet, and the scan cannot begin one. */
+std::string emptyScan(
+    const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
+{
+  return mrpt::format(
+      "%zu of %zu points are left, at least %i are needed to begin a map: %zu without an echo, %zu "
+      "nearer than lidar.min_range (%g m), %zu farther than lidar.max_range (%g m)",
+      outcome.points, s.points_in, options.measurement.min_effective_points, s.dropped_invalid,
+      s.dropped_near, options.lidar.min_range, s.dropped_far, options.lidar.max_range);
+}
+
 std::string foundAgain(const PoseSearchResult& search)
 {
   return mrpt::format(
@@ -187,6 +198,11 @@ std::string foundAgain(const PoseSearchResult& search)
 std::string searchFailure(const ScanOutcome& outcome)
 {
   const PoseSearchResult& search = *outcome.search;
+  if (!search.complete)
+    return mrpt::format(
+        "the position is so uncertain (%.1f m) that the %zu places that were tried are not all; "
+        "%.2f s on inertial data alone",
+        outcome.position_std, search.candidates, outcome.unaided_s);
   const PoseCandidate best = search.best.value_or(PoseCandidate{});
   return mrpt::format(
       "none of %zu places within the prediction's uncertainty (%.2f m) matches convincingly: the "
@@ -237,7 +253,8 @@ std::string trackingMessage(
   if (outcome.search && outcome.prediction_finite)
     return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
   if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
-  if (diverged || (!outcome.updated && !outcome.map_was_empty))
+  if (outcome.map_was_empty && !outcome.begins_map) return emptyScan(outcome, s, options);
+  if (diverged || (!outcome.updated && !outcome.begins_map))
     return fewMatches(outcome, s, options.measurement.min_effective_points);
   if (outcome.imu_gap_s > options.imu.max_gap)
     return bridgedGap(outcome.imu_gap_s, options.imu.max_gap);
@@ -272,7 +289,7 @@ ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
 {
   if (outcome.place == ScanOutcome::Place::OutsideGivenMap) return ScanStatus::Initializing;
   if (isDiverged(outcome, options)) return ScanStatus::Diverged;
-  if (outcome.map_was_empty) return ScanStatus::FirstScan;
+  if (outcome.begins_map) return ScanStatus::FirstScan;
   if (outcome.updated) return ScanStatus::Tracking;
   return outcome.place == ScanOutcome::Place::InMap ? ScanStatus::PredictionOnly
                                                     : ScanStatus::Diverged;

@@ -31,6 +31,7 @@ struct ScanOutcome
   };
   Place place = Place::InMap;
   bool map_was_empty = false;
+  bool begins_map = false;                 //!< it was, and the scan has points enough for one
   bool updated = false;                    //!< the scan corrected the prediction
   bool prediction_finite = true;           //!< else the inertial data overflowed it
   std::size_t points = 0;                  //!< surface points that could have matched

@@ -173,15 +173,17 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   FilterRun& run = this->run();
   ScanStatistics& statistics = result.statistics;
   ScanOutcome& outcome = work.outcome;
+  const auto fewest = static_cast<std::size_t>(options_.measurement.min_effective_points);
   outcome.place = placeOf(mode_);
   outcome.map_was_empty = map_.empty();
+  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() >= fewest;
   outcome.updated = match.update.updated;
   outcome.prediction_finite = work.predicted.finite;
   outcome.points = work.deskewed.surfaces.size();
   outcome.imu_gap_s = work.predicted.imu_gap_s;
   statistics.usual_inlier_ratio = map_.usualInlierRatio();
   // Without matches there is no evidence: what the scans before have shown goes on.
-  if (outcome.map_was_empty || outcome.updated)
+  if (outcome.begins_map || outcome.updated)
   {
     run.consistent = map_.isConsistent(statistics, outcome.points);
     if (run.consistent) run.last_update_ns = state_.stamp_ns;

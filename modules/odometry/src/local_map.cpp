@@ -103,6 +103,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   if (candidate.status == ScanStatus::Initializing || (given_ && !rules_.update_given))
     return false;
   if (candidate.resting_time > rules_.max_resting_time) return false;
+  if (empty() && candidate.status != ScanStatus::FirstScan) return false;
   if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
   if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
     return true;

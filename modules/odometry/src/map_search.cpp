@@ -19,8 +19,6 @@ constexpr double kShrink = 0.25;  // of the variances of place and heading, per 
 // Of a carried pose.
 constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
 constexpr double kSigmas = 3.0;                      // of the heading
-constexpr double kLooseInnovation = 2.0;             // of a scan that has just been pulled in
-constexpr double kSureRatio = 0.6;                   // so many inliers: no need to look on
 // Of a prediction. A found pose has to match this part of what scans matched before.
 constexpr double kUsualPart = 0.5;
 // Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
@@ -41,13 +39,6 @@ double innovation(const UpdateResult& update)
          static_cast<double>(std::max<std::size_t>(update.last.count, 1));
 }
 
-/** Many matches that agree. */
-double score(const UpdateResult& update)
-{
-  if (!update.updated) return 0.0;
-  return static_cast<double>(update.last.count) / std::max(1.0, innovation(update));
-}
-
 /** The state with another heading. */
 FilterState turnedBy(double heading, const FilterState& s)
 {
@@ -56,6 +47,12 @@ FilterState turnedBy(double heading, const FilterState& s)
   turned.x.R = normalizeRotation(W * s.x.R);
   turned.x.v = W * s.x.v;
   return turned;
+}
+
+/** The argument of turnedBy() that comes nearest to an attitude. */
+double headingBetween(const NavState& from, const Mat3& R)
+{
+  return -logSO3(R * from.R.transpose()).dot(from.g.normalized());
 }
 
 /** The prediction stays as it is. \param latest match of the scan \param best sums of the best one
@@ -126,34 +123,21 @@ MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candid
 
 MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
 {
-  const MatchOptions pull_in = pullInMatching(options_);
-  const auto matchAt = [&](double heading)
-  { return matcher_.match(scan_, turnedBy(heading, predicted), map_, pull_in); };
   const double reach = std::min(kSigmas * headingStd(predicted), options_.recovery.max_heading);
-  const int turns = map_.empty() ? 0 : static_cast<int>(std::ceil(reach / kHeadingStep));
-  MatchResult best = matcher_.match(scan_, predicted, map_, pull_in);
-  double best_heading = 0.0, last_heading = 0.0;
-  const auto points = static_cast<double>(std::max<std::size_t>(scan_.surfaces.size(), 1));
-  for (int i = 1; i <= 2 * turns; ++i)
-  {
-    if (score(best.update) > kSureRatio * points) break;
-    last_heading = kHeadingStep * ((i + 1) / 2) * (i % 2 == 0 ? 1.0 : -1.0);
-    const MatchResult match = matchAt(last_heading);
-    if (score(match.update) <= score(best.update)) continue;
-    best = match;
-    best_heading = last_heading;
-  }
-  // The matches of the best one are needed.
-  if (best_heading != last_heading) best = matchAt(best_heading);
-  const bool agrees = innovation(best.update) <= kLooseInnovation * options_.health.max_innovation;
-  const double needed = options_.recovery.min_share * points;
-  if (best.update.updated && static_cast<double>(best.update.last.count) >= needed && agrees)
-    return {std::move(best), true, std::nullopt};
-  const UpdateResult& refused = best.update;
-  return notFound(best, predicted, refused.last, refused.iterations);
+  const int turns = static_cast<int>(std::ceil(reach / kHeadingStep));
+  std::vector<Mat3> attitudes;
+  for (int i = -turns; i <= turns; ++i)
+    attitudes.push_back(turnedBy(kHeadingStep * i, predicted).x.R);
+  return around(predicted, attitudes);
 }
 
 MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
+{
+  return around(predicted, {predicted.x.R});
+}
+
+MapSearchResult MapSearch::around(
+    const FilterState& predicted, const std::vector<Mat3>& attitudes) const
 {
   MatchOptions pull_in = ordinaryMatching(options_);
   MatchResult latest;
@@ -167,18 +151,21 @@ MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
   wanted.min_inlier_ratio =
       std::max(options_.recovery.min_share, kUsualPart * map_.usualInlierRatio());
   wanted.max_innovation = options_.health.max_innovation;
-  PoseSearchResult poses = searchPose(predicted, scan_, wanted, match);
+  PoseSearchResult poses;
+  if (!map_.empty()) poses = searchPose(predicted, attitudes, scan_, wanted, match);
   if (poses.accepted)
   {
-    const FilterState start = correctedByPose(predicted, poses.best->T_world_imu);
-    latest = matcher_.match(scan_, start, map_, ordinaryMatching(options_));
+    const Pose& found = poses.best->T_world_imu;
+    const FilterState turned = turnedBy(headingBetween(predicted.x, found.R), predicted);
+    latest =
+        matcher_.match(scan_, correctedByPose(turned, found), map_, ordinaryMatching(options_));
     poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_, options_);
     if (poses.accepted) return {std::move(latest), true, poses};
   }
   // The matches that are handed over are those of the whole scan, not of the sample.
   latest = matcher_.match(scan_, predicted, map_, ordinaryMatching(options_));
   MapSearchResult refused = notFound(std::move(latest), predicted, {}, 0);
-  refused.poses = poses;
+  if (!map_.empty()) refused.poses = poses;
   return refused;
 }
 

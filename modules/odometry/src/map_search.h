@@ -11,6 +11,7 @@
 #include <fastlio/odometry/odometry_options.h>
 
 #include <optional>
+#include <vector>
 
 namespace fastlio
 {
@@ -41,14 +42,16 @@ class MapSearch
 
   /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach. */
   [[nodiscard]] MapSearchResult aroundGivenPose(const FilterState& predicted) const;
-  /** Tries headings around the predicted one, as far as it is uncertain. A few matches by chance
-   * are not the map. */
+  /** Tries headings and places, as far as a carried pose is uncertain; asks for the same evidence
+   * as aroundPrediction(). */
   [[nodiscard]] MapSearchResult aroundCarriedPose(const FilterState& predicted) const;
   /** Tries places within the prediction's uncertainty, and asks for more evidence than an ordinary
    * match needs: inlier ratio, residuals, no rival nearly as good. */
   [[nodiscard]] MapSearchResult aroundPrediction(const FilterState& predicted) const;
 
  private:
+  [[nodiscard]] MapSearchResult around(
+      const FilterState& predicted, const std::vector<Mat3>& attitudes) const;
   [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;
   [[nodiscard]] double ratioOf(const UpdateResult& update) const;
 

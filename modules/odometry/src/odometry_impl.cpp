@@ -98,6 +98,12 @@ void Odometry::Impl::addScan(LidarScan scan)
     ++counted_.scans_bad_stamp;
     return;
   }
+  if (const auto median = range_unit_.bringToMetres(scan.points))
+    report(
+        scan.stamp_ns, mrpt::format(
+                           "the points of the LiDAR are %.0f away in the median: they are taken as "
+                           "millimetres, not metres",
+                           *median));
   scan.stamp_ns += toNanoseconds(options_.lidar.time_offset);
   const auto inertial_ns =
       imu_.empty() ? std::nullopt : std::optional<std::int64_t>(imu_.newestStamp());

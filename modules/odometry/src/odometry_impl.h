@@ -11,6 +11,7 @@
 #include "scan_intake.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_conditioner.h>
+#include <fastlio/lidar/range_unit.h>
 #include <fastlio/odometry/odometry.h>
 
 #include <optional>
@@ -55,6 +56,7 @@ class Odometry::Impl
   InputStatistics statistics_;  // with it
   ImuConditioner conditioner_;
   ImuBuffer imu_;
+  RangeUnit range_unit_;
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;

@@ -20,13 +20,18 @@ constexpr double kShortTime = 0.5;  // [s]
 constexpr double kPullInStd = 0.05;  // [m]
 // Planes of the coarser voxels pull in from half of this and more.
 constexpr double kGridStep = 0.5;  // [m]
+// Those of the coarsest still do.
+constexpr double kWideGridStep = 1.0;  // [m]
+// A candidate's uncertainty, of the step: neighbours overlap.
+constexpr double kStartStd = 0.6;
 constexpr double kSearchSigmas = 3.5;
 // Bounds the time that a search takes, to about a second.
-constexpr std::size_t kMostCandidates = 2000;
+constexpr std::size_t kMostCandidates = 3000;
 constexpr std::size_t kSamplePoints = 300;
 constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
-constexpr double kSamePlace = 0.3;  // [m]
+constexpr double kSamePlace = 0.3;     // [m]
+constexpr double kSameAttitude = 0.1;  // [rad]
 // A rival as good as this fraction of the best: nobody knows which of the two is right.
 constexpr double kRivalShare = 0.8;
 constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
@@ -87,9 +92,10 @@ bool better(const PoseCandidate& a, const PoseCandidate& b)
   return a.score > b.score;
 }
 
-double distance(const PoseCandidate& a, const PoseCandidate& b)
+bool isSamePlace(const PoseCandidate& a, const PoseCandidate& b)
 {
-  return (a.T_world_imu.p - b.T_world_imu.p).norm();
+  const Pose &A = a.T_world_imu, &B = b.T_world_imu;
+  return (A.p - B.p).norm() < kSamePlace && logSO3(A.R.transpose() * B.R).norm() < kSameAttitude;
 }
 
 /** The best of each place, not more than are refined. \param candidates best first */
@@ -98,7 +104,7 @@ std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidat
   std::vector<PoseCandidate> places;
   for (const PoseCandidate& candidate : candidates)
   {
-    const auto near = [&](const PoseCandidate& p) { return distance(p, candidate) < kSamePlace; };
+    const auto near = [&](const PoseCandidate& p) { return isSamePlace(p, candidate); };
     if (std::none_of(places.begin(), places.end(), near)) places.push_back(candidate);
     if (places.size() == kRefined) break;
   }
@@ -122,6 +128,44 @@ PoseCandidate refined(
   }
   return candidate;
 }
+/** \param most places; more are cut off, the least likely ones */
+CandidateGrid gridOf(const FilterState& predicted, double step, std::size_t most)
+{
+  CandidateGrid grid;
+  grid.step = step;
+  const Vec3 variance = predicted.P.diagonal().segment<3>(kPosition);
+  const Vec3 std = variance.cwiseMax(0.0).cwiseSqrt();
+  grid.complete = variance.allFinite();
+  // More steps than these would be cut off by the most that are tried anyway.
+  constexpr double kMostSteps = 20.0;
+  const auto steps = [&](double sigma)
+  {
+    // Grid points stand for half a step around them.
+    const double n = std::ceil(std::max(0.0, 3.0 * sigma - step / 2.0) / step);
+    if (n < kMostSteps) return static_cast<int>(n);
+    grid.complete = false;
+    return static_cast<int>(kMostSteps);
+  };
+  const int nx = steps(std.x()), ny = steps(std.y()), nz = steps(std.z());
+  const Vec3 scale = std.cwiseMax(step / 3.0).cwiseInverse();
+  for (int x = -nx; x <= nx; ++x)
+    for (int y = -ny; y <= ny; ++y)
+      for (int z = -nz; z <= nz; ++z)
+      {
+        const Vec3 offset = step * Vec3(x, y, z);
+        if (offset.cwiseProduct(scale).norm() <= kSearchSigmas) grid.offsets.push_back(offset);
+      }
+  std::stable_sort(
+      grid.offsets.begin(), grid.offsets.end(),
+      [&](const Vec3& a, const Vec3& b)
+      { return a.cwiseProduct(scale).squaredNorm() < b.cwiseProduct(scale).squaredNorm(); });
+  if (grid.offsets.size() > most)
+  {
+    grid.offsets.resize(most);
+    grid.complete = false;
+  }
+  return grid;
+}
 }  // namespace
 
 void considerUnmodelledAcceleration(FilterState& predicted, double blind_s)
@@ -141,51 +185,32 @@ bool needsPoseSearch(const FilterState& predicted, double blind_s)
          predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
 }
 
-std::vector<Vec3> candidateOffsets(const FilterState& predicted)
+CandidateGrid candidateGrid(const FilterState& predicted, std::size_t headings)
 {
-  const Vec3 std = predicted.P.diagonal().segment<3>(kPosition).cwiseMax(0.0).cwiseSqrt();
-  // Grid points stand for half a step around them.
-  // More steps than these would be cut off by the most that are tried anyway.
-  constexpr double kMostSteps = 20.0;
-  const auto steps = [](double sigma)
-  {
-    const double n = std::ceil(std::max(0.0, 3.0 * sigma - kGridStep / 2.0) / kGridStep);
-    return n < kMostSteps ? static_cast<int>(n) : static_cast<int>(kMostSteps);  // NaN, too
-  };
-  const int nx = steps(std.x()), ny = steps(std.y()), nz = steps(std.z());
-  const Vec3 scale = std.cwiseMax(kGridStep / 3.0).cwiseInverse();
-  std::vector<Vec3> offsets;
-  for (int x = -nx; x <= nx; ++x)
-    for (int y = -ny; y <= ny; ++y)
-      for (int z = -nz; z <= nz; ++z)
-      {
-        const Vec3 offset = kGridStep * Vec3(x, y, z);
-        if (offset.cwiseProduct(scale).norm() <= kSearchSigmas) offsets.push_back(offset);
-      }
-  std::stable_sort(
-      offsets.begin(), offsets.end(),
-      [&](const Vec3& a, const Vec3& b)
-      { return a.cwiseProduct(scale).squaredNorm() < b.cwiseProduct(scale).squaredNorm(); });
-  if (offsets.size() > kMostCandidates) offsets.resize(kMostCandidates);
-  return offsets;
+  const std::size_t most = std::max<std::size_t>(1, kMostCandidates / headings);
+  CandidateGrid grid = gridOf(predicted, kGridStep, most);
+  return grid.complete ? grid : gridOf(predicted, kWideGridStep, most);
 }
 
 PoseSearchResult searchPose(
-    const FilterState& predicted, const DeskewedScan& scan, const PoseSearchLimits& limits,
-    const MatchFromStart& match)
+    const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
+    const PoseSearchLimits& limits, const MatchFromStart& match)
 {
   PoseSearchResult result;
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
+  const CandidateGrid grid = candidateGrid(predicted, attitudes.size());
+  result.complete = grid.complete;
   std::vector<PoseCandidate> candidates;
-  for (const Vec3& offset : candidateOffsets(predicted))
-  {
-    ++result.candidates;
-    const Pose pose{predicted.x.R, predicted.x.p + offset};
-    const UpdateResult update =
-        match(startAt(predicted, pose, 0.6 * kGridStep), sample, kSampleIterations);
-    if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
-  }
+  for (const Vec3& offset : grid.offsets)
+    for (const Mat3& R : attitudes)
+    {
+      ++result.candidates;
+      const FilterState start =
+          startAt(predicted, {R, predicted.x.p + offset}, kStartStd * grid.step);
+      const UpdateResult update = match(start, sample, kSampleIterations);
+      if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
+    }
   std::stable_sort(candidates.begin(), candidates.end(), better);
   std::vector<PoseCandidate> places = bestPlaces(candidates);
   for (PoseCandidate& place : places)
@@ -194,9 +219,9 @@ PoseSearchResult searchPose(
   if (places.empty() || places.front().score <= 0.0) return result;
   result.best = places.front();
   for (const PoseCandidate& place : places)
-    if (distance(place, *result.best) > kSamePlace)
+    if (!isSamePlace(place, *result.best))
       result.rival_score = std::max(result.rival_score, place.score);
-  result.accepted = result.best->inlier_ratio >= limits.min_inlier_ratio &&
+  result.accepted = result.complete && result.best->inlier_ratio >= limits.min_inlier_ratio &&
                     result.best->innovation <= limits.max_innovation &&
                     result.rival_score < kRivalShare * result.best->score;
   return result;

@@ -25,9 +25,17 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
  * \param blind_s time without a scan [s] */
 [[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
 
-/** Positions on a grid within three standard deviations of the predicted one, the likeliest first.
- * \return offsets from the predicted position, world frame [m] */
-[[nodiscard]] std::vector<Vec3> candidateOffsets(const FilterState& predicted);
+/** Positions around a predicted one. */
+struct CandidateGrid
+{
+  double step = 0.0;          //!< between neighbours [m]
+  std::vector<Vec3> offsets;  //!< from the predicted position, world frame, the likeliest first [m]
+  bool complete = true;  //!< false: the prediction is so uncertain that the truth may be outside
+};
+
+/** A grid over three standard deviations of the predicted position; wider where it would have too
+ * many places. \param headings that are tried at each place */
+[[nodiscard]] CandidateGrid candidateGrid(const FilterState& predicted, std::size_t headings);
 
 /** Matches a scan from a start; so many iterations search the map anew. */
 using MatchFromStart =
@@ -53,15 +61,17 @@ struct PoseCandidate
 struct PoseSearchResult
 {
   std::size_t candidates = 0;
+  bool complete = true;  //!< the places that were tried are all that the prediction allows
   std::optional<PoseCandidate> best;
   double rival_score = 0.0;  //!< of the best candidate at another place
-  bool accepted = false;     //!< enough evidence, and more than any rival has
+  bool accepted = false;     //!< enough evidence, more than any rival has, and none was left out
 };
 
-/** Matches a sample of the scan from every candidate, and the whole scan from the best of them. */
+/** Matches a sample of the scan from every candidate, and the whole scan from the best of them.
+ * \param attitudes that are tried at each place: R_world_imu */
 [[nodiscard]] PoseSearchResult searchPose(
-    const FilterState& predicted, const DeskewedScan& scan, const PoseSearchLimits& limits,
-    const MatchFromStart& match);
+    const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
+    const PoseSearchLimits& limits, const MatchFromStart& match);
 
 /** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
  * and biases, too, as far as they made the error. The scan itself makes it exact afterwards. */

@@ -178,13 +178,32 @@ TEST(Classify, FewMatchesAreNoTroubleWhileTheMapIsSparse)
     return r;
   };
   ScanOutcome first = goodOutcome();
-  first.map_was_empty = true;
+  first.map_was_empty = first.begins_map = true;
   first.updated = false;
   EXPECT_EQ(next(first, 1).status, ScanStatus::FirstScan);
   std::int64_t index = 2;
   for (; index <= 21; ++index)
     EXPECT_NE(next(goodOutcome(), index).health.cause, HealthCause::FewMatches) << index;
   EXPECT_EQ(next(goodOutcome(), index).health.cause, HealthCause::FewMatches);
+}
+
+// A LiDAR whose points are all out of range: 129 "first scans" and status ok, once.
+TEST(Classify, AScanWithoutPointsBeginsNoMap)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.updated = false;
+  outcome.map_was_empty = true;
+  outcome.points = 3;
+  ScanResult scan = goodScan();
+  scan.statistics.points_in = 28000;
+  scan.statistics.dropped_far = 27997;
+  const ScanResult r = classified(outcome, scan);
+  EXPECT_EQ(r.status, ScanStatus::PredictionOnly);
+  EXPECT_LT(r.health.value, 0.5);
+  EXPECT_NE(r.message.find("3 of 28000 points are left"), std::string::npos) << r.message;
+  EXPECT_NE(r.message.find("27997 farther than lidar.max_range"), std::string::npos) << r.message;
+  outcome.unaided_s = 10.0;
+  EXPECT_EQ(classified(outcome, scan).status, ScanStatus::Diverged);
 }
 
 TEST(Classify, AnUpdatedScanTracksWithoutAMessage)
@@ -254,9 +273,9 @@ TEST(Classify, AfterAReinitialisationAScanIsDivergedUntilItMatchesOrBeginsAMap)
   outcome.place = ScanOutcome::Place::Reinitialised;
   outcome.updated = false;
   EXPECT_EQ(classified(outcome).status, ScanStatus::Diverged);
-  outcome.map_was_empty = true;
+  outcome.map_was_empty = outcome.begins_map = true;
   EXPECT_EQ(classified(outcome).status, ScanStatus::FirstScan);
-  outcome.map_was_empty = false;
+  outcome.map_was_empty = outcome.begins_map = false;
   outcome.updated = true;
   const ScanResult found = classified(outcome);
   EXPECT_EQ(found.status, ScanStatus::Tracking);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace fastlio
 {
@@ -57,7 +58,7 @@ MatchFromStart matcherWith(const std::vector<Place>& places)
 
 TEST(PoseSearch, LooksAtThePredictionAloneWhenItIsCertain)
 {
-  const auto offsets = candidateOffsets(predictionWithStd(0.01, 0.02, 0.01));
+  const auto offsets = candidateGrid(predictionWithStd(0.01, 0.02, 0.01), 1).offsets;
   ASSERT_EQ(offsets.size(), 1U);
   EXPECT_EQ(offsets[0], Vec3::Zero().eval());
 }
@@ -65,7 +66,9 @@ TEST(PoseSearch, LooksAtThePredictionAloneWhenItIsCertain)
 TEST(PoseSearch, CoversThreeStandardDeviationsTheLikeliestFirst)
 {
   const FilterState s = predictionWithStd(1.0, 0.5, 0.1);
-  const auto offsets = candidateOffsets(s);
+  const CandidateGrid grid = candidateGrid(s, 1);
+  EXPECT_TRUE(grid.complete);
+  const auto& offsets = grid.offsets;
   EXPECT_EQ(offsets[0], Vec3::Zero().eval());
   for (const Vec3& wanted : {Vec3(3, 0, 0), Vec3(0, -1.5, 0), Vec3(0.7, 0.9, 0.1)})
   {
@@ -80,14 +83,26 @@ TEST(PoseSearch, CoversThreeStandardDeviationsTheLikeliestFirst)
 
 TEST(PoseSearch, IsBoundedHoweverUncertainThePredictionIs)
 {
-  EXPECT_LE(candidateOffsets(predictionWithStd(1e6, 1e6, 1e6)).size(), 2000U);
+  for (const double std : {3.0, 1e6, std::numeric_limits<double>::quiet_NaN()})
+  {
+    const CandidateGrid grid = candidateGrid(predictionWithStd(std, std, std), 13);
+    EXPECT_LE(13 * grid.offsets.size(), 3000U);
+    EXPECT_FALSE(grid.complete) << std;
+  }
+}
+
+TEST(PoseSearch, WidensTheGridBeforeItLeavesPlacesOut)
+{
+  const CandidateGrid grid = candidateGrid(predictionWithStd(2.0, 2.0, 2.0), 1);
+  EXPECT_TRUE(grid.complete);
+  EXPECT_EQ(grid.step, 1.0);
 }
 
 TEST(PoseSearch, FindsThePlaceThatMatches)
 {
   const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
   const Vec3 truth(1.3, -0.8, 0.05);
-  const auto result = searchPose(s, someScan(1000), {}, matcherWith({{truth, 0.8}}));
+  const auto result = searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith({{truth, 0.8}}));
   ASSERT_TRUE(result.accepted);
   EXPECT_EQ(result.best->T_world_imu.p, truth);
   EXPECT_DOUBLE_EQ(result.best->inlier_ratio, 0.8);
@@ -96,7 +111,7 @@ TEST(PoseSearch, FindsThePlaceThatMatches)
 TEST(PoseSearch, RefusesFewMatches)
 {
   const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
-  const auto result = searchPose(s, someScan(1000), {}, matcherWith({{{1, 1, 0}, 0.2}}));
+  const auto result = searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith({{{1, 1, 0}, 0.2}}));
   EXPECT_FALSE(result.accepted);
   ASSERT_TRUE(result.best);
   EXPECT_DOUBLE_EQ(result.best->inlier_ratio, 0.2);
@@ -108,17 +123,35 @@ TEST(PoseSearch, RefusesToChooseBetweenRivals)
   const auto two = [&](double second)
   {
     return searchPose(
-        s, someScan(1000), {}, matcherWith({{{1.5, 0, 0}, 0.8}, {{-1.5, 0, 0}, second}}));
+        s, {s.x.R}, someScan(1000), {}, matcherWith({{{1.5, 0, 0}, 0.8}, {{-1.5, 0, 0}, second}}));
   };
   EXPECT_FALSE(two(0.75).accepted);
   EXPECT_TRUE(two(0.4).accepted);
 }
 
+// Who cannot look everywhere does not know whether the best place is the only one.
+TEST(PoseSearch, RefusesAPlaceWhenItCannotLookEverywhere)
+{
+  const FilterState s = predictionWithStd(20.0, 20.0, 20.0);
+  const auto result = searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith({{{1, 0, 0}, 0.9}}));
+  ASSERT_TRUE(result.best);
+  EXPECT_FALSE(result.complete);
+  EXPECT_FALSE(result.accepted);
+}
+
+TEST(PoseSearch, AnotherHeadingAtTheSamePlaceIsARival)
+{
+  const FilterState s = predictionWithStd(0.1, 0.1, 0.1);
+  const Mat3 R = expSO3({0.0, 0.0, 0.5});
+  EXPECT_FALSE(
+      searchPose(s, {s.x.R, R}, someScan(1000), {}, matcherWith({{{0, 0, 0}, 0.9}})).accepted);
+}
+
 TEST(PoseSearch, FindsNothingInAnEmptyScanOrMap)
 {
   const FilterState s = predictionWithStd(1.0, 1.0, 0.1);
-  EXPECT_FALSE(searchPose(s, someScan(0), {}, matcherWith({{{0, 0, 0}, 1.0}})).best);
-  EXPECT_FALSE(searchPose(s, someScan(100), {}, matcherWith({})).best);
+  EXPECT_FALSE(searchPose(s, {s.x.R}, someScan(0), {}, matcherWith({{{0, 0, 0}, 1.0}})).best);
+  EXPECT_FALSE(searchPose(s, {s.x.R}, someScan(100), {}, matcherWith({})).best);
 }
 
 TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
