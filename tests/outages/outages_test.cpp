@@ -5,6 +5,7 @@
 // lost it. What it must never do is to go on from a wrong pose and to be sure of it.
 
 #include "simulated_run.h"
+#include <fastlio/exporters/run_health.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ostream>
 #include <string>
 #include <tuple>
 
@@ -115,6 +117,105 @@ INSTANTIATE_TEST_SUITE_P(
     {
       return std::get<0>(instance.param) + "For" +
              std::to_string(static_cast<int>(std::get<1>(instance.param))) + "Seconds";
+    });
+
+/** A fault of a recording from one second on. */
+struct Fault
+{
+  std::string name;
+  double length_s;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out)
+{
+  *out << fault.name << " for " << fault.length_s << " s";
+}
+
+/** Inputs with a fault that begins at a stamp. */
+AlteredInputs altered(const Fault& fault, std::int64_t begin_ns)
+{
+  const std::int64_t length_ns = toNanoseconds(fault.length_s), end_ns = begin_ns + length_ns;
+  const auto hit = [=](std::int64_t ns) { return ns >= begin_ns && ns < end_ns; };
+  AlteredInputs inputs;
+  if (fault.name == "NoInertialData" || fault.name == "NoData")
+    inputs.imu = [=](ImuSample& sample) { return !hit(sample.stamp_ns); };
+  if (fault.name == "NoData") inputs.scan = [=](LidarScan& scan) { return !hit(scan.stamp_ns); };
+  if (fault.name == "FrozenInertialData")
+    inputs.imu = [=, last = ImuSample{}](ImuSample& sample) mutable
+    {
+      if (hit(sample.stamp_ns))
+        sample.gyro = last.gyro, sample.accel = last.accel;
+      else
+        last = sample;
+      return true;
+    };
+  if (fault.name == "FrozenScans")
+    inputs.scan = [=, last = PointColumns{}](LidarScan& scan) mutable
+    {
+      if (hit(scan.stamp_ns))
+        scan.points = last;
+      else
+        last = scan.points;
+      return true;
+    };
+  if (fault.name == "Kidnapped")
+  {
+    // Somebody carries the platform on; nobody measures, and stamps hide it.
+    const auto earlier = [=](std::int64_t& stamp_ns)
+    {
+      const bool missing = hit(stamp_ns);
+      if (stamp_ns >= begin_ns) stamp_ns -= length_ns;
+      return !missing;
+    };
+    inputs.imu = [=](ImuSample& sample) { return earlier(sample.stamp_ns); };
+    inputs.scan = [=](LidarScan& scan) { return earlier(scan.stamp_ns); };
+    inputs.true_ns = [=](std::int64_t ns) { return ns >= begin_ns ? ns + length_ns : ns; };
+  }
+  return inputs;
+}
+
+/** What fastlio-replay calls it: no scan is lost at the end, no stretch cannot be trusted. */
+bool endsOk(const SimulatedRun& run)
+{
+  RunHealth health;
+  for (const JudgedScan& scan : run.scans)
+    health.add(scan.result);
+  return countOf(run, ScanStatus::Diverged) == 0 && health.untrusted().empty();
+}
+
+class AnyFault : public ::testing::TestWithParam<std::tuple<std::string, Fault>>
+{
+};
+
+TEST_P(AnyFault, EndsRightOrIsReported)
+{
+  const auto& [scenario, fault] = GetParam();
+  const Simulation simulation(walk(scenario));
+  OdometryOptions options = matchingParameters(simulation.settings());
+  options.threads = 2;
+  const double step = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr ? 1.0 : 8.0;
+  for (double begin = 7.0; begin + fault.length_s < 22.0; begin += step)
+  {
+    const std::int64_t begin_ns = simulation.settings().start_ns + toNanoseconds(begin);
+    const SimulatedRun run = runOdometryWith(altered(fault, begin_ns), simulation, options);
+    if (!endsOk(run)) continue;
+    EXPECT_EQ(confidentlyWrong(run), 0) << "from " << begin << " s on";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sample, AnyFault,
+    ::testing::Combine(
+        ::testing::Values("office", "campus"),
+        ::testing::Values(
+            Fault{"NoInertialData", 0.2}, Fault{"NoInertialData", 1.0},
+            Fault{"NoInertialData", 5.0}, Fault{"NoData", 2.0}, Fault{"NoData", 5.0},
+            Fault{"FrozenInertialData", 1.0}, Fault{"FrozenScans", 2.0}, Fault{"Kidnapped", 5.0})),
+    [](const auto& instance)
+    {
+      const Fault& fault = std::get<1>(instance.param);
+      return std::get<0>(instance.param) + fault.name +
+             std::to_string(static_cast<int>(1000.0 * fault.length_s)) + "Milliseconds";
     });
 
 TEST(OutageOfTheLidar, OfASecondIsForgottenAfterwards)

@@ -37,11 +37,13 @@ ImuBias biasAt(const ImuRecording& imu, std::int64_t stamp_ns)
   return imu.true_bias[static_cast<std::size_t>(index)];
 }
 
-void drain(Odometry& odometry, const Simulation& simulation, SimulatedRun& run)
+void drain(
+    Odometry& odometry, const Simulation& simulation, const AlteredInputs& inputs,
+    SimulatedRun& run)
 {
   while (auto result = odometry.next())
   {
-    const std::int64_t stamp = result->stamp_ns;
+    const std::int64_t stamp = inputs.true_ns(result->stamp_ns);
     run.scans.push_back(
         {std::move(*result), simulation.truth(stamp), biasAt(simulation.imu(), stamp)});
   }
@@ -57,19 +59,27 @@ SimulatedRun runOdometryWithScans(
     const Simulation& simulation, const OdometryOptions& parameters,
     const std::function<bool(LidarScan&)>& filter)
 {
+  AlteredInputs inputs;
+  inputs.scan = filter;
+  return runOdometryWith(inputs, simulation, parameters);
+}
+
+SimulatedRun runOdometryWith(
+    const AlteredInputs& inputs, const Simulation& simulation, const OdometryOptions& parameters)
+{
   SimulatedRun run;
   run.gravity = {0.0, 0.0, -simulation.settings().gravity};
   run.T_est_sim =
       startPose(simulation, parameters.initialization) * simulation.motion().pose(0.0).inverse();
   Odometry odometry(parameters);
-  for (const ImuSample& sample : simulation.imu().samples)
-    odometry.addImu(sample);
+  for (ImuSample sample : simulation.imu().samples)
+    if (inputs.imu(sample)) odometry.addImu(sample);
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
   {
     LidarScan scan = simulation.scan(i);
-    if (!filter(scan)) continue;
+    if (!inputs.scan(scan)) continue;
     odometry.addScan(std::move(scan));
-    drain(odometry, simulation, run);
+    drain(odometry, simulation, inputs, run);
   }
   return run;
 }
@@ -88,7 +98,7 @@ SimulatedRun runOdometryFrom(
     LidarScan scan = simulation.scan(i);
     if (spanOf(scan).begin_ns < begin_ns) continue;
     odometry.addScan(std::move(scan));
-    drain(odometry, simulation, run);
+    drain(odometry, simulation, {}, run);
   }
   for (const JudgedScan& scan : run.scans)
   {

@@ -43,6 +43,21 @@ struct SimulatedRun
     const Simulation& simulation, const OdometryOptions& parameters,
     const std::function<bool(LidarScan&)>& filter);
 
+/** What an odometry is fed with: a simulated recording with something wrong. */
+struct AlteredInputs
+{
+  /** May change a sample or a scan; false: it does not arrive. */
+  std::function<bool(ImuSample&)> imu = [](ImuSample&) { return true; };
+  std::function<bool(LidarScan&)> scan = [](LidarScan&) { return true; };
+  /** The true time of what now has a stamp, when stamps are altered. */
+  std::function<std::int64_t(std::int64_t)> true_ns = [](std::int64_t stamp_ns)
+  { return stamp_ns; };
+};
+
+/** The same with altered inputs. */
+[[nodiscard]] SimulatedRun runOdometryWith(
+    const AlteredInputs& inputs, const Simulation& simulation, const OdometryOptions& parameters);
+
 /** The same for what is left of a recording \a begin seconds after its start, when the platform may
  * be in motion. The filter's world is fixed by the true pose at the end of the first scan with a
  * pose, which is where a start in motion fixes it. */
