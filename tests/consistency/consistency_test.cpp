@@ -10,6 +10,7 @@
 #include "repeats.h"
 #include "simulated_run.h"
 #include <fastlio/math/time.h>
+#include <fastlio/odometry/static_initializer.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -81,7 +82,7 @@ SimulationSettings settingsOf(const ConsistencyCase& c, std::uint64_t seed)
   settings.path_start = pathStart(c, seed);
   std::mt19937_64 random(seed);
   const InitializationOptions prior;
-  settings.gravity = std::normal_distribution<double>(prior.gravity, prior.gravity_std)(random);
+  settings.gravity = std::normal_distribution<double>(prior.gravity, kGravityStd)(random);
   return settings;
 }
 

@@ -79,8 +79,7 @@ TEST(FeatureModes, EdgesAloneHoldThePose)
   const Simulation simulation(settings);
   OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.downsampling.target_points = 1;  // next to nothing for planes
-  parameters.features.target_edges = 0;
-  parameters.features.half_width = 0.5;  // clear edges only: nothing else is left to tell
+  parameters.features.half_width = 0.5;       // clear edges only: nothing else is left to tell
   const SimulatedRun with_edges = runOdometry(simulation, parameters);
   EXPECT_EQ(countOf(with_edges, ScanStatus::Diverged), 0U);
   EXPECT_LT(judge(with_edges).ape.translation.rmse, 0.1);
@@ -115,7 +114,6 @@ TEST(FeatureModes, BothGainsAgree)
   const Simulation simulation(settings);
   OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.downsampling.target_points = 200;
-  parameters.features.target_edges = 50;
   const SimulatedRun information = runOdometry(simulation, parameters);
   parameters.gain = GainForm::Standard;
   const SimulatedRun standard = runOdometry(simulation, parameters);

@@ -19,6 +19,16 @@ constexpr std::size_t kUnitFewest = 10, kUnitMost = 200;
 // Below these, a value that repeats is no end of a range.
 constexpr double kGyroFloor = 1.7;    // [rad/s]
 constexpr double kAccelFloor = 17.0;  // [m/s^2]
+// A clipped axis exceeds the full scale by an unknown amount: half of it covers knocks and jolts.
+constexpr double kSaturationStd = 0.5;  // fraction of the full scale
+// Three lost samples in a row are still bridged as jitter.
+constexpr double kGapPeriods = 4.0;  // of the sampling period
+// How far the motion in a gap of imu.max_gap departs from the samples around it.
+constexpr double kGapGyroStd = 0.5235987755982988;  // [rad/s]; 30 deg/s
+constexpr double kGapAccelStd = 2.0;                // [m/s^2]
+// No platform changes its motion by so much for the time of one sample.
+constexpr double kSpikeGyro = 10.471975511965978;  // [rad/s]; 600 deg/s
+constexpr double kSpikeAccel = 100.0;              // [m/s^2]
 }  // namespace
 
 ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
@@ -28,7 +38,7 @@ ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
           siPerUnit(parameters.accel_unit), siPerUnit(parameters.gyro_unit),
           parameters.accel_unit != AccelUnit::Auto},
       time_gate_(parameters.max_gap),
-      spike_gate_(parameters.spike_gyro, parameters.spike_accel),
+      spike_gate_(kSpikeGyro, kSpikeAccel),
       gyro_clipping_(parameters.gyro_range, kGyroFloor),
       accel_clipping_(parameters.accel_range, kAccelFloor)
 {
@@ -166,9 +176,8 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
   if (!last_ns_) return std::nullopt;
   const double interval = toSeconds(sample.stamp_ns - *last_ns_);
   const double period = period_.median();
-  if (!timed.after_break) period_.add(interval, parameters_.gap_periods);
-  const bool gap =
-      timed.after_break || (period > 0.0 && interval > parameters_.gap_periods * period);
+  if (!timed.after_break) period_.add(interval, kGapPeriods);
+  const bool gap = timed.after_break || (period > 0.0 && interval > kGapPeriods * period);
   const bool spike = spike_gate_.latestSpike() > *last_ns_;
   if (gap)
   {
@@ -179,8 +188,8 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
   // What the motion does in between grows with the time it has.
   const double fraction = std::min(1.0, interval / parameters_.max_gap);
   return NoiseInflation{
-      *last_ns_, sample.stamp_ns, fraction * parameters_.gap_gyro_std,
-      fraction * parameters_.gap_accel_std, gap ? InertialFault::Gap : InertialFault::Spike};
+      *last_ns_, sample.stamp_ns, fraction * kGapGyroStd, fraction * kGapAccelStd,
+      gap ? InertialFault::Gap : InertialFault::Spike};
 }
 
 /** An input between two samples is in doubt when one of them is. */
@@ -192,8 +201,8 @@ std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample&
   if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
   if (!last_ns_ || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
   return NoiseInflation{
-      *last_ns_, sample.stamp_ns, parameters_.saturation_std * gyro_between,
-      parameters_.saturation_std * accel_between, InertialFault::Saturation};
+      *last_ns_, sample.stamp_ns, kSaturationStd * gyro_between, kSaturationStd * accel_between,
+      InertialFault::Saturation};
 }
 
 ImuReport ImuConditioner::report() const

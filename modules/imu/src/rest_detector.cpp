@@ -10,7 +10,14 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kRecentTime = 0.1;      // [s], vibration averages out over it
+constexpr double kRecentTime = 0.1;  // [s], vibration averages out over it
+// A platform at rest stays within these: several times the errors of a pose from one scan, and the
+// turning rates and accelerations of what wind or an engine shakes.
+constexpr double kRestVelocity = 0.1;                     // of the filter, after a scan [m/s]
+constexpr double kRestDisplacement = 0.03;                // from where the quiet time began [m]
+constexpr double kRestRotation = 0.008726646259971648;    // since then [rad]; 0.5 deg
+constexpr double kRestRateChange = 0.008726646259971648;  // of the angular rate [rad/s]; 0.5 deg/s
+constexpr double kRestAccelChange = 0.1;                  // of the specific force [m/s^2]
 constexpr double kReferenceTime = 60.0;  // [s], memory of the inertial reference: biases wander
 
 /** Mean of two spans. */
@@ -58,17 +65,16 @@ double RestDetector::quietTime() const
 bool RestDetector::quiet(const RestEvidence& evidence) const
 {
   const InertialMean& now = recent_;
-  const RestOptions& p = parameters_;
-  if (!evidence.matched || evidence.velocity.norm() > p.max_velocity) return false;
-  if ((now.gyro - reference_.gyro).norm() > p.max_rate_change) return false;
-  if ((now.accel - reference_.accel).norm() > p.max_accel_change) return false;
+  if (!evidence.matched || evidence.velocity.norm() > kRestVelocity) return false;
+  if ((now.gyro - reference_.gyro).norm() > kRestRateChange) return false;
+  if ((now.accel - reference_.accel).norm() > kRestAccelChange) return false;
   const Pose moved = anchor_.inverse() * evidence.T_world_imu;
-  return moved.p.norm() <= p.max_displacement && logSO3(moved.R).norm() <= p.max_rotation;
+  return moved.p.norm() <= kRestDisplacement && logSO3(moved.R).norm() <= kRestRotation;
 }
 
 void RestDetector::begin(const RestEvidence& evidence)
 {
-  assumed_ = assumed_ && !started_ && evidence.velocity.norm() <= parameters_.max_velocity;
+  assumed_ = assumed_ && !started_ && evidence.velocity.norm() <= kRestVelocity;
   started_ = evidence.matched;
   at_rest_ = assumed_ && started_;
   rest_begin_ns_ = now_ns_;

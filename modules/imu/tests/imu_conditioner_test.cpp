@@ -237,9 +237,10 @@ TEST(ImuConditioner, GapsInflateNoiseAndLongOnesBreakTheRun)
   EXPECT_EQ(inflations(c, InertialFault::Gap), 2U);
   EXPECT_TRUE(c.samples[500].inflation && !c.samples[500].after_break);
   EXPECT_TRUE(c.samples[690].inflation && c.samples[690].after_break);
-  const ImuOptions p;
-  EXPECT_NEAR(c.samples[500].inflation->gyro_std, p.gap_gyro_std * 0.055 / p.max_gap, 1e-9);
-  EXPECT_DOUBLE_EQ(c.samples[690].inflation->accel_std, p.gap_accel_std);
+  // 30 deg/s and 2 m/s^2 in a gap of imu.max_gap.
+  const double gyro_std = M_PI / 6.0 * 0.055 / ImuOptions{}.max_gap;
+  EXPECT_NEAR(c.samples[500].inflation->gyro_std, gyro_std, 1e-9);
+  EXPECT_DOUBLE_EQ(c.samples[690].inflation->accel_std, 2.0);
 }
 
 TEST(ImuConditioner, WrongStampsAreLeftOut)

@@ -13,6 +13,17 @@ namespace fastlio
 {
 namespace
 {
+// The smoothness is 0 on a plane and 0.7 at a right angle; what lies between is neither feature.
+constexpr double kMaxPlanarSmoothness = 0.2, kMinEdgeSmoothness = 0.4;
+// A mean of fewer neighbours on a side is as noisy as the points.
+constexpr std::size_t kMinNeighbors = 3;
+// Of the line of unit beams: beyond, the beam itself turns and bends a line on a flat wall.
+constexpr double kMaxBeamTurn = 0.1;
+// Neighbours farther apart lie on different things [m].
+constexpr double kMaxSpacing = 1.0;
+// Noise of two ranges, and what rough surfaces add, beyond the jump that the incidence allows [m].
+constexpr double kRangeJump = 0.1;
+
 /** Whether a surface that runs along \a direction is met at no less than the least incidence. */
 bool isWellMet(const Vec3& direction, const Vec3& beam, double max_cosine)
 {
@@ -72,21 +83,20 @@ void FeatureExtractor::loadLine(const PointColumns& points, std::size_t line)
 }
 
 /** Whether points k - 1 and k of the line lie on one surface. */
-bool FeatureExtractor::isConnected(std::size_t k, const FeatureLimits& limits) const
+bool FeatureExtractor::isConnected(std::size_t k) const
 {
   const double beam_gap2 = (beam_[k] - beam_[k - 1]).squaredNorm();
   if (beam_gap2 > bounds_.beam_chord * bounds_.beam_chord) return false;
-  if ((point_[k] - point_[k - 1]).squaredNorm() > limits.max_spacing * limits.max_spacing)
-    return false;
+  if ((point_[k] - point_[k - 1]).squaredNorm() > kMaxSpacing * kMaxSpacing) return false;
   const double step = std::min(range_[k - 1], range_[k]) * std::sqrt(beam_gap2);
-  return std::abs(range_[k] - range_[k - 1]) <= step * bounds_.jump_per_step + limits.range_jump;
+  return std::abs(range_[k] - range_[k - 1]) <= step * bounds_.jump_per_step + kRangeJump;
 }
 
 bool FeatureExtractor::isComplete(
     std::size_t i, std::size_t outermost, const FeatureLimits& limits) const
 {
   const std::size_t neighbors = i > outermost ? i - outermost : outermost - i;
-  return neighbors >= static_cast<std::size_t>(limits.min_neighbors) &&
+  return neighbors >= kMinNeighbors &&
          (point_[outermost] - point_[i]).squaredNorm() >= limits.half_width * limits.half_width;
 }
 
@@ -123,11 +133,10 @@ FeatureExtractor::Sides FeatureExtractor::sidesOf(
       (sums[window.last + 1] - sums[i + 1]) / static_cast<double>(window.last - i) - values[i]};
 }
 
-FeatureExtractor::Shape FeatureExtractor::shapeOf(
-    std::size_t i, const Window& window, const FeatureLimits& limits) const
+FeatureExtractor::Shape FeatureExtractor::shapeOf(std::size_t i, const Window& window) const
 {
   const Sides beams = sidesOf(i, window, beam_, beam_sum_);
-  if (smoothnessOf(beams.left, beams.right) > limits.max_beam_turn) return {};
+  if (smoothnessOf(beams.left, beams.right) > kMaxBeamTurn) return {};
   const Sides points = sidesOf(i, window, point_, point_sum_);
   Shape shape;
   shape.smoothness = smoothnessOf(points.left, points.right);
@@ -146,7 +155,7 @@ void FeatureExtractor::describePiece(
     last = windowLast(i, end, last, limits);
     const bool complete = isComplete(i, first, limits) && isComplete(i, last, limits);
     window_[i] = {first, last, complete};
-    if (complete) shape_[i] = shapeOf(i, window_[i], limits);
+    if (complete) shape_[i] = shapeOf(i, window_[i]);
   }
 }
 
@@ -162,14 +171,14 @@ bool FeatureExtractor::isSharpest(std::size_t i) const
   return true;
 }
 
-void FeatureExtractor::classifyLine(const FeatureLimits& limits, ScanFeatures& features) const
+void FeatureExtractor::classifyLine(ScanFeatures& features) const
 {
   for (std::size_t i = 0; i < index_.size(); ++i)
   {
     if (!shape_[i].usable) continue;
-    if (shape_[i].smoothness <= limits.max_planar_smoothness)
+    if (shape_[i].smoothness <= kMaxPlanarSmoothness)
       features.planar.push_back(index_[i]);
-    else if (shape_[i].smoothness >= limits.min_edge_smoothness && isSharpest(i))
+    else if (shape_[i].smoothness >= kMinEdgeSmoothness && isSharpest(i))
       features.edges.push_back(index_[i]);
   }
 }
@@ -191,11 +200,11 @@ void FeatureExtractor::extract(
     std::size_t begin = 0;
     for (std::size_t k = 1; k <= index_.size(); ++k)
     {
-      if (k < index_.size() && isConnected(k, limits)) continue;
+      if (k < index_.size() && isConnected(k)) continue;
       describePiece(begin, k, limits);
       begin = k;
     }
-    classifyLine(limits, features);
+    classifyLine(features);
   }
   std::sort(features.planar.begin(), features.planar.end());
   std::sort(features.edges.begin(), features.edges.end());

@@ -10,11 +10,16 @@ namespace fastlio
 {
 namespace
 {
+// RMS range beyond which more points are used: rooms and streets end before it [m].
+constexpr float kWideRange = 20.0F;
+// Enough edges to hold a pose; more of them are the noise of foliage.
+constexpr std::size_t kTargetEdges = 300;
+
 DownsamplingLimits downsamplingLimits(const LidarOptions& lidar, const DownsamplingOptions& p)
 {
   return {
       static_cast<float>(lidar.min_range), static_cast<float>(lidar.max_range),
-      static_cast<std::size_t>(p.target_points), static_cast<float>(p.wide_range),
+      static_cast<std::size_t>(p.target_points), kWideRange,
       static_cast<std::size_t>(p.wide_points)};
 }
 
@@ -25,14 +30,7 @@ FeatureLimits featureLimits(const LidarOptions& lidar, const FeatureOptions& p)
   limits.max_range = static_cast<float>(lidar.max_range);
   limits.line_order = p.scan_lines;
   limits.half_width = p.half_width;
-  limits.min_neighbors = p.min_neighbors;
-  limits.max_planar_smoothness = p.max_planar_smoothness;
-  limits.min_edge_smoothness = p.min_edge_smoothness;
-  limits.min_incidence = p.min_incidence;
-  limits.max_beam_turn = p.max_beam_turn;
   limits.max_beam_gap = p.max_beam_gap;
-  limits.max_spacing = p.max_spacing;
-  limits.range_jump = p.range_jump;
   return limits;
 }
 
@@ -44,7 +42,6 @@ PointSelector::PointSelector(
     : mode_(features.mode),
       downsampling_limits_(downsamplingLimits(lidar, downsampling)),
       feature_limits_(featureLimits(lidar, features)),
-      target_edges_(static_cast<std::size_t>(features.target_edges)),
       surface_downsampler_(workers),
       edge_downsampler_(workers)
 {
@@ -80,7 +77,7 @@ void PointSelector::select(
   }
   extractor_.extract(points, feature_limits_, features_);
   thin(points, features_.planar, limits, surface_downsampler_, surfaces.indices);
-  limits.target_points = limits.wide_points = target_edges_;
+  limits.target_points = limits.wide_points = kTargetEdges;
   if (mode_ == FeatureMode::PlanarAndEdge)
     thin(points, features_.edges, limits, edge_downsampler_, edges);
   surfaces.dropped_invalid = features_.dropped_invalid;

@@ -13,6 +13,9 @@ namespace fastlio
 namespace
 {
 constexpr double kLongestExtrapolation = 1.0;  // [s]
+// Of the motion while nothing was measured: a platform that accelerates and turns as it likes.
+constexpr double kUnseenAccelStd = 1.0;                // [m/s^2]
+constexpr double kUnseenGyroStd = 0.3490658503988659;  // [rad/s]; 20 deg/s
 // Beyond, more uncertainty says no more.
 constexpr double kLargestPositionStd = 50.0;  // [m]
 constexpr double kLargestHeadingStd = 1.5;    // [rad]
@@ -43,8 +46,7 @@ Mat3 worldRotation(const NavState& start, const NavState& carried)
 }
 }  // namespace
 
-CarriedPose carriedOver(
-    const FilterState& last, double unknown_s, const RecoveryOptions& parameters)
+CarriedPose carriedOver(const FilterState& last, double unknown_s)
 {
   CarriedPose carried;
   carried.x = last.x;
@@ -52,9 +54,8 @@ CarriedPose carriedOver(
   const double t = std::max(0.0, unknown_s);
   carried.x.p += std::min(t, kLongestExtrapolation) * last.x.v;
   const double position_std = std::min(
-      kLargestPositionStd,
-      std::min(0.5 * parameters.accel_std * t * t, (1.0 + last.x.v.norm()) * t));
-  const double heading_std = std::min(kLargestHeadingStd, parameters.gyro_std * t);
+      kLargestPositionStd, std::min(0.5 * kUnseenAccelStd * t * t, (1.0 + last.x.v.norm()) * t));
+  const double heading_std = std::min(kLargestHeadingStd, kUnseenGyroStd * t);
   carried.P.diagonal().segment<3>(kPosition).array() += position_std * position_std;
   carried.P.diagonal().segment<3>(kAttitude).array() += heading_std * heading_std;
   return carried;

@@ -18,9 +18,8 @@ struct CarriedPose
 };
 
 /** The state \a unknown_s seconds later when nothing is known about the motion in between but
- * recovery.accel_std and recovery.gyro_std: the velocity goes on for a second at most. */
-[[nodiscard]] CarriedPose carriedOver(
-    const FilterState& last, double unknown_s, const RecoveryOptions& parameters);
+ * that it accelerates (1 m/s^2) and turns (20 deg/s): the velocity goes on for a second at most. */
+[[nodiscard]] CarriedPose carriedOver(const FilterState& last, double unknown_s);
 
 /** A start in a world of its own (position zero, heading free) as a start in the world of the
  * carried pose: gravity has its direction there, position and heading are the carried ones, with

@@ -3,6 +3,7 @@
 
 #include "classify.h"
 
+#include "map_search.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 
@@ -27,6 +28,15 @@ constexpr double kMaxMotionInnovation = 15.0;
 // An estimate from the motion is good to some tenths of a degree.
 constexpr double kMaxMountingError = 0.017453292519943295;  // [rad]; 1 deg
 constexpr int kSparseMapScans = 20;
+// Smallest eigenvalue of H^T R^-1 H: the scan knows each direction to 0.1 m or 0.1 rad.
+constexpr double kMinInformation = 100.0;
+// Fraction of the time that inertial data may be in doubt: longer bridges bend the scan.
+constexpr double kMaxInflatedRatio = 0.25;
+// Beyond these, the filter explains something else by its biases.
+constexpr double kMaxGyroBias = 0.17453292519943295;  // [rad/s]; 10 deg/s
+constexpr double kMaxAccelBias = 2.0;                 // [m/s^2]
+// From scan to scan: five periods of the usual 10 Hz [s].
+constexpr double kMaxScanInterval = 0.5;
 
 /** Health of a measure that must not exceed a limit: 1 at zero, 1/2 at the limit. */
 double below(double measure, double limit)
@@ -55,41 +65,41 @@ void consider(ScanHealth& health, double value, HealthCause cause, const Reason&
   health.reason = value < kTrouble ? reason() : std::string();
 }
 
-void considerInlierRatio(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
+void considerInlierRatio(const ScanStatistics& s, ScanHealth& health)
 {
   consider(
-      health, above(inlierRatio(s, s.points_downsampled), limits.min_share * s.usual_inlier_ratio),
+      health, above(inlierRatio(s, s.points_downsampled), kMinUsualFraction * s.usual_inlier_ratio),
       HealthCause::FewMatches,
       [&]
       {
         return mrpt::format(
             "%zu of %zu points match the map, less than %g of the fraction that matched before, "
             "%.3f",
-            s.points_effective, s.points_downsampled, limits.min_share, s.usual_inlier_ratio);
+            s.points_effective, s.points_downsampled, kMinUsualFraction, s.usual_inlier_ratio);
       });
 }
 
-void considerMatches(const ScanStatistics& s, const HealthOptions& limits, ScanHealth& health)
+void considerMatches(const ScanStatistics& s, ScanHealth& health)
 {
   consider(
-      health, below(s.normalized_innovation, limits.max_innovation), HealthCause::LargeResidual,
+      health, below(s.normalized_innovation, kMaxInnovation), HealthCause::LargeResidual,
       [&]
       {
         return mrpt::format(
             "the residuals are %.1f times what their noise explains, more than %g: "
             "wrong pose, extrinsic, time offset or point times?",
-            s.normalized_innovation, limits.max_innovation);
+            s.normalized_innovation, kMaxInnovation);
       });
   if (s.constraints.unconstrained > 0) return;
   consider(
-      health, above(s.information_eigenvalues[0], limits.min_information),
+      health, above(s.information_eigenvalues[0], kMinInformation),
       HealthCause::DegenerateDirection,
       [&]
       {
         return mrpt::format(
             "the surroundings leave a direction open: smallest eigenvalue of the information %.3g, "
             "less than %g",
-            s.information_eigenvalues[0], limits.min_information);
+            s.information_eigenvalues[0], kMinInformation);
       });
 }
 
@@ -138,42 +148,42 @@ void considerMotion(const ScanStatistics& s, ScanHealth& health)
       });
 }
 
-void considerInertialData(
-    double inflated, const NavState& x, const HealthOptions& limits, ScanHealth& health)
+void considerInertialData(double inflated, const NavState& x, ScanHealth& health)
 {
   consider(
-      health, below(inflated, limits.max_inflated), HealthCause::InertialData,
+      health, below(inflated, kMaxInflatedRatio), HealthCause::InertialData,
       [&]
       {
         return mrpt::format(
             "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
             "more than %.0f %%",
-            100.0 * inflated, 100.0 * limits.max_inflated);
+            100.0 * inflated, 100.0 * kMaxInflatedRatio);
       });
   consider(
-      health, below(x.gyro_bias.norm(), limits.max_gyro_bias), HealthCause::Bias,
+      health, below(x.gyro_bias.norm(), kMaxGyroBias), HealthCause::Bias,
       [&]
       {
         return mrpt::format(
             "the gyro's bias has run to %.2f deg/s, more than %.2f",
-            kDegPerRad * x.gyro_bias.norm(), kDegPerRad * limits.max_gyro_bias);
+            kDegPerRad * x.gyro_bias.norm(), kDegPerRad * kMaxGyroBias);
       });
   consider(
-      health, below(x.accel_bias.norm(), limits.max_accel_bias), HealthCause::Bias,
+      health, below(x.accel_bias.norm(), kMaxAccelBias), HealthCause::Bias,
       [&]
       {
         return mrpt::format(
             "the accelerometer's bias has run to %.2f m/s^2, more than %.2f", x.accel_bias.norm(),
-            limits.max_accel_bias);
+            kMaxAccelBias);
       });
 }
 
-std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s, int needed)
+std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s)
 {
   return mrpt::format(
-      "%zu of %zu points match the map, at least %i are needed; "
+      "%zu of %zu points match the map, at least %zu are needed; "
       "%.2f s on inertial data alone, position uncertain by %.3f m%s",
-      s.points_effective, outcome.points, needed, outcome.unaided_s, outcome.position_std,
+      s.points_effective, outcome.points, kMinEffectivePoints, outcome.unaided_s,
+      outcome.position_std,
       outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
 }
 
@@ -182,10 +192,11 @@ std::string emptyScan(
     const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
 {
   return mrpt::format(
-      "%zu of %zu points are left, at least %i are needed to begin a map: %zu without an echo, %zu "
+      "%zu of %zu points are left, at least %zu are needed to begin a map: %zu without an echo, "
+      "%zu "
       "nearer than lidar.min_range (%g m), %zu farther than lidar.max_range (%g m)",
-      outcome.points, s.points_in, options.measurement.min_effective_points, s.dropped_invalid,
-      s.dropped_near, options.lidar.min_range, s.dropped_far, options.lidar.max_range);
+      outcome.points, s.points_in, kMinEffectivePoints, s.dropped_invalid, s.dropped_near,
+      options.lidar.min_range, s.dropped_far, options.lidar.max_range);
 }
 
 std::string foundAgain(const PoseSearchResult& search)
@@ -235,8 +246,8 @@ std::string relocalisationFailure(
       "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
       "needed; is the pose within initialization.pose_position_std "
       "(%.2f m) and pose_yaw_std of the true one?",
-      100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)), 100.0 * p.map_share,
-      p.pose_position_std);
+      100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)),
+      100.0 * kGivenMapInlierRatio, p.pose_position_std);
 }
 
 /** The state is not trusted: the prediction overflowed, or no scan has corrected it for long. */
@@ -254,8 +265,7 @@ std::string trackingMessage(
     return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
   if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
   if (outcome.map_was_empty && !outcome.begins_map) return emptyScan(outcome, s, options);
-  if (diverged || (!outcome.updated && !outcome.begins_map))
-    return fewMatches(outcome, s, options.measurement.min_effective_points);
+  if (diverged || (!outcome.updated && !outcome.begins_map)) return fewMatches(outcome, s);
   if (outcome.imu_gap_s > options.imu.max_gap)
     return bridgedGap(outcome.imu_gap_s, options.imu.max_gap);
   return {};
@@ -280,9 +290,9 @@ std::string messageOf(
 }
 }  // namespace
 
-bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points, double min_ratio)
+bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points)
 {
-  return inlierRatio(statistics, points) >= min_ratio * statistics.usual_inlier_ratio;
+  return inlierRatio(statistics, points) >= kMinUsualFraction * statistics.usual_inlier_ratio;
 }
 
 ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
@@ -295,8 +305,7 @@ ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
                                                     : ScanStatus::Diverged;
 }
 
-ScanHealth healthOf(
-    const ScanResult& result, const HealthContext& context, const HealthOptions& limits)
+ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
 {
   ScanHealth health;
   const double interval_s = toSeconds(result.stamp_ns - context.since_ns);
@@ -309,20 +318,20 @@ ScanHealth healthOf(
     consider(health, kPredicted, HealthCause::NoMatch, message);
   else if (result.status == ScanStatus::Tracking)
   {
-    if (!context.map_is_sparse) considerInlierRatio(result.statistics, limits, health);
-    considerMatches(result.statistics, limits, health);
+    if (!context.map_is_sparse) considerInlierRatio(result.statistics, health);
+    considerMatches(result.statistics, health);
     considerDegenerateDirections(result, health);
     considerMotion(result.statistics, health);
   }
-  considerInertialData(context.inflated_ratio, result.filter.x, limits, health);
+  considerInertialData(context.inflated_ratio, result.filter.x, health);
   consider(
-      health, below(interval_s, limits.max_scan_interval), HealthCause::ScanTiming,
+      health, below(interval_s, kMaxScanInterval), HealthCause::ScanTiming,
       [&]
       {
         return mrpt::format(
             "%.2f s since the scan before, more than %g: scans are "
             "missing, or the LiDAR's stamps jump",
-            interval_s, limits.max_scan_interval);
+            interval_s, kMaxScanInterval);
       });
   return health;
 }
@@ -337,7 +346,7 @@ void ScanClassifier::classify(
   context.since_ns = previous_ns_ == 0 ? result.begin_ns : previous_ns_;
   context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
   context.map_is_sparse = scans_until_dense_ > 0;
-  result.health = healthOf(result, context, options_.health);
+  result.health = healthOf(result, context);
   previous_ns_ = result.stamp_ns;
   if (result.status == ScanStatus::FirstScan)
     scans_until_dense_ = kSparseMapScans;

@@ -19,6 +19,12 @@
 
 namespace fastlio
 {
+/** A scan in trouble has less than this fraction of the inlier ratio of the scans before it. */
+inline constexpr double kMinUsualFraction = 0.2;
+/** Largest mean of z^2/r without trouble: noise that is set too small makes 2, a wrong pose more.
+ */
+inline constexpr double kMaxInnovation = 3.0;
+
 /** What the filter did with a scan, as far as its status depends on it. */
 struct ScanOutcome
 {
@@ -41,11 +47,10 @@ struct ScanOutcome
   double position_std = 0.0;               //!< of the filter, along the worst axis [m]
 };
 
-/** The scan matches as those before it did: its inlier ratio is at least \a min_ratio of the usual
- * one. (Residuals alone do not tell: along a tunnel they grow although the pose is right but for
- * one direction.) \param points of the scan that could have matched */
-[[nodiscard]] bool matchesAsUsual(
-    const ScanStatistics& statistics, std::size_t points, double min_ratio);
+/** The scan matches as those before it did: its inlier ratio is at least kMinUsualFraction of the
+ * usual one. (Residuals alone do not tell: along a tunnel they grow although the pose is right but
+ * for one direction.) \param points of the scan that could have matched */
+[[nodiscard]] bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points);
 
 /** The status alone. */
 [[nodiscard]] ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options);
@@ -59,8 +64,7 @@ struct HealthContext
 };
 
 /** Health of a scan: the smallest of its measures, each 1/2 at its limit. */
-[[nodiscard]] ScanHealth healthOf(
-    const ScanResult& result, const HealthContext& context, const HealthOptions& limits);
+[[nodiscard]] ScanHealth healthOf(const ScanResult& result, const HealthContext& context);
 
 /** Classifies scan after scan. */
 class ScanClassifier

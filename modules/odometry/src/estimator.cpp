@@ -17,6 +17,12 @@ namespace fastlio
 {
 namespace
 {
+// Of the pseudo-measurements v = 0 [m/s] and w = gyro bias [rad/s] (0.05 deg/s) at rest: a parked
+// vehicle sways by so much.
+constexpr double kZeroVelocityStd = 0.01, kZeroRateStd = 0.0008726646259971648;
+// So many of a scan's points match before the time offset is estimated: the map has become dense.
+constexpr double kTimeOffsetInlierRatio = 0.3;
+
 Vector6 eigenvalues(const Matrix6& m)
 {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(m, Eigen::EigenvaluesOnly)
@@ -173,10 +179,9 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   FilterRun& run = this->run();
   ScanStatistics& statistics = result.statistics;
   ScanOutcome& outcome = work.outcome;
-  const auto fewest = static_cast<std::size_t>(options_.measurement.min_effective_points);
   outcome.place = placeOf(mode_);
   outcome.map_was_empty = map_.empty();
-  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() >= fewest;
+  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() >= kMinEffectivePoints;
   outcome.updated = match.update.updated;
   outcome.prediction_finite = work.predicted.finite;
   outcome.points = work.deskewed.surfaces.size();
@@ -185,7 +190,8 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   // Without matches there is no evidence: what the scans before have shown goes on.
   if (outcome.begins_map || outcome.updated)
   {
-    run.consistent = map_.isConsistent(statistics, outcome.points);
+    const bool trial = run.motion_window && run.motion_window->trial;
+    run.consistent = trial || map_.isConsistent(statistics, outcome.points);
     if (run.consistent) run.last_update_ns = state_.stamp_ns;
     if (run.consistent && !outcome.map_was_empty)
       map_.learnInlierRatio(statistics.points_effective, outcome.points);
@@ -211,8 +217,7 @@ void Estimator::applyZeroVelocityUpdate(bool matched, ScanResult& result)
   const double gyro_noise =
       options_.imu.noise.gyro_noise_density / std::sqrt(evidence.inertial.duration);
   const auto update = zeroVelocityUpdate(
-      filter, evidence.inertial.gyro, options_.rest.velocity_std,
-      std::hypot(gyro_noise, options_.rest.rate_std));
+      filter, evidence.inertial.gyro, kZeroVelocityStd, std::hypot(gyro_noise, kZeroRateStd));
   if (!update)
   {
     rest_.reset();
@@ -289,7 +294,7 @@ void Estimator::releaseTimeOffset(const ScanResult& result, std::size_t points)
   if (options_.map.type != MapType::Planes) return;
   if (result.status != ScanStatus::Tracking || !run.consistent) return;
   if (static_cast<double>(result.statistics.points_effective) <
-      p.time_offset_min_share * static_cast<double>(points))
+      kTimeOffsetInlierRatio * static_cast<double>(points))
     return;
   variance = p.time_offset_std * p.time_offset_std;
 }

@@ -45,8 +45,11 @@ MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPre
     tracking.searching = true;
   if (!tracking.searching)
   {
-    MatchResult match = matcher_.match(scan, predicted.state, map_, ordinaryMatching(options_));
-    const bool good = !match.update.updated || isConvincing(match, scan, map_, options_);
+    const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
+    MatchResult match = matcher_.match(
+        scan, predicted.state, map_,
+        pull_in ? pullInMatching(options_) : ordinaryMatching(options_));
+    const bool good = !match.update.updated || isConvincing(match, scan, map_);
     if (!map_can_tell || good) return {std::move(match), true, std::nullopt};
   }
   MapSearchResult search =
@@ -58,8 +61,7 @@ MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPre
 /** A given map stays, as the world is that of the map. */
 void Estimator::beginNewMap(const DeskewedScan& scan)
 {
-  const auto needed = static_cast<std::size_t>(options_.measurement.min_effective_points);
-  if (map_.isGiven() || scan.surfaces.size() < needed) return;
+  if (map_.isGiven() || scan.surfaces.size() < kMinEffectivePoints) return;
   map_ = LocalMap(options_, workers_);
 }
 

@@ -14,6 +14,9 @@ namespace fastlio
 {
 namespace
 {
+// After a re-initialisation the old map is searched for so long: fifteen scans at 10 Hz [s].
+constexpr double kMapSearchTime = 1.5;
+
 FilterRun startedRun(
     std::int64_t stamp_ns, bool trusted, const std::optional<MotionWindow>& motion_window)
 {
@@ -67,7 +70,7 @@ void Estimator::reinitialise(
       initializing != nullptr ? initializing->T_map_imu : std::nullopt;
   FilterRun run = startedRun(stamp_ns, false, motion_window);
   state_ = {withCalibrationOf(state_.filter, startInCarriedWorld(start, carried)), stamp_ns};
-  const double search_time = carried.new_map ? 0.0 : options_.recovery.match_time;
+  const double search_time = carried.new_map ? 0.0 : kMapSearchTime;
   if (T_map_imu)
     mode_ = EnteringMap{std::move(run), *T_map_imu};
   else

@@ -17,27 +17,16 @@ namespace
 // So many scans of a map do not match much yet.
 constexpr std::uint32_t kSparseMapInsertions = 20;
 constexpr int kRatiosAveraged = 50;  // scans
+// At rest for longer, scans do not join: they repeat what the map knows, and their noise adds up.
+constexpr double kMaxRestingTime = 3.0;  // [s]
+// A scan without matches joins below this position error: half of the finest voxels.
+constexpr double kMaxInsertionStd = 0.2;  // [m]
 
 EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
 {
   EdgeMapOptions options;
-  options.min_spacing = parameters.features.edge_spacing;
-  options.max_neighbor_distance = parameters.features.max_edge_distance;
-  options.max_line_distance = parameters.features.max_edge_scatter;
   options.point_noise = parameters.measurement.range_noise;
   return options;
-}
-
-InsertionRules insertionRules(const OdometryOptions& options)
-{
-  InsertionRules rules;
-  rules.update_given = options.map.update;
-  rules.max_position_std = options.map.max_insertion_std;
-  rules.max_resting_time = options.rest.map_time;
-  rules.radius = options.map.radius;
-  rules.refuse_inconsistent = options.health.freeze_map;
-  rules.min_inlier_ratio = options.health.min_share;
-  return rules;
 }
 
 std::unique_ptr<SurfaceMap> surfacesOf(
@@ -52,7 +41,8 @@ std::unique_ptr<SurfaceMap> surfacesOf(
 }  // namespace
 
 LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers)
-    : rules_(insertionRules(options)),
+    : update_given_(options.map.update),
+      radius_(options.map.radius),
       surfaces_(makeSurfaceMap(options, workers)),
       edges_(edgeMapOptions(options)),
       groups_(std::move(workers))
@@ -61,7 +51,8 @@ LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers
 
 LocalMap::LocalMap(
     const OdometryOptions& options, std::shared_ptr<const Workers> workers, const SavedMap& saved)
-    : rules_(insertionRules(options)),
+    : update_given_(options.map.update),
+      radius_(options.map.radius),
       surfaces_(surfacesOf(saved, options, workers)),
       edges_(edgeMapOptions(options)),
       groups_(std::move(workers)),
@@ -86,8 +77,7 @@ void LocalMap::considerUpdate(
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
 {
-  return !rules_.refuse_inconsistent || isYoung() ||
-         matchesAsUsual(statistics, points, rules_.min_inlier_ratio);
+  return isYoung() || matchesAsUsual(statistics, points);
 }
 
 void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
@@ -100,9 +90,8 @@ void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
 
 bool LocalMap::accepts(const InsertionCandidate& candidate) const
 {
-  if (candidate.status == ScanStatus::Initializing || (given_ && !rules_.update_given))
-    return false;
-  if (candidate.resting_time > rules_.max_resting_time) return false;
+  if (candidate.status == ScanStatus::Initializing || (given_ && !update_given_)) return false;
+  if (candidate.resting_time > kMaxRestingTime) return false;
   if (empty() && candidate.status != ScanStatus::FirstScan) return false;
   if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
   if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
@@ -111,7 +100,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   // A sparse map has few planes: it must grow as long as the prediction knows where the scan is.
   const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
   const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  return position_variance < std::pow(rules_.max_position_std, 2);
+  return position_variance < std::pow(kMaxInsertionStd, 2);
 }
 
 bool LocalMap::isYoung() const
@@ -125,11 +114,11 @@ void LocalMap::insert(
 {
   error_.recordInsertion(++insertions_, error, T_world_scan);
   surfaces_->insert(surfaces, sensor);
-  if (!given_) surfaces_->removeOutside(center, rules_.radius);
+  if (!given_) surfaces_->removeOutside(center, radius_);
   world_edges_.resize(scan.edges.size());
   transformToWorld(scan.edges, T_world_scan, 0, scan.edges.size(), world_edges_);
   edges_.insert(world_edges_);
-  edges_.removeOutside(T_world_scan.p, rules_.radius);
+  edges_.removeOutside(T_world_scan.p, radius_);
 }
 
 }  // namespace fastlio

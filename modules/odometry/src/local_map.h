@@ -20,17 +20,6 @@
 
 namespace fastlio
 {
-/** Which scans join the map. */
-struct InsertionRules
-{
-  bool update_given = true;         //!< map.update
-  double max_position_std = 0.2;    //!< of a scan without matches: map.max_insertion_std [m]
-  double max_resting_time = 0.0;    //!< rest.map_time [s]
-  double radius = 0.0;              //!< map.radius [m]
-  bool refuse_inconsistent = true;  //!< health.freeze_map
-  double min_inlier_ratio = 0.0;    //!< health.min_share, of the usual one
-};
-
 /** A scan that may join the map. */
 struct InsertionCandidate
 {
@@ -87,7 +76,8 @@ class LocalMap
       const Pose& T_world_scan, const Vec3& sensor, const Vec3& center);
 
  private:
-  InsertionRules rules_;
+  bool update_given_ = true;  // map.update
+  double radius_ = 0.0;       // map.radius [m]
   std::unique_ptr<SurfaceMap> surfaces_;
   EdgeMap edges_;
   MapErrorModel error_;

@@ -25,8 +25,6 @@ std::unique_ptr<SurfaceMap> makePlaneMap(
 {
   VoxelPlaneOptions options;
   options.voxel_size = parameters.map.voxel_size;
-  options.rules.min_incidence = static_cast<float>(parameters.map.min_incidence);
-  options.rules.max_thickness = static_cast<float>(parameters.map.max_thickness);
   options.rules.point_noise = static_cast<float>(parameters.measurement.range_noise);
   return std::make_unique<VoxelPlaneMap>(options, std::move(workers));
 }

@@ -3,6 +3,7 @@
 
 #include "map_search.h"
 
+#include "classify.h"
 #include "start_in_map.h"
 
 #include <algorithm>
@@ -19,6 +20,9 @@ constexpr double kShrink = 0.25;  // of the variances of place and heading, per 
 // Of a carried pose.
 constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
 constexpr double kSigmas = 3.0;                      // of the heading
+constexpr double kMaxHeading = 1.5707963267948966;   // farther turns are not tried [rad]; 90 deg
+// So many inliers when the map is found again: more than chance, less than usual, as things move.
+constexpr double kFoundInlierRatio = 0.3;
 // Of a prediction. A found pose has to match this part of what scans matched before.
 constexpr double kUsualPart = 0.5;
 // Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
@@ -68,15 +72,13 @@ MapSearchResult notFound(
 }
 }  // namespace
 
-bool isConvincing(
-    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map,
-    const OdometryOptions& options)
+bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
   if (match.constraints.unconstrained > 0) return true;
   const double ratio = static_cast<double>(match.update.last.count) /
                        static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
   return innovation(match.update) <= kWrongPoseInnovation &&
-         ratio >= options.health.min_share * map.usualInlierRatio();
+         ratio >= kMinUsualFraction * map.usualInlierRatio();
 }
 
 double MapSearch::ratioOf(const UpdateResult& update) const
@@ -95,7 +97,7 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
     latest = approach(predicted, candidate);
     if (latest.update.updated && latest.update.last.count > best.last.count) best = latest.update;
   }
-  if (ratioOf(best) < options_.initialization.map_share)
+  if (ratioOf(best) < kGivenMapInlierRatio)
     return notFound(std::move(latest), predicted, best.last, 0);
   // Once more, so that matches and constraints are those of the best.
   const FilterState from = withUncertainPlace(
@@ -123,7 +125,7 @@ MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candid
 
 MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
 {
-  const double reach = std::min(kSigmas * headingStd(predicted), options_.recovery.max_heading);
+  const double reach = std::min(kSigmas * headingStd(predicted), kMaxHeading);
   const int turns = static_cast<int>(std::ceil(reach / kHeadingStep));
   std::vector<Mat3> attitudes;
   for (int i = -turns; i <= turns; ++i)
@@ -143,14 +145,13 @@ MapSearchResult MapSearch::around(
   MatchResult latest;
   const auto match = [&](const FilterState& start, const DeskewedScan& scan, int iterations)
   {
-    pull_in.measurement.association_iterations = pull_in.limits.max_iterations = iterations;
+    pull_in.association_iterations = pull_in.limits.max_iterations = iterations;
     latest = matcher_.match(scan, start, map_, pull_in);
     return latest.update;
   };
   PoseSearchLimits wanted;
-  wanted.min_inlier_ratio =
-      std::max(options_.recovery.min_share, kUsualPart * map_.usualInlierRatio());
-  wanted.max_innovation = options_.health.max_innovation;
+  wanted.min_inlier_ratio = std::max(kFoundInlierRatio, kUsualPart * map_.usualInlierRatio());
+  wanted.max_innovation = kMaxInnovation;
   PoseSearchResult poses;
   if (!map_.empty()) poses = searchPose(predicted, attitudes, scan_, wanted, match);
   if (poses.accepted)
@@ -159,7 +160,7 @@ MapSearchResult MapSearch::around(
     const FilterState turned = turnedBy(headingBetween(predicted.x, found.R), predicted);
     latest =
         matcher_.match(scan_, correctedByPose(turned, found), map_, ordinaryMatching(options_));
-    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_, options_);
+    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_);
     if (poses.accepted) return {std::move(latest), true, poses};
   }
   // The matches that are handed over are those of the whole scan, not of the sample.

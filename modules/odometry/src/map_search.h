@@ -15,6 +15,9 @@
 
 namespace fastlio
 {
+/** Inliers of a first match with a given map: half of the scan may be new or have moved. */
+inline constexpr double kGivenMapInlierRatio = 0.5;
+
 /** The best match of a search. */
 struct MapSearchResult
 {
@@ -26,8 +29,7 @@ struct MapSearchResult
 /** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
  * can tell. Along a degenerate direction residuals stay large by design: nothing corrects them. */
 [[nodiscard]] bool isConvincing(
-    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map,
-    const OdometryOptions& options);
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
 
 /** Searches for one scan in one map. */
 class MapSearch

@@ -15,6 +15,9 @@
 
 namespace fastlio
 {
+/** With fewer matches the scan is not used: a handful of points agrees with any pose. */
+inline constexpr std::size_t kMinEffectivePoints = 20;
+
 /** A scan after eq. 9-10: its points in the body frame at its end, and how they got there. */
 struct DeskewedScan
 {

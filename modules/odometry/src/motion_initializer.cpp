@@ -8,6 +8,7 @@
 #include "motion_prior.h"
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
+#include <fastlio/odometry/static_initializer.h>
 
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
@@ -21,11 +22,16 @@ namespace
 {
 constexpr std::size_t kMinScans = 4;
 constexpr int kPasses = 8;  // at most
+// Of the downsampling, for these scans: few points make no planes in a map of few scans.
+constexpr int kWindowPoints = 10000;
+// A start in motion knows its velocity so well; else the next scans would not match [m/s].
+constexpr double kMaxVelocityStd = 0.5;
 // Normals are known to about so much; what leaks over to a direction that no plane faces is no
 // information.
 constexpr double kNormalStd = 0.015;  // [rad]
 // What the prior leaves open narrows from pass to pass, down to several times what a window tells:
 // far-off planes are no match then.
+constexpr double kFirstVelocityStd = 10.0;  // [m/s], of cars and drones, about zero
 constexpr double kSecondVelocityStd = 1.0;  // [m/s]
 constexpr double kLeastVelocityStd = 0.2;   // [m/s]
 constexpr double kFirstTiltStd = 0.15;      // [rad]
@@ -36,15 +42,6 @@ constexpr double kDamping = 0.6;
 // Passes agree when their starts differ by no more than this.
 constexpr double kAgreedVelocity = 0.08;  // [m/s]
 constexpr double kAgreedTilt = 0.008;     // [rad]
-
-/** The first pass searches for planes longer, as its scans lie far from the map. */
-OdometryOptions pullingIn(OdometryOptions p)
-{
-  const MatchOptions pull_in = pullInMatching(p);
-  p.measurement = pull_in.measurement;
-  p.update = pull_in.limits;
-  return p;
-}
 
 /** One run over the window. */
 struct Pass
@@ -66,7 +63,7 @@ class Window
   {
     const std::int64_t begin_ns = scans.front().span.begin_ns;
     all_ = inputsOf(imu, begin_ns, scans[count - 1].span.end_ns, parameters.imu.hold);
-    window_ = motionWindowUntil(all_.end_ns, parameters.initialization.motion_points);
+    window_ = motionWindowUntil(all_.end_ns, kWindowPoints);
     first_scan_ = inputsOf(imu, begin_ns, scans.front().span.end_ns, parameters.imu.hold);
   }
 
@@ -79,10 +76,15 @@ class Window
     return startPrior(x0, width, first_scan_, parameters_.initialization);
   }
 
-  [[nodiscard]] Pass run(const FilterState& start, const OdometryOptions& parameters) const
+  /** \param far_off the scans lie far from the map: planes are searched for longer */
+  [[nodiscard]] Pass run(
+      const FilterState& start, const OdometryOptions& parameters, bool far_off) const
   {
     Estimator estimator(parameters);
-    estimator.start(start, scans_.front().span.begin_ns, window_);
+    MotionWindow trial = window_;
+    trial.trial = true;
+    trial.pull_in = far_off;
+    estimator.start(start, scans_.front().span.begin_ns, trial);
     ScanResult last;
     std::size_t unmatched = 0;
     std::vector<double> contrast;  // of the least known direction to others
@@ -113,7 +115,7 @@ class Window
     MotionFitPrior prior;
     prior.gyro_bias = end.x.gyro_bias;
     prior.g = p.gravity * end.x.g.normalized();
-    prior.gravity_std = p.gravity_std;
+    prior.gravity_std = kGravityStd;
     const Inputs between =
         inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
     const MotionFit fit = fitMotion(poses, between.samples, prior);
@@ -163,18 +165,18 @@ NavState damped(const NavState& from, const NavState& to, const InitializationOp
       between(from.gyro_bias, to.gyro_bias), p);
 }
 
-std::string refusal(const Pass& pass, bool agreed, const InitializationOptions& p)
+std::string refusal(const Pass& pass, bool agreed)
 {
   if (!pass.problem.empty())
     return "no start in motion: " + pass.problem +
            "; is the mounting of the LiDAR right (T_imu_lidar), do both sensors share a clock?";
-  if (pass.blind || !(pass.velocity_std < p.motion_max_velocity_std))
+  if (pass.blind || !(pass.velocity_std < kMaxVelocityStd))
     return mrpt::format(
         "no start in motion: the scans leave the velocity along (%.2f, %.2f, %.2f) of the IMU open "
         "(%.2f m/s, limit %.2f m/s); go where there is more "
         "to see, or start at rest",
         pass.least_known.x(), pass.least_known.y(), pass.least_known.z(), pass.velocity_std,
-        p.motion_max_velocity_std);
+        kMaxVelocityStd);
   if (!agreed)
     return "no start in motion: repeated passes over the first scans do not settle; start at rest "
            "or move more slowly";
@@ -202,7 +204,6 @@ MotionStart startInMotion(
   const Window window(scans, count, imu, parameters);
   OdometryOptions pass_parameters = parameters;
   pass_parameters.imu_rate = false;
-  pass_parameters.health.freeze_map = false;  // a pass may begin far off
   // A second of motion does not tell a velocity from an offset of the clocks.
   pass_parameters.calibration.estimate_time_offset = false;
   pass_parameters.calibration.estimate_extrinsic = false;
@@ -216,21 +217,21 @@ MotionStart startInMotion(
         "deliver m/s^2 with gravity";
     return result;
   }
-  PriorWidth width{p.motion_velocity_std, kFirstTiltStd};
-  Pass pass = window.run(window.prior(x0, width), pullingIn(pass_parameters));
+  PriorWidth width{kFirstVelocityStd, kFirstTiltStd};
+  Pass pass = window.run(window.prior(x0, width), pass_parameters, true);
   width.velocity = std::min(width.velocity, kSecondVelocityStd);
   bool agreed = false;
   for (int i = 1; i < kPasses && !agreed && isFinite(pass.start); ++i)
   {
     x0 = pass.start;
-    pass = window.run(window.prior(x0, width), pass_parameters);
+    pass = window.run(window.prior(x0, width), pass_parameters, false);
     agreed = agree(x0, pass.start);
     pass.start = damped(x0, pass.start, p);
     width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
     width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
   }
   result.velocity_std = pass.velocity_std;
-  result.message = refusal(pass, agreed, p);
+  result.message = refusal(pass, agreed);
   if (!result.message.empty()) return result;
   result.state = window.prior(pass.start, {kLeastVelocityStd, kLeastTiltStd});
   result.motion_window = window.motionWindow();

@@ -5,6 +5,7 @@
 
 #include <fastlio/filter/propagation.h>
 #include <fastlio/math/time.h>
+#include <fastlio/odometry/static_initializer.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -33,7 +34,7 @@ StateMatrix openPrior(const NavState& x, const PriorWidth& width, const Initiali
   const Vec3 down = x.g.normalized();
   const Mat3 radial = down * down.transpose();
   P.block<3, 3>(kGravity, kGravity) =
-      std::pow(p.gravity_std, 2) * radial +
+      std::pow(kGravityStd, 2) * radial +
       std::pow(p.gravity * width.tilt, 2) * (Mat3::Identity() - radial);
   return P;
 }

@@ -19,6 +19,8 @@ struct MotionWindow
   std::int64_t end_ns = 0;  //!< end of the last of these scans
   /** Of the downsampling, when more than downsampling.target_points: few points make no planes. */
   int target_points = 0;
+  bool trial = false;  //!< a pass that computes the start: it may begin far off, every match counts
+  bool pull_in = false;  //!< its scans lie far from the map: planes are searched for longer
   /** Added to the covariance after the first scan has created the map: all scans after it share the
    * map's errors and would take them for motion and biases. */
   StateMatrix covariance_after_first_scan = StateMatrix::Zero();

@@ -12,6 +12,9 @@ namespace fastlio
 {
 namespace
 {
+// Scans match nothing for so long after measurement.max_unaided_time: no passing obstruction [s].
+constexpr double kPatience = 1.0;
+
 bool isFiniteState(const FilterState& state)
 {
   return isFinite(state.x) && state.P.allFinite();
@@ -48,7 +51,7 @@ bool Reinitialization::isNeededAt(const InertialBreak& gap) const
 std::string Reinitialization::decideAt(const InertialBreak& gap, const FilterState& state)
 {
   const FilterState& last = gap.new_map && last_good_ ? *last_good_ : state;
-  CarriedPose carried = carriedOver(last, gap.seconds(), options_.recovery);
+  CarriedPose carried = carriedOver(last, gap.seconds());
   carried.new_map = gap.new_map;
   decide(carried);
   if (gap.new_map) return "the unit of the gyro was wrong";
@@ -62,25 +65,24 @@ std::optional<std::string> Reinitialization::detectTrackingLoss(
 {
   const ScanStatistics& s = result.statistics;
   if (result.status == ScanStatus::FirstScan ||
-      (result.status == ScanStatus::Tracking &&
-       matchesAsUsual(s, s.points_downsampled, options_.health.min_share)))
+      (result.status == ScanStatus::Tracking && matchesAsUsual(s, s.points_downsampled)))
   {
     last_good_ = state;
     last_good_ns_ = result.stamp_ns;
   }
-  const auto needed = static_cast<std::size_t>(options_.measurement.min_effective_points);
-  if (result.status != ScanStatus::Diverged || relocalizing || s.points_downsampled < needed)
+  if (result.status != ScanStatus::Diverged || relocalizing ||
+      s.points_downsampled < kMinEffectivePoints)
   {
     lost_since_ns_ = 0;
     return std::nullopt;
   }
   if (lost_since_ns_ == 0) lost_since_ns_ = result.stamp_ns;
   const double lost_s = toSeconds(result.stamp_ns - lost_since_ns_);
-  if (!options_.recovery.enabled || lost_s < options_.recovery.patience) return std::nullopt;
+  if (!options_.recovery.enabled || lost_s < kPatience) return std::nullopt;
   const double unaided_s = toSeconds(result.stamp_ns - last_good_ns_);
   decide(
-      isFiniteState(state) || !last_good_ ? carriedOver(state, 0.0, options_.recovery)
-                                          : carriedOver(*last_good_, unaided_s, options_.recovery));
+      isFiniteState(state) || !last_good_ ? carriedOver(state, 0.0)
+                                          : carriedOver(*last_good_, unaided_s));
   return mrpt::format("no scan has matched the map for %.1f s", unaided_s);
 }
 

@@ -14,12 +14,14 @@ namespace fastlio
 namespace
 {
 constexpr int kPullInIterations = 15;
+// Gate, in standard deviations of residual and prior: 99.7 % of what noise explains passes.
+constexpr double kResidualGate = 3.0;
 
 ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predicted)
 {
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;
-  model.gate = p.max_normalized_residual;
+  model.gate = kResidualGate;
   model.prior_position_covariance = predicted.bottomRightCorner<3, 3>();
   model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
   return model;
@@ -28,13 +30,17 @@ ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predic
 
 MatchOptions ordinaryMatching(const OdometryOptions& options)
 {
-  return {options.measurement, options.update, options.gain};
+  MatchOptions ordinary;
+  ordinary.measurement = options.measurement;
+  ordinary.limits = options.update;
+  ordinary.gain = options.gain;
+  return ordinary;
 }
 
 MatchOptions pullInMatching(const OdometryOptions& options)
 {
   MatchOptions more = ordinaryMatching(options);
-  more.measurement.association_iterations = kPullInIterations;
+  more.association_iterations = kPullInIterations;
   more.limits.max_iterations = kPullInIterations;
   return more;
 }
@@ -90,7 +96,7 @@ MeasurementEvaluation ScanMatcher::evaluate(
   const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
   const ResidualModel& model = call.result.model;
   const Pose T_world_scan = scanPose(iterate, compensation);
-  if (iteration < call.options.measurement.association_iterations) associate(T_world_scan, call);
+  if (iteration < call.options.association_iterations) associate(T_world_scan, call);
   workers_->forEachChunk(
       points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
       { chunk_sums_[chunk] = accumulate(T_world_scan, points, matches_, model, first, last); });
@@ -129,14 +135,13 @@ MatchResult ScanMatcher::match(
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));
   result.matches = &matches_;
   const Call call{scan, map, options, result};
-  const auto minimum = static_cast<std::size_t>(options.measurement.min_effective_points);
   std::size_t effective = 0;
   const auto measurements = [&](const NavState& iterate, int iteration)
   {
     MeasurementEvaluation e = evaluate(iterate, iteration, call);
     effective = e.sums.count;
     // An evaluation without measurements makes the update leave the prediction alone.
-    return effective < minimum ? MeasurementEvaluation{} : e;
+    return effective < kMinEffectivePoints ? MeasurementEvaluation{} : e;
   };
   result.update =
       // By reference: a copy of the captures would go to the heap.

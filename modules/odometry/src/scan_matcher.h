@@ -22,7 +22,8 @@ namespace fastlio
 /** How a scan is matched. */
 struct MatchOptions
 {
-  MeasurementOptions measurement;  //!< noise, gates, and how often matches are searched for anew
+  MeasurementOptions measurement;  //!< noise and gates
+  int association_iterations = 2;  //!< so many iterations search the map anew; more move no match
   IterationLimits limits;          //!< of the iterated update
   GainForm gain = GainForm::Information;
 };
@@ -39,7 +40,7 @@ class ScanMatcher
   explicit ScanMatcher(std::shared_ptr<const Workers> workers);
 
   /** Iterates matching and update from a prediction (eq. 12-20). The scan does not correct it when
-   * fewer than measurement.min_effective_points match.
+   * fewer than kMinEffectivePoints match.
    * \return its list of matches is valid until the next call */
   [[nodiscard]] MatchResult match(
       const DeskewedScan& scan, const FilterState& predicted, const LocalMap& map,

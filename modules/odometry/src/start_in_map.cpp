@@ -9,6 +9,9 @@ namespace fastlio
 {
 namespace
 {
+// The map's vertical is that of an earlier start [rad]; 0.5 deg.
+constexpr double kMapTiltStd = 0.008726646259971648;
+
 /** The rotation about the vertical that brings the attitude nearest to the one wanted. */
 double headingTo(const Mat3& wanted, const Mat3& R)
 {
@@ -48,7 +51,7 @@ FilterState withUncertainPlace(
   J.block<3, 3>(kAttitude, 0) = state.x.R.transpose();
   J.block<3, 3>(kVelocity, 0) = -skew(state.x.v);
   J.block<3, 3>(kGravity, 0) = -skew(state.x.g);
-  const Vec3 std(parameters.pose_tilt_std, parameters.pose_tilt_std, parameters.pose_yaw_std);
+  const Vec3 std(kMapTiltStd, kMapTiltStd, parameters.pose_yaw_std);
   const Mat3 turning = (scale * std.cwiseAbs2()).asDiagonal();
   uncertain.P += J * turning * J.transpose();
   uncertain.P.block<3, 3>(kPosition, kPosition).diagonal().array() +=

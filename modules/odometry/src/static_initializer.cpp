@@ -13,6 +13,10 @@ namespace fastlio
 namespace
 {
 constexpr double kRadToDeg = 180.0 / M_PI;
+// A platform that rests moves by less than this: an idling engine, a hand [m/s].
+constexpr double kRestVelocityStd = 1e-3;
+// Of the averaged gyro bias, beyond the noise of the average: it wanders meanwhile [rad/s].
+constexpr double kRestGyroBiasStd = 1e-5;
 
 template <typename... Args>
 std::string format(const char* text, Args... args)
@@ -65,8 +69,8 @@ BiasAndGravity estimateBiasAndGravity(
   const Mat3 radial = up * up.transpose();
   Eigen::Matrix<double, 6, 6> P = Eigen::Matrix<double, 6, 6>::Zero();
   P.topLeftCorner<3, 3>().diagonal().setConstant(std::pow(parameters.accel_bias_std, 2));
-  P.bottomRightCorner<3, 3>() = std::pow(parameters.gravity_std, 2) * radial +
-                                direction_variance * (Mat3::Identity() - radial);
+  P.bottomRightCorner<3, 3>() =
+      std::pow(kGravityStd, 2) * radial + direction_variance * (Mat3::Identity() - radial);
 
   Eigen::Matrix<double, 3, 6> H;
   H << Mat3::Identity(), -Mat3::Identity();
@@ -162,11 +166,9 @@ FilterState initialState(const RestStatistics& rest, const InitializationOptions
   s.x.g = R * at_rest.g;
 
   const Vec3 gyro_variance = rest.gyro_std.cwiseAbs2() / static_cast<double>(rest.samples);
-  s.P.block<3, 3>(kVelocity, kVelocity)
-      .diagonal()
-      .setConstant(std::pow(parameters.velocity_std, 2));
+  s.P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(std::pow(kRestVelocityStd, 2));
   s.P.block<3, 3>(kGyroBias, kGyroBias).diagonal() =
-      gyro_variance.array() + std::pow(parameters.gyro_bias_std, 2);
+      gyro_variance.array() + std::pow(kRestGyroBiasStd, 2);
   s.P.block<3, 3>(kAccelBias, kAccelBias) = at_rest.P.topLeftCorner<3, 3>();
   s.P.block<3, 3>(kGravity, kGravity) = R * at_rest.P.bottomRightCorner<3, 3>() * R.transpose();
   s.P.block<3, 3>(kAccelBias, kGravity) = at_rest.P.topRightCorner<3, 3>() * R.transpose();

@@ -43,7 +43,7 @@ ScanHealth healthAfter(Change change, double inflated_ratio = 0.0)
   HealthContext context;
   context.since_ns = r.begin_ns;
   context.inflated_ratio = inflated_ratio;
-  return healthOf(r, context, HealthOptions{});
+  return healthOf(r, context);
 }
 
 /** The outcome of a scan that tracks. */
@@ -76,7 +76,6 @@ TEST(Classify, AGoodScanIsHealthy)
 
 TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
 {
-  const HealthOptions limits;
   struct Case
   {
     HealthCause cause;
@@ -88,24 +87,19 @@ TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
        [&](ScanResult& r, double k)
        {
          r.statistics.points_downsampled = 100000;
-         r.statistics.points_effective = static_cast<std::size_t>(limits.min_share * 50000 / k);
+         r.statistics.points_effective = static_cast<std::size_t>(0.2 * 50000 / k);
        }},
       {HealthCause::LargeResidual, "times what their noise explains",
-       [&](ScanResult& r, double k)
-       { r.statistics.normalized_innovation = k * limits.max_innovation; }},
+       [&](ScanResult& r, double k) { r.statistics.normalized_innovation = k * 3.0; }},
       {HealthCause::DegenerateDirection, "leave a direction open",
-       [&](ScanResult& r, double k)
-       { r.statistics.information_eigenvalues[0] = limits.min_information / k; }},
+       [&](ScanResult& r, double k) { r.statistics.information_eigenvalues[0] = 100.0 / k; }},
       {HealthCause::Bias, "the gyro's bias",
-       [&](ScanResult& r, double k)
-       { r.filter.x.gyro_bias = Vec3(0, k * limits.max_gyro_bias, 0); }},
+       [&](ScanResult& r, double k) { r.filter.x.gyro_bias = Vec3(0, k * M_PI / 18.0, 0); }},
       {HealthCause::Bias, "the accelerometer's bias",
-       [&](ScanResult& r, double k)
-       { r.filter.x.accel_bias = Vec3(k * limits.max_accel_bias, 0, 0); }},
+       [&](ScanResult& r, double k) { r.filter.x.accel_bias = Vec3(k * 2.0, 0, 0); }},
       {HealthCause::ScanTiming, "since the scan before",
-       [&](ScanResult& r, double k) {
-         r.begin_ns = r.stamp_ns - static_cast<std::int64_t>(1e9 * k * limits.max_scan_interval);
-       }},
+       [&](ScanResult& r, double k)
+       { r.begin_ns = r.stamp_ns - static_cast<std::int64_t>(1e9 * k * 0.5); }},
   };
   for (const Case& c : cases)
   {

@@ -101,7 +101,6 @@ TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
     recording.imu[i].gyro = Vec3(3.0 + recording.imu[i].gyro.z(), -4.0, 2.0);
   OdometryOptions p = roomParameters();
   p.measurement.max_unaided_time = 0.5;
-  p.recovery.patience = 0.3;
   Odometry odometry(p);
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());

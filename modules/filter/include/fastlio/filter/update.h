@@ -56,7 +56,8 @@ enum class GainForm
 };
 
 /** Convergence rules of the iterated update; those of attitude and position also hold for rotation
- * and translation of the extrinsic. */
+ * and translation of the extrinsic. Only max_iterations is a key: the others are constants of the
+ * method (a tenth of what a scan tells), which tests tighten to compare with exact solutions. */
 struct IterationLimits
 {
   int max_iterations = 5;

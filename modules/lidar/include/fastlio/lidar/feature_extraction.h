@@ -32,15 +32,10 @@ struct FeatureLimits
   float min_range = 0.5F;    //!< blind range [m]
   float max_range = 150.0F;  //!< [m]
   ScanLineOrder line_order = ScanLineOrder::Automatic;
-  double half_width = 0.5;             //!< neighbours reach so far to each side [m]
-  int min_neighbors = 3;               //!< at least so many on each side
-  double max_planar_smoothness = 0.2;  //!< planar below
-  double min_edge_smoothness = 0.4;    //!< edge above, where it is the largest around
-  double min_incidence = 0.35;         //!< least angle between surface and beam [rad]
-  double max_beam_turn = 0.1;          //!< largest smoothness of the line of unit beams
-  double range_jump = 0.1;             //!< a jump beyond what min_incidence allows [m]
-  double max_beam_gap = 0.0349;        //!< beams farther apart are not neighbours [rad]
-  double max_spacing = 1.0;            //!< points farther apart are not neighbours [m]
+  double half_width = 0.5;  //!< neighbours reach so far to each side [m]
+  double min_incidence =
+      0.3490658503988659;        //!< least angle between surface and beam [rad]; 20 deg
+  double max_beam_gap = 0.0349;  //!< beams farther apart are not neighbours [rad]
 };
 
 /** The features of a scan, by index into it, ascending. A point is in one list at most. */
@@ -91,7 +86,7 @@ class FeatureExtractor
 
   void gateRanges(const PointColumns& points, const FeatureLimits& limits, ScanFeatures& features);
   void loadLine(const PointColumns& points, std::size_t line);
-  [[nodiscard]] bool isConnected(std::size_t k, const FeatureLimits& limits) const;
+  [[nodiscard]] bool isConnected(std::size_t k) const;
   void describePiece(std::size_t begin, std::size_t end, const FeatureLimits& limits);
   [[nodiscard]] std::size_t windowFirst(
       std::size_t i, std::size_t begin, std::size_t guess, const FeatureLimits& limits) const;
@@ -101,9 +96,9 @@ class FeatureExtractor
   [[nodiscard]] static Sides sidesOf(
       std::size_t i, const Window& window, const std::vector<Vec3>& values,
       const std::vector<Vec3>& sums);
-  [[nodiscard]] Shape shapeOf(std::size_t i, const Window& window, const FeatureLimits& l) const;
+  [[nodiscard]] Shape shapeOf(std::size_t i, const Window& window) const;
   [[nodiscard]] bool isSharpest(std::size_t i) const;
-  void classifyLine(const FeatureLimits& limits, ScanFeatures& features) const;
+  void classifyLine(ScanFeatures& features) const;
 
   /** What follows from the limits. */
   struct Bounds

@@ -27,8 +27,8 @@ class PointSelector
    * \param at_least takes the place of downsampling.target_points where that is smaller
    * \param surfaces points to be matched with planes, about downsampling.target_points of them,
    * evenly spread: of all points, or of the planar features
-   * \param edges points to be matched with
-   * lines, about features.target_edges of them; none but in the mode `planar_and_edge` */
+   * \param edges points to be matched with lines, about 300; none but in the mode
+   * `planar_and_edge` */
   void select(
       const PointColumns& points, std::size_t at_least, ScanSelection& surfaces,
       std::vector<std::uint32_t>& edges);
@@ -41,7 +41,6 @@ class PointSelector
   FeatureMode mode_;
   DownsamplingLimits downsampling_limits_;
   FeatureLimits feature_limits_;
-  std::size_t target_edges_ = 0;
   FeatureExtractor extractor_;
   Downsampler surface_downsampler_, edge_downsampler_;
   // Reused between scans.

@@ -14,6 +14,10 @@
 
 namespace fastlio
 {
+/** How well initialization.gravity is known: on the surface of the earth |g| varies by 0.05 m/s^2
+ * [m/s^2]. */
+inline constexpr double kGravityStd = 0.02;
+
 /** Mean and scatter of the samples at rest; evidence of the initialisation. */
 struct RestStatistics
 {
