@@ -108,12 +108,14 @@ docs: build
 format: lint-dependencies
 	cmake/list_sources.sh | xargs clang-format -i
 
-# Not of a build with precompiled headers: clang cannot read those of g++.
+# Not of a build with precompiled headers, as clang cannot read those of g++, nor in unity units, which
+# the compilation database names instead of the sources.
 lint: lint-dependencies
 	@cmake/install_dependencies.sh test benchmark
 	cmake/list_sources.sh | xargs clang-format --dry-run --Werror
 	tests/structure/check_structure.sh
-	cmake --preset $(PRESET) -B build/lint -DMRPT_FASTLIO_PRECOMPILE=OFF -DMRPT_FASTLIO_BENCHMARKS=ON
+	cmake --preset $(PRESET) -B build/lint -DMRPT_FASTLIO_PRECOMPILE=OFF -DMRPT_FASTLIO_UNITY=OFF \
+	  -DMRPT_FASTLIO_BENCHMARKS=ON
 	cmake/run_clang_tidy.sh build/lint $(JOBS)
 
 packages:
