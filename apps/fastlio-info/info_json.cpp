@@ -5,6 +5,7 @@
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <nlohmann/json.hpp>
@@ -48,11 +49,11 @@ Json json(const SurveyedSensor& sensor)
   const SensorSummary& s = sensor.summary;
   const StampReport& stamps = sensor.stamps;
   return {
-      {"label", s.label},
+      {"label", printable(s.label)},
       {"class", s.class_name},
       {"kind", nameOf(s.kind)},
       {"usable", s.usable},
-      {"content", s.detail},
+      {"content", printable(s.detail)},
       {"observations", stamps.count},
       {"first_stamp", secondsText(stamps.first_ns)},
       {"last_stamp", secondsText(stamps.last_ns)},
@@ -96,7 +97,7 @@ Json json(const RecordingSurvey& survey, const SurveyedLidar& lidar)
   Json preset;
   if (lidar.preset.preset != nullptr) preset = std::string(lidar.preset.preset->name);
   return {
-      {"label", summary.label},
+      {"label", printable(summary.label)},
       {"point_times", times},
       {"points_per_scan", look.pointsPerScan()},
       {"lines", look.lines()},
@@ -115,7 +116,7 @@ Json imuJson(const RecordingSurvey& survey)
   const ImuSurvey& imu = survey.imu;
   const SurveyedSensor& sensor = survey.sensors[*survey.imu_index];
   Json all{
-      {"label", sensor.summary.label},
+      {"label", printable(sensor.summary.label)},
       {"rests", imu.rests},
       {"largest_rate", imu.gyro_max},
       {"largest_acceleration", imu.accel_max}};

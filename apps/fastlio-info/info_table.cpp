@@ -5,6 +5,7 @@
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
@@ -59,10 +60,10 @@ std::string poseText(const Pose& T)
 std::string sensorText(const SurveyedSensor& sensor)
 {
   const SensorSummary& s = sensor.summary;
-  std::string text = "'" + s.label + "'  " + kindText(s.kind) +
+  std::string text = "'" + printable(s.label) + "'  " + kindText(s.kind) +
                      (s.kind != SensorKind::Other && !s.usable ? ", not usable" : "") + "\n";
   text += line("class", s.class_name);
-  if (!s.detail.empty()) text += line("content", s.detail);
+  if (!s.detail.empty()) text += line("content", printable(s.detail));
   text += line(
       "stamps", secondsText(sensor.stamps.first_ns) + " to " + secondsText(sensor.stamps.last_ns));
   text += line("rhythm", rhythmText(sensor.stamps));
@@ -79,7 +80,7 @@ std::string presetText(const PresetMatch& match)
 std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
 {
   const LidarLook& look = lidar.look;
-  std::string text = "LiDAR '" + survey.sensors[lidar.index].summary.label + "'\n";
+  std::string text = "LiDAR '" + printable(survey.sensors[lidar.index].summary.label) + "'\n";
   text += line("times", lidar.plan.text);
   text += line(
       "points", format("%.0f per scan", look.pointsPerScan()) +
@@ -98,7 +99,7 @@ std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
 std::string imuText(const RecordingSurvey& survey)
 {
   const ImuSurvey& imu = survey.imu;
-  std::string text = "IMU '" + survey.sensors[*survey.imu_index].summary.label + "'\n";
+  std::string text = "IMU '" + printable(survey.sensors[*survey.imu_index].summary.label) + "'\n";
   text += line("largest", format("rate %.3g, acceleration %.4g", imu.gyro_max, imu.accel_max));
   if (!imu.rests) return text + line("rest", "never for a second");
   const auto& stamps = survey.sensors[*survey.imu_index].stamps;

@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 
 namespace fastlio
 {
@@ -30,10 +29,17 @@ std::string joined(const std::vector<std::string>& names)
   return list;
 }
 
-/** Whether a list of names, separated by commas, has this one. */
+/** Whether a list of names, separated by commas or blanks, has this one. */
 bool names(const std::string& list, const std::string& name)
 {
-  return std::regex_search(list, std::regex("(^|[, \t])" + name + "([, \t]|$)"));
+  constexpr const char* kSeparators = ", \t";
+  for (std::size_t begin = list.find_first_not_of(kSeparators); begin != std::string::npos;)
+  {
+    const std::size_t end = list.find_first_of(kSeparators, begin);
+    if (list.substr(begin, end - begin) == name) return true;
+    begin = list.find_first_not_of(kSeparators, end);
+  }
+  return false;
 }
 
 /** A configuration and what changed it. */

@@ -1,16 +1,15 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "key_lines.h"
 #include "removed_keys.h"
+#include "yaml_text.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/odometry/odometry_option_table.h>
+#include <fastlio/options/printable.h>
 
 #include <algorithm>
 #include <fstream>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 
 namespace fastlio
@@ -45,7 +44,7 @@ using Problems = std::vector<Problem>;
 Problem problemAt(const yaml::node_t& node, const std::string& key, const std::string& what)
 {
   const bool has_place = node.marks.line > 0 || node.marks.column > 0;
-  return {has_place ? node.marks.line + 1 : 0, key + ": " + what};
+  return {has_place ? node.marks.line + 1 : 0, printable(key) + ": " + what};
 }
 
 void append(Problems& to, const Problems& more)
@@ -143,44 +142,14 @@ Loading loading(const yaml& document)
   return result;
 }
 
-/** Keys given twice: the YAML parser keeps the last one silently. */
-Problems duplicateKeys(const std::vector<KeyLine>& key_lines)
+Problems repetitions(const std::vector<RepeatedKey>& repeated)
 {
   Problems problems;
-  std::map<std::string, int> first_line;
-  for (const auto& [key, line] : key_lines)
-  {
-    const auto [entry, is_new] = first_line.emplace(key, line);
-    if (!is_new)
-      problems.push_back(
-          {line, key + ": is given a second time (first in line " + std::to_string(entry->second) +
-                     "); remove one of them"});
-  }
+  for (const RepeatedKey& key : repeated)
+    problems.push_back(
+        {key.line, printable(key.key) + ": is given a second time (first in line " +
+                       std::to_string(key.first_line) + "); remove one of them"});
   return problems;
-}
-
-bool holdsKey(const yaml::node_t& root, const std::string& key)
-{
-  const auto dot = key.find('.');
-  if (!root.isMap()) return false;
-  for (const auto& [name, node] : root.asMap())
-  {
-    if (name.as<std::string>() != key.substr(0, dot)) continue;
-    return dot == std::string::npos || holdsKey(node, key.substr(dot + 1));
-  }
-  return false;
-}
-
-/** Keys that are in the text but not in the document: the YAML parser stops silently at some
- * errors. */
-Problems lostKeys(const std::vector<KeyLine>& key_lines, const yaml& document)
-{
-  for (const auto& [key, line] : key_lines)
-    if (!holdsKey(document.node(), key))
-      return {
-          {line, key + ": cannot be read from here on; check the YAML syntax (indentation, "
-                       "brackets, quotes) here and in the line before"}};
-  return {};
 }
 
 /** Where the document gives a key, from 1; 0: it does not. */
@@ -204,27 +173,31 @@ int lineOf(std::string_view key, const yaml& document)
 std::string fileText(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()).good())
+  std::string text(kLargestYaml + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kLargestYaml)
+    throw std::invalid_argument(
+        path + ": is larger than " + std::to_string(kLargestYaml >> 20U) +
+        " MiB and so no parameter file; a recording is given to --input-rawlog");
+  if (text.empty())
     throw std::runtime_error(
         path +
         ": cannot be read as a parameter file; check that it exists, is a file with content and "
         "may be read");
-  return text.str();
+  return text;
 }
 
-yaml parsedText(const std::string& text, const std::string& path)
+YamlText parsedFile(const std::string& path)
 {
+  const std::string text = fileText(path);
   try
   {
-    return yaml::FromText(text);
+    return parseYaml(text);
   }
-  catch (const std::exception&)
+  catch (const std::invalid_argument& e)
   {
-    throw std::invalid_argument(
-        path +
-        ": is not valid YAML; check indentation, brackets, and that every key has a value "
-        "(the parser's own message, with the place, is on the standard error)");
+    throw std::invalid_argument(path + ": " + e.what() + ".");
   }
 }
 }  // namespace
@@ -238,16 +211,13 @@ Config loadConfig(const yaml& document, const std::string& source)
 
 ConfigFile readConfigFile(const std::string& path)
 {
-  const std::string text = fileText(path);
-  const yaml document = parsedText(text, path);
-  const auto key_lines = keyLines(text);
-  Loading result = loading(document);
-  append(result.problems, duplicateKeys(key_lines));
-  append(result.problems, lostKeys(key_lines, document));
+  const YamlText text = parsedFile(path);
+  Loading result = loading(text.document);
+  append(result.problems, repetitions(text.repeated));
   if (!result.problems.empty()) throwProblems(path, result.problems);
   ConfigFile file{result.config, {}};
   for (const auto& row : configTable())
-    if (const int line = lineOf(row.key, document); line > 0)
+    if (const int line = lineOf(row.key, text.document); line > 0)
       file.lines[std::string(row.key)] = line;
   return file;
 }

@@ -201,14 +201,6 @@ TEST(ConfigYaml, FileErrorsNameTheFile)
   expectContains(fileProblem("map:\n  radius: -1\n"), "FileErrorsNameTheFile.yaml: 1 problem");
 }
 
-TEST(ConfigYaml, WhatTheParserSilentlyLeavesOutIsAnError)
-{
-  expectContains(
-      fileProblem("map: {radius: 10, \nthreads: 3\nlidar:\n  deskew: false\n"),
-      "cannot be read from here on");
-  expectContains(fileProblem("threads: 3\n}\nlidar:\n  deskew: false\n"), "lidar: cannot be read");
-}
-
 TEST(ConfigYaml, KeysGivenTwiceAreErrors)
 {
   const std::string message = fileProblem(

@@ -5,6 +5,7 @@
 #include "overloaded.h"
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
+#include <fastlio/options/printable.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ struct Target
 
   [[nodiscard]] Problem wrongType(std::string_view seen) const
   {
-    return "'" + std::string(seen) + "' is not a " + typeText(value) +
+    return "'" + printable(seen) + "' is not a " + typeText(value) +
            "; allowed: " + allowedText(value, unit);
   }
 

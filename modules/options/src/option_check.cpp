@@ -3,13 +3,13 @@
 
 #include "epoch.h"
 #include "overloaded.h"
+#include <fastlio/options/label_pattern.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
 
 #include <Eigen/LU>
 
 #include <cmath>
-#include <regex>
 
 namespace fastlio
 {
@@ -31,19 +31,6 @@ Problem realProblem(const RealValue& value, std::string_view unit)
   const double slack = 1e-12 * std::abs(number);
   const bool good = number >= value.min - slack && number <= value.max + slack;
   return good ? Problem{} : outOfRange(value, unit);
-}
-
-Problem regexProblem(const std::string& text)
-{
-  try
-  {
-    const std::regex compiled(text);
-    return {};
-  }
-  catch (const std::regex_error& error)
-  {
-    return "'" + text + "' is not a regular expression (" + error.what() + ")";
-  }
 }
 
 Problem poseProblem(const Pose& pose)
@@ -75,7 +62,7 @@ std::optional<std::string> valueProblem(const OptionValue& value, std::string_vi
                        ? Problem{}
                        : "is none of the choices; allowed: " + allowedText(v, unit);
           },
-          [](const RegexValue& v) { return regexProblem(*v.member); },
+          [](const RegexValue& v) { return patternProblem(*v.member); },
           [](const TextValue&) { return Problem{}; },
           [](const VectorValue& v)
           { return v.member->allFinite() ? Problem{} : "has a number that is not finite"; },

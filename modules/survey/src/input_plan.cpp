@@ -3,6 +3,7 @@
 
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/survey/input_plan.h>
 
 #include <algorithm>
@@ -119,14 +120,15 @@ std::vector<FurtherLidarOptions> furtherLidars(const SensorOptions& sensors)
 void requireUnambiguous(const SensorSummary& sensor, const LidarPlan& plan)
 {
   if (plan.finding.verdict == PointTimeVerdict::Ambiguous)
-    throw std::runtime_error("LiDAR '" + sensor.label + "': " + plan.finding.evidence + ".");
+    throw std::runtime_error(
+        "LiDAR '" + printable(sensor.label) + "': " + plan.finding.evidence + ".");
 }
 
 void add(InputPlan& plan, const SensorSummary& sensor, LidarPlan lidar)
 {
   requireUnambiguous(sensor, lidar);
   (lidar.loud ? plan.warnings : plan.notes)
-      .push_back("LiDAR '" + sensor.label + "': " + lidar.text + ".");
+      .push_back("LiDAR '" + printable(sensor.label) + "': " + lidar.text + ".");
   plan.lidars.push_back(std::move(lidar));
 }
 
@@ -170,7 +172,7 @@ void noteUnused(InputPlan& plan, const SensorSelection& selection)
   for (const SensorSummary& sensor : selection.ignored)
     if (sensor.kind == SensorKind::Lidar && sensor.usable)
       plan.notes.push_back(
-          "LiDAR '" + sensor.label +
+          "LiDAR '" + printable(sensor.label) +
           "' is not used; lidar_2.sensor_label (and lidar_3, lidar_4) lets its points join.");
 }
 }  // namespace

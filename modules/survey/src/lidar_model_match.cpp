@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/options/printable.h>
 #include <fastlio/survey/lidar_models.h>
 
 #include <algorithm>
@@ -72,7 +73,8 @@ PresetMatch fittingPreset(const LidarAppearance& lidar)
     if (now <= kElevationTolerance && (alike == nullptr || now < difference(*alike, lidar)))
       alike = &preset;
   }
-  if (named != nullptr) return {named, "the label or model '" + lidar.label + "' names it", true};
+  if (named != nullptr)
+    return {named, "the label or model '" + printable(lidar.label) + "' names it", true};
   if (alike != nullptr) return {alike, "it looks like that: " + appearanceText(lidar), false};
   return {nullptr, "no preset looks like it: " + appearanceText(lidar), false};
 }

@@ -1,9 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "label_pattern.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/label_pattern.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -27,13 +28,27 @@ const char* flagOf(SensorKind kind)
   return kind == SensorKind::Imu ? "--imu-sensor-label" : "--lidar-sensor-label";
 }
 
+// A screen of sensors; a damaged recording may seem to have a thousand.
+constexpr std::size_t kMostListed = 40;
+
+std::string furtherText(std::size_t count)
+{
+  return count == 0 ? "" : "\n  and " + std::to_string(count) + " further sensors";
+}
+
 std::string whatThereIs(const SensorSurvey& survey)
 {
   std::string text;
   for (const auto& problem : survey.problems)
     text += "\n  trouble: " + problem.message;
-  for (const SensorSummary& sensor : survey.sensors)
-    text += "\n  found: " + describe(sensor);
+  const std::size_t listed = std::min(survey.sensors.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i)
+    text += "\n  found: " + describe(survey.sensors[i]);
+  text += furtherText(survey.sensors.size() - listed);
+  if (survey.observations_beyond > 0)
+    text += "\n  trouble: " + std::to_string(survey.observations_beyond) +
+            " observations of further sensors, after " + std::to_string(fastlio::kMostSensors) +
+            ", are left out.";
   return text.empty() ? "\n  There are no observations at all." : text;
 }
 
@@ -49,8 +64,8 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
                 ? "Odometry needs a CObservationIMU with acceleration and angular rate."
                 : "Odometry needs CObservationVelodyneScan or CObservationPointCloud.");
   if (!pattern.empty())
-    return std::string("No usable ") + nameOf(kind) + " has a label that matches '" + pattern +
-           "'. Give another " + flagOf(kind) + ".";
+    return std::string("No usable ") + nameOf(kind) + " has a label that matches '" +
+           fastlio::printable(pattern) + "'. Give another " + flagOf(kind) + ".";
   return std::string("No ") + nameOf(kind) + " of the recording can be used; see the reason below.";
 }
 
@@ -75,8 +90,11 @@ Taken askedForBeside(const SensorSurvey& survey, const fastlio::SensorPatterns& 
 {
   Taken asked;
   for (const std::string& label : patterns.further_lidar_labels)
+  {
+    const fastlio::LabelPattern pattern("lidar", label);
     for (const SensorSummary& sensor : survey.sensors)
-      if (fastlio::LabelPattern("lidar", label).matches(sensor.label)) asked.push_back(&sensor);
+      if (pattern.matches(sensor.label)) asked.push_back(&sensor);
+  }
   return asked;
 }
 
@@ -118,8 +136,8 @@ std::string describe(const SensorSummary& sensor)
   const auto pose = toMrptPose(sensor.T_vehicle_sensor);
   const double seconds = toSeconds(sensor.last_stamp_ns - sensor.first_stamp_ns);
   std::string text =
-      mrpt::format("label '%s', %s", sensor.label.c_str(), sensor.class_name.c_str());
-  if (!sensor.detail.empty()) text += " (" + sensor.detail + ")";
+      mrpt::format("label '%s', %s", printable(sensor.label).c_str(), sensor.class_name.c_str());
+  if (!sensor.detail.empty()) text += " (" + printable(sensor.detail) + ")";
   if (seconds > 0)
     text += mrpt::format(", %.1f Hz", static_cast<double>(sensor.observations - 1) / seconds);
   return text + mrpt::format(
@@ -134,9 +152,10 @@ std::string describe(const SensorSelection& selection)
   for (const SensorSummary& sensor : selection.further_lidars)
     text += "\nLiDAR: " + describe(sensor);
   text += "\nIMU:   " + describe(selection.imu);
-  for (const SensorSummary& sensor : selection.ignored)
-    text += "\nignored: " + describe(sensor);
-  return text;
+  const std::size_t listed = std::min(selection.ignored.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i)
+    text += "\nignored: " + describe(selection.ignored[i]);
+  return text + furtherText(selection.ignored.size() - listed);
 }
 
 }  // namespace fastlio

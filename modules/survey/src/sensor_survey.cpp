@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "label_pattern.h"
+#include <fastlio/options/label_pattern.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
@@ -146,13 +146,19 @@ void noteTimes(SensorSummary& sensor, const CObservation& observation)
   sensor.sweep = shapeOf(toTimedPoints(std::move(columns), stamp_ns, untimed).points);
 }
 
-void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
+std::optional<std::size_t> note(SensorSurvey& survey, const CObservation& observation)
 {
+  std::vector<SensorSummary>& sensors = survey.sensors;
   const std::string class_name = observation.GetRuntimeClass()->className;
   auto sensor = std::find_if(
       sensors.begin(), sensors.end(),
       [&](const SensorSummary& s)
       { return s.label == observation.sensorLabel && s.class_name == class_name; });
+  if (sensor == sensors.end() && sensors.size() == kMostSensors)
+  {
+    ++survey.observations_beyond;
+    return std::nullopt;
+  }
   if (sensor == sensors.end()) sensor = sensors.insert(sensors.end(), firstSight(observation));
   // A sensor that starts with an empty or incomplete observation may do better later.
   if (!sensor->usable && sensor->kind != SensorKind::Other)
@@ -163,6 +169,7 @@ void note(std::vector<SensorSummary>& sensors, const CObservation& observation)
   if (sensor->kind == SensorKind::Lidar) noteTimes(*sensor, observation);
   ++sensor->observations;
   sensor->last_stamp_ns = toNanoseconds(observation.timestamp);
+  return static_cast<std::size_t>(sensor - sensors.begin());
 }
 
 bool hasUsable(
@@ -176,26 +183,44 @@ bool hasUsable(
         return s.kind == kind && s.usable && s.observations >= least && pattern.matches(s.label);
       });
 }
+
+/** Patterns that are tried after each observation. */
+class CompiledPatterns
+{
+ public:
+  explicit CompiledPatterns(const SensorPatterns& patterns)
+      : imu_("imu", patterns.imu_label), lidars_{{"lidar", patterns.lidar_label}}
+  {
+    for (const std::string& label : patterns.further_lidar_labels)
+      lidars_.emplace_back("lidar", label);
+  }
+
+  [[nodiscard]] bool satisfiedBy(const SensorSurvey& survey) const
+  {
+    return hasUsable(survey.sensors, SensorKind::Imu, imu_) &&
+           std::all_of(
+               lidars_.begin(), lidars_.end(),
+               [&](const LabelPattern& lidar)
+               { return hasUsable(survey.sensors, SensorKind::Lidar, lidar); });
+  }
+
+ private:
+  LabelPattern imu_;
+  std::vector<LabelPattern> lidars_;
+};
 }  // namespace
 
 namespace fastlio
 {
-void noteObservation(SensorSurvey& survey, const CObservation& observation)
+std::optional<std::size_t> noteObservation(SensorSurvey& survey, const CObservation& observation)
 {
-  if (observation.timestamp != INVALID_TIMESTAMP) note(survey.sensors, observation);
+  if (observation.timestamp == INVALID_TIMESTAMP) return std::nullopt;
+  return note(survey, observation);
 }
 
 bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns)
 {
-  const LabelPattern imu("imu", patterns.imu_label);
-  std::vector<LabelPattern> lidars{{"lidar", patterns.lidar_label}};
-  for (const std::string& label : patterns.further_lidar_labels)
-    lidars.emplace_back("lidar", label);
-  return hasUsable(survey.sensors, SensorKind::Imu, imu) &&
-         std::all_of(
-             lidars.begin(), lidars.end(),
-             [&](const LabelPattern& lidar)
-             { return hasUsable(survey.sensors, SensorKind::Lidar, lidar); });
+  return CompiledPatterns(patterns).satisfiedBy(survey);
 }
 
 SensorSurvey surveySensors(
@@ -205,14 +230,14 @@ SensorSurvey surveySensors(
   RawlogSource source(files);
   SensorSurvey survey;
   std::int64_t begin_ns = 0;
-  (void)isComplete(survey, patterns);  // patterns that are none are told before reading
+  const CompiledPatterns compiled(patterns);  // patterns that are none are told before reading
   while (const auto observation = source.next())
   {
     if (observation->timestamp == INVALID_TIMESTAMP) continue;
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
     if (survey.sensors.empty()) begin_ns = stamp_ns;
     noteObservation(survey, *observation);
-    if (stamp_ns - begin_ns >= at_least_ns && isComplete(survey, patterns)) break;
+    if (stamp_ns - begin_ns >= at_least_ns && compiled.satisfiedBy(survey)) break;
   }
   survey.problems = source.problems();
   return survey;

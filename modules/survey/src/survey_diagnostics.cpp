@@ -5,6 +5,7 @@
 
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/printable.h>
 
 #include <mrpt/core/format.h>
 
@@ -30,7 +31,8 @@ void warn(RecordingSurvey& survey, std::string text)
 void reportRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const char* what)
 {
   const StampReport& stamps = sensor.stamps;
-  const char* label = sensor.summary.label.c_str();
+  const std::string shown = printable(sensor.summary.label);
+  const char* label = shown.c_str();
   if (stamps.gaps > 0)
     warn(
         survey,

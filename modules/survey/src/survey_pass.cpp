@@ -30,9 +30,9 @@ class Gatherer
  public:
   void add(const mrpt::obs::CObservation& observation)
   {
-    if (observation.timestamp == INVALID_TIMESTAMP) return;
-    noteObservation(pass_.survey, observation);
-    const std::size_t sensor = sensorOf(observation);
+    const auto noted = noteObservation(pass_.survey, observation);
+    if (!noted) return;
+    const std::size_t sensor = *noted;
     pass_.stamps.resize(pass_.survey.sensors.size());
     pass_.samples.resize(pass_.survey.sensors.size());
     pass_.leads.resize(pass_.survey.sensors.size());
@@ -55,19 +55,6 @@ class Gatherer
   FirstPass take() { return std::move(pass_); }
 
  private:
-  [[nodiscard]] std::size_t sensorOf(const mrpt::obs::CObservation& observation) const
-  {
-    const auto& sensors = pass_.survey.sensors;
-    const auto found = std::find_if(
-        sensors.begin(), sensors.end(),
-        [&](const SensorSummary& s)
-        {
-          return s.label == observation.sensorLabel &&
-                 s.class_name == observation.GetRuntimeClass()->className;
-        });
-    return static_cast<std::size_t>(found - sensors.begin());
-  }
-
   static void addSample(std::vector<ImuSample>& samples, const mrpt::obs::CObservation& observation)
   {
     const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation);

@@ -107,3 +107,35 @@ TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
 
   EXPECT_THROW((void)select(recording(1), {"(", ""}), std::invalid_argument);
 }
+
+TEST_F(SensorSelectionTest, LabelsAreShownWithoutControlCharactersAndShortened)
+{
+  auto objects = recording(3);
+  objects.push_back(imuAt(0.2, "\x1B]0;title\x07\nERROR: all is lost"));
+  objects.push_back(imuAt(0.2, std::string(300'000, 'a')));
+  const std::string text = describe(select(objects, {"", "im+u"}));
+  EXPECT_TRUE(contains(text, "'\\x1b]0;title\\x07\\nERROR: all is lost'")) << text;
+  EXPECT_EQ(text.find('\x1B'), std::string::npos);
+  EXPECT_TRUE(contains(text, "... (300000 bytes)"));
+  EXPECT_LT(text.size(), 3000U);
+  EXPECT_TRUE(contains(errorOf(objects, {"(a+)+b", ""}), "... (300000 bytes)"));
+}
+
+TEST_F(SensorSelectionTest, MoreSensorsThanAnyVehicleHasAreLeftOut)
+{
+  SensorSurvey survey;
+  for (std::size_t i = 0; i < kMostSensors + 500; ++i)
+    (void)noteObservation(survey, *imuAt(0.0, "imu_" + std::to_string(i)));
+  EXPECT_EQ(survey.sensors.size(), kMostSensors);
+  EXPECT_EQ(survey.observations_beyond, 500U);
+  try
+  {
+    (void)selectSensors(survey, {});
+    ADD_FAILURE() << "a LiDAR was found";
+  }
+  catch (const std::runtime_error& e)
+  {
+    EXPECT_TRUE(contains(e.what(), "500 observations of further sensors")) << e.what();
+    EXPECT_TRUE(contains(e.what(), "and 960 further sensors")) << e.what();
+  }
+}

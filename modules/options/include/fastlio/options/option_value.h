@@ -60,7 +60,7 @@ struct ChoiceValue
   std::function<void(std::size_t index)> write;  //!< takes a valid index
 };
 
-/** A regular expression (ECMAScript); may be empty. */
+/** A pattern for labels (label_pattern.h); may be empty. */
 struct RegexValue
 {
   std::string* member;

@@ -14,14 +14,18 @@
 
 namespace fastlio
 {
+/** Sensors that a survey tells apart: more than any vehicle has, few enough to look through. */
+inline constexpr std::size_t kMostSensors = 1000;
+
 /** Every sensor seen; problems that reading met. */
 struct SensorSurvey
 {
   std::vector<SensorSummary> sensors;  //!< in order of first appearance
   std::vector<ReadProblem> problems;
+  std::size_t observations_beyond = 0;  //!< of sensors after kMostSensors, which are left out
 };
 
-/** Regular expressions (ECMAScript, the whole label must match); empty: any. */
+/** Regular expressions (label_pattern.h, the whole label must match); empty: any. */
 struct SensorPatterns
 {
   std::string lidar_label;
@@ -34,8 +38,10 @@ struct SensorPatterns
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);
 
-/** A survey while observations come in: takes one in. */
-void noteObservation(SensorSurvey& survey, const mrpt::obs::CObservation& observation);
+/** A survey while observations come in: takes one in. \return the sensor's index; nothing when the
+ * observation is left out, without a stamp or of a sensor after kMostSensors */
+std::optional<std::size_t> noteObservation(
+    SensorSurvey& survey, const mrpt::obs::CObservation& observation);
 
 /** Usable sensors that match have been seen, LiDARs in several scans. */
 [[nodiscard]] bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns);
