@@ -217,9 +217,15 @@ NextObject ObjectReader::fail(ReadProblem problem)
         "the file is compressed with Zstandard (MRPT 2.15.7 and newer do that), which this program "
         "does not read; decompress it with 'zstd -d' first");
   }
-  stream_->rewindTo(1);
+  stream_->rewindTo(problem.class_name.empty() ? 0 : 1);
   const bool found = (recover_ || at_start) && stream_->seekNextObservation();
   finished_ = !found || !recover_;
+  if (!found && !at_start && recover_ && problem.class_name.empty() && stream_->skippedZerosOnly())
+    problem = makeProblem(
+        ReadProblemKind::Truncated, "",
+        "from there to its end the file holds " +
+            std::to_string(stream_->position() - object_offset_) +
+            " zeros, as after a loss of power");
   if (found && problem.kind == ReadProblemKind::Truncated)
     problem = makeProblem(
         ReadProblemKind::Corrupt, problem.class_name, "it claims to be larger than it can be");
@@ -236,14 +242,19 @@ NextObject ObjectReader::fail(ReadProblem problem)
 void ObjectReader::skipFrameEnds()
 {
   constexpr unsigned char kEndFlag = 0x88;
+  constexpr std::uint64_t kMostFrameEnds = 1000;  // MRPT does not nest frames; more is damage
   stream_->beginObject();
+  const std::uint64_t begin = stream_->position();
   while (!stream_->atEnd() && !stream_->peekHeader())
   {
     unsigned char byte = 0;
     stream_->Read(&byte, 1);
-    if (byte == kEndFlag) continue;
-    stream_->rewindTo(0);
-    return;
+    if (byte != kEndFlag)
+    {
+      stream_->rewindTo(0);
+      return;
+    }
+    if (stream_->position() - begin > kMostFrameEnds) return;
   }
 }
 

@@ -13,8 +13,7 @@
 namespace
 {
 constexpr std::size_t kChunk = 1U << 15U;
-constexpr std::size_t kLargestObject = 1U << 30U;  // [bytes]
-constexpr std::size_t kLongestClassName = 120;     // limit of MRPT's format
+constexpr std::size_t kLongestClassName = 120;  // limit of MRPT's format
 constexpr unsigned char kHeaderFlag = 0x80;
 const std::string kObservations = "mrpt::obs::";
 
@@ -42,14 +41,16 @@ bool ObjectStream::fill(std::size_t end)
 
 bool ObjectStream::require(std::size_t size)
 {
-  if (position_ - object_ + size > kLargestObject)
-    throw std::runtime_error("it is larger than 1 GiB");
+  if (position_ - object_ + size > largest_object_)
+    throw std::runtime_error(
+        "it is larger than " + std::to_string(largest_object_ >> 20U) + " MiB");
   return fill(position_ + size);
 }
 
 bool ObjectStream::holds(std::size_t offset, std::size_t size)
 {
-  return offset + size <= kLargestObject && fill(object_ + offset + size);
+  return size <= largest_object_ && offset <= largest_object_ - size &&
+         fill(object_ + offset + size);
 }
 
 unsigned char ObjectStream::byteAt(std::size_t offset) const
@@ -155,15 +156,36 @@ std::optional<ObjectHeader> ObjectStream::lastHeaderRead() const
 
 bool ObjectStream::seekNextObservation()
 {
-  for (; require(1); ++position_)
+  skipped_zeros_only_ = true;
+  for (; seekHeaderFlag(); ++position_)
   {
-    if ((static_cast<unsigned char>(bytes_[position_]) & kHeaderFlag) == 0) continue;
     require(1 + kLongestClassName);
     const auto header = headerAt(position_);
     if (header && header->class_name.compare(0, kObservations.size(), kObservations) == 0 &&
         mrpt::rtti::findRegisteredClass(header->class_name) != nullptr)
       return true;
-    if (position_ - object_ > kChunk) beginObject();  // what was skipped is not needed any more
+  }
+  return false;
+}
+
+// To the next byte that may begin a header. What is skipped is forgotten: a damaged file may have
+// gigabytes of it.
+bool ObjectStream::seekHeaderFlag()
+{
+  for (; require(1); beginObject())
+  {
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+    const auto found = std::find_if(
+        begin, bytes_.end(),
+        [](char c) { return (static_cast<unsigned char>(c) & kHeaderFlag) != 0; });
+    skipped_zeros_only_ = skipped_zeros_only_ && found == bytes_.end() &&
+                          std::all_of(begin, found, [](char c) { return c == 0; });
+    position_ += static_cast<std::size_t>(found - begin);
+    if (found != bytes_.end())
+    {
+      if (position_ - object_ > kChunk) beginObject();
+      return true;
+    }
   }
   return false;
 }

@@ -22,12 +22,19 @@ struct ObjectHeader
   std::size_t length = 0;  //!< of the header [bytes]
 };
 
+/** Of an observation or a frame [bytes]: ten times the clouds of the largest LiDARs. A damaged
+ * length costs twice as much memory before it is noticed. */
+inline constexpr std::size_t kLargestObject = std::size_t{256} << 20U;
+
 /** Has what mrpt::serialization::archiveFrom() asks of a stream. All positions are in uncompressed
  * bytes from the start of the file. */
 class ObjectStream
 {
  public:
-  explicit ObjectStream(const std::string& path) : file_(path) {}
+  explicit ObjectStream(const std::string& path, std::size_t largest_object = kLargestObject)
+      : file_(path), largest_object_(largest_object)
+  {
+  }
 
   /** Exactly \a size bytes.
    * \exception std::runtime_error the file has fewer left, or the object is larger than the limit
@@ -48,6 +55,10 @@ class ObjectStream
   /** Looks for the next header of a known class in namespace mrpt::obs, from the current position
    * on, and goes there. False: there is none. */
   bool seekNextObservation();
+
+  /** The last seekNextObservation() has skipped zeros and nothing else: what a loss of power leaves
+   * behind. */
+  [[nodiscard]] bool skippedZerosOnly() const { return skipped_zeros_only_; }
 
   /** The header at the current position, if there is one. */
   [[nodiscard]] std::optional<ObjectHeader> peekHeader();
@@ -75,14 +86,17 @@ class ObjectStream
   [[nodiscard]] std::size_t available() const { return bytes_.size() - position_; }
   bool require(std::size_t size);
   bool fill(std::size_t end);
+  bool seekHeaderFlag();
   [[nodiscard]] std::optional<ObjectHeader> headerAt(std::size_t at) const;
 
   InflatingFile file_;
+  std::size_t largest_object_;
   std::vector<char> bytes_;   // from the start of the object at hand, or a little before
   std::size_t object_ = 0;    // start of the object at hand, in bytes_
   std::size_t position_ = 0;  // in bytes_
   std::uint64_t origin_ = 0;  // of bytes_ in the file
   bool ran_out_ = false;      // a read since beginObject() met the end
+  bool skipped_zeros_only_ = false;
 };
 
 }  // namespace fastlio

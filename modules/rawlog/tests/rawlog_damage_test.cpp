@@ -12,7 +12,9 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
+#include <sys/resource.h>
 
 namespace
 {
@@ -46,6 +48,12 @@ void replaceAll(std::string& bytes, const std::string& from, const std::string& 
     bytes.replace(at, from.size(), to);
 }
 
+long peakKb()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
 }  // namespace
 
 TEST_F(RawlogDamageTest, PlainFileCutAnywhereKeepsAllWholeObjects)
@@ -90,7 +98,7 @@ TEST_F(RawlogDamageTest, GzipFileCutAnywhereIsTruncated)
 TEST_F(RawlogDamageTest, CutInsideAFrameSavesItsWholeObservations)
 {
   auto frame = mrpt::obs::CSensoryFrame::Create();
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 2; ++i)
     frame->insert(imuAt(0.01 * i));
   const std::string bytes = serialize({imuAt(-1), frame});
   const Reading reading = readAll({fileOf(bytes.substr(0, bytes.size() - 50))});
@@ -215,4 +223,59 @@ TEST_F(RawlogDamageTest, UnknownClassInsideAnObservationIsNamed)
   ASSERT_EQ(reading.problems.size(), 1U);
   EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::UnknownClass);
   EXPECT_EQ(reading.problems[0].class_name, "mrpt::maps::CGenericxxxxxMap");
+}
+
+TEST_F(RawlogDamageTest, ATailOfZerosIsTruncatedAndTheNextFileIsRead)
+{
+  const std::string first = folder_.file("first.rawlog"), second = folder_.file("second.rawlog");
+  write(first, serialize(samples(20)));
+  constexpr std::uintmax_t kZeros = 1'200'000'000;  // a hole: takes no room on the disk
+  std::filesystem::resize_file(first, std::filesystem::file_size(first) + kZeros);
+  write(second, serialize(samples(20)));
+  const Reading reading = readAll({first, second});
+  EXPECT_EQ(reading.seconds.size(), 40U);
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Truncated);
+  EXPECT_NE(
+      reading.problems[0].message.find("1200000000 zeros, as after a loss of power"),
+      std::string::npos)
+      << reading.problems[0].message;
+}
+
+TEST_F(RawlogDamageTest, RunsOfOneByteTakeNoMemory)
+{
+  const std::string objects = serialize(samples(20));
+  for (const char byte : {'\0', '\x88', '\xFF', '\x85', 'x'})
+  {
+    const std::string run = gzip(std::string(std::size_t{64} << 20U, byte));
+    std::string bytes = gzip(objects);
+    for (int i = 0; i < 2; ++i)
+      bytes += run;
+    const std::string file = fileOf(bytes + gzip(objects));
+    const long before = peakKb();
+    EXPECT_EQ(readAll({file}).seconds.size(), 40U) << static_cast<int>(byte);
+    EXPECT_LT(peakKb() - before, 32L * 1024L) << static_cast<int>(byte);
+  }
+}
+
+TEST_F(RawlogDamageTest, ALengthThatZerosFulfilTakesBoundedMemory)
+{
+  auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->sensorLabel = "lidar";
+  cloud->pointcloud = mrpt::maps::CSimplePointsMap::Create();
+  std::string head = serialize({cloud});
+  const std::size_t count =
+      head.find("CSimplePointsMap") + std::string("CSimplePointsMap").size() + 1;
+  head.resize(count);
+  head += std::string("\xFF\xFF\xFF\x0F", 4);  // 3.2 GB of points
+  std::string bytes = gzip(head);
+  const std::string zeros = gzip(std::string(std::size_t{64} << 20U, '\0'));
+  for (int i = 0; i < 12; ++i)
+    bytes += zeros;
+  const std::string file = fileOf(gzip(serialize(samples(5))) + bytes);
+  const long before = peakKb();
+  const Reading reading = readAll({file});
+  EXPECT_EQ(reading.seconds.size(), 5U);
+  EXPECT_EQ(reading.problems.size(), 1U);
+  EXPECT_LT(peakKb() - before, 600L * 1024L);
 }
