@@ -8,8 +8,10 @@
 #include "info_report.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/input_file.h>
 
 #include <iostream>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace
@@ -44,6 +46,10 @@ void write(const InfoArguments& arguments, const RecordingSurvey& survey)
 
 int run(const InfoArguments& arguments)
 {
+  if (const auto twice = sameFileTwice(arguments.input_files))
+    throw std::runtime_error(
+        "'" + arguments.input_files[twice->second] +
+        "' is given twice; give each part of a recording once");
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
   const RecordingSurvey survey =

@@ -6,13 +6,14 @@
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/input_file.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 
+#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 namespace fastlio
@@ -20,6 +21,8 @@ namespace fastlio
 namespace
 {
 namespace fs = std::filesystem;
+
+constexpr double kLargestPoseNumber = 1e7;  // beyond the coordinates of any grid, UTM for instance
 
 std::string joined(const std::vector<std::string>& names)
 {
@@ -131,18 +134,14 @@ void prepareOutputs(const ReplayArguments& arguments)
 void requireReadable(const std::vector<std::string>& files)
 {
   for (const auto& file : files)
-  {
-    if (!fs::exists(file))
+    if (const auto problem = inputFileProblem(file))
       throw SetupError(
           ExitStatus::InputUnusable,
-          "input file '" + file + "' does not exist; check the path given to --input-rawlog");
-    if (fs::is_directory(file) || !std::ifstream(file, std::ios::binary))
-      throw SetupError(
-          ExitStatus::InputUnusable,
-          "input file '" + file +
-              "' cannot be read; --input-rawlog takes a rawlog file that you "
-              "may read");
-  }
+          "input file '" + file + "' " + *problem + " (--input-rawlog takes a rawlog file)");
+  if (const auto twice = sameFileTwice(files))
+    throw SetupError(
+        ExitStatus::Usage, "input file '" + files[twice->second] + "' is given twice, first as '" +
+                               files[twice->first] + "'; give each part of a recording once");
 }
 
 /** Runs what may throw std::invalid_argument for a parameter, others for the input. */
@@ -167,6 +166,11 @@ auto checked(Step step)
 Pose poseOf(const std::vector<double>& numbers)
 {
   if (numbers.empty()) return {};
+  for (const double number : numbers)
+    if (!(std::abs(number) <= kLargestPoseNumber))
+      throw SetupError(
+          ExitStatus::Usage,
+          "--initial-pose has a number that is not between -1e7 and 1e7 [m, deg]");
   return toPose(mrpt::poses::CPose3D(
       numbers[0], numbers[1], numbers[2], kRadPerDeg * numbers[3], kRadPerDeg * numbers[4],
       kRadPerDeg * numbers[5]));
@@ -181,6 +185,10 @@ std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const Outpu
     if (!arguments.initial_pose.empty())
       saved.T_map_imu = poseOf(arguments.initial_pose) * frame.T_imu_body.inverse();
     return saved;
+  }
+  catch (const SetupError&)
+  {
+    throw;
   }
   catch (const std::exception& e)
   {

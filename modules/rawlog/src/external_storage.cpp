@@ -3,39 +3,83 @@
 
 #include "external_storage.h"
 
+#include "archived_object.h"
+#include "inflating_file.h"
 #include "rotating_scan_stream.h"
 #include <fastlio/compat/mrpt_messages.h>
+#include <fastlio/files/input_file.h>
+#include <fastlio/options/printable.h>
 
 #include <mrpt/io/lazy_load_path.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
+#include <vector>
 
+namespace fastlio
+{
 namespace
 {
 namespace fs = std::filesystem;
+using mrpt::obs::CObservationPointCloud;
 
 // The names that MRPT gives the folder of a rawlog NAME.rawlog. (CRawlog::detectImagesDirectory()
 // of 2.5.8 loses the slash between folder and name.)
-std::string externalFolderOf(const std::string& rawlog)
+fs::path externalFolderOf(const std::string& rawlog)
 {
   const fs::path folder = fs::path(rawlog).parent_path();
   const std::string name = fs::path(rawlog).stem().string();
   for (const std::string& candidate : {name + "_Images", name + "_images", std::string("Images")})
   {
     std::error_code error;
-    if (fs::is_directory(folder / candidate, error)) return (folder / candidate).string();
+    if (fs::is_directory(folder / candidate, error)) return folder / candidate;
   }
-  return (folder / (name + "_Images")).string();
+  return folder / (name + "_Images");
 }
-}  // namespace
 
-namespace fastlio
+/** Whether \a path, made canonical, lies in \a folder or below. */
+bool liesBelow(const fs::path& path, const fs::path& folder)
 {
-namespace
+  const auto end = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return end.first == folder.end() && end.second != path.end();
+}
+
+/** Where a file that a recording names lies.
+ * \exception std::runtime_error the recording has no business there, or nothing can be read there */
+fs::path externalPath(const fs::path& folder, const std::string& name)
 {
-// What is kept in a file, and how to load it.
+  constexpr std::size_t kLongestName = 1000;  // [bytes]; folders and file below the recording's own
+  if (name.size() > kLongestName || name.find('\0') != std::string::npos)
+    throw std::runtime_error("which is no name of a file");
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(fs::absolute(folder), error);
+  const fs::path path = error ? fs::path() : fs::weakly_canonical(root / name, error);
+  if (error) throw std::runtime_error("which cannot be found: " + error.message());
+  if (!liesBelow(path, root))
+    throw std::runtime_error(
+        "which is outside of the recording's folder " + folder.string() +
+        "; files from elsewhere are not read. Copy it there.");
+  if (const auto problem = inputFileProblem(path.string()))
+    throw std::runtime_error("which " + *problem + ". Copy the folder of external files along.");
+  return path;
+}
+
+/** MRPT reads such a file as a whole, however much it inflates to. */
+void requireBoundedSize(const std::string& path)
+{
+  InflatingFile file(path);
+  std::vector<char> buffer(std::size_t{1} << 16U);
+  std::size_t size = 0;
+  for (std::size_t got = buffer.size(); got == buffer.size() && size <= kLargestObject; size += got)
+    got = file.read(buffer.data(), buffer.size());
+  if (size > kLargestObject)
+    throw std::runtime_error("is larger than " + std::to_string(kLargestObject >> 20U) + " MiB");
+}
+
+/** What is kept in a file, and how to load it. */
 struct External
 {
   std::string file;  // empty: nothing
@@ -43,21 +87,45 @@ struct External
   std::function<void(const std::string& path)> load;
 };
 
+mrpt::maps::CPointsMap::Ptr archivedPoints(const std::string& path)
+{
+  const auto object = readArchivedObject(path);
+  auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(object);
+  if (!points) throw std::runtime_error("holds no points");
+  return points;
+}
+
+// Loading completes an observation, which MRPT regards as no change of it.
+void loadCloud(const CObservationPointCloud& cloud, const std::string& path)
+{
+  // Which of MRPT's formats it is, the cloud does not tell; an archive tells it by itself.
+  if (ObjectStream(path).peekHeader())
+  {
+    const_cast<CObservationPointCloud&>(cloud).pointcloud = archivedPoints(path);
+    return;
+  }
+  requireBoundedSize(path);
+  cloud.load();
+}
+
 External externalOf(const mrpt::obs::CObservation& observation)
 {
-  if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
+  if (const auto* cloud = dynamic_cast<const CObservationPointCloud*>(&observation))
   {
     if (!cloud->isExternallyStored()) return {};
-    return {cloud->getExternalStorageFile(), "a point cloud", [cloud](const std::string&) {
-              cloud->load();
+    return {cloud->getExternalStorageFile(), "a point cloud", [cloud](const std::string& path) {
+              loadCloud(*cloud, path);
             }};
   }
-  // Loading completes an observation, which MRPT regards as no change of it.
   auto* scan = const_cast<RotatingScan*>(dynamic_cast<const RotatingScan*>(&observation));
   if (scan == nullptr) return {};
-  return {externalFileOf(*scan), "a rotating scan", [scan](const std::string& path) {
-            loadRotatingScan(*scan, path);
-          }};
+  return {
+      externalFileOf(*scan), "a rotating scan",
+      [scan](const std::string& path)
+      {
+        requireBoundedSize(path);
+        loadRotatingScan(*scan, path);
+      }};
 }
 }  // namespace
 
@@ -66,22 +134,29 @@ std::optional<std::string> loadExternal(
 {
   const External external = externalOf(observation);
   if (external.file.empty()) return std::nullopt;
-  // MRPT keeps one base folder per process; files of several rawlogs may lie in several folders.
-  mrpt::io::setLazyLoadPathBase(externalFolderOf(rawlog));
-  const std::string file = mrpt::io::lazy_load_absolute_path(external.file);
+  const fs::path folder = externalFolderOf(rawlog);
   const std::string prefix = rawlog + ": " + external.what + " of sensor '" +
-                             observation.sensorLabel + "' lies in the file " + file;
-  std::error_code error;
-  if (!fs::exists(file, error))
-    return prefix + ", which does not exist. Copy the folder of external files along.";
+                             printable(observation.sensorLabel) + "' lies in the file '" +
+                             printable(external.file) + "', ";
+  std::string path;
   try
   {
-    external.load(file);
+    path = externalPath(folder, external.file).string();
+  }
+  catch (const std::exception& e)
+  {
+    return prefix + e.what();
+  }
+  try
+  {
+    // MRPT keeps one base folder per process; files of several rawlogs may lie in several folders.
+    mrpt::io::setLazyLoadPathBase(folder.string());
+    external.load(path);
     return std::nullopt;
   }
   catch (const std::exception& e)
   {
-    return prefix + ", which cannot be read: " + innermostMessage(e.what()) + ".";
+    return prefix + "which cannot be read: " + printable(innermostMessage(e.what())) + ".";
   }
 }
 

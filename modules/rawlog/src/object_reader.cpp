@@ -6,12 +6,12 @@
 #include "rotating_scan_stream.h"
 #include "size_check.h"
 #include <fastlio/compat/mrpt_messages.h>
+#include <fastlio/files/input_file.h>
 
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/os.h>
 
-#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -94,11 +94,8 @@ NextObject ObjectReader::next()
   if (!stream_)
   {
     finished_ = true;  // unless the file can be opened
-    std::error_code error;
-    if (!std::filesystem::exists(path_, error))
-      return makeProblem(ReadProblemKind::NotFound, "", "there is no such file");
-    if (std::filesystem::is_directory(path_, error))
-      return makeProblem(ReadProblemKind::NotFound, "", "this is a folder, not a file");
+    if (const auto problem = inputFileProblem(path_))
+      return makeProblem(ReadProblemKind::NotFound, "", "the file " + *problem);
     try
     {
       stream_ = std::make_unique<ObjectStream>(path_);

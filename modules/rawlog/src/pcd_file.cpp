@@ -3,6 +3,10 @@
 
 #include "pcd_file.h"
 
+#include "bounded_line.h"
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
+
 #include <array>
 #include <cstring>
 #include <fstream>
@@ -17,6 +21,10 @@ namespace fastlio
 {
 namespace
 {
+constexpr std::size_t kMostHeaderLines = 1000;
+constexpr std::size_t kLargestNumber = 8;    // [bytes]
+constexpr std::size_t kMostNumbers = 10000;  // of a field: descriptors have some hundred
+
 struct Field
 {
   std::string name;
@@ -46,8 +54,10 @@ Header readHeader(std::ifstream& in, const std::string& path)
 {
   Header header;
   std::map<std::string, std::vector<std::string>> lines;
-  for (std::string line; header.data.empty() && std::getline(in, line);)
+  std::size_t count = 0;
+  for (std::string line; header.data.empty() && readBoundedLine(in, line);)
   {
+    if (++count > kMostHeaderLines) fail(path, "its header does not end");
     std::istringstream cells(line);
     std::string key;
     if (!(cells >> key) || key.front() == '#') continue;
@@ -64,18 +74,20 @@ Header readHeader(std::ifstream& in, const std::string& path)
   if (header.data.empty() || names.empty() || sizes.size() != names.size() ||
       types.size() != names.size() || lines["POINTS"].empty())
     fail(path, "its header lacks FIELDS, SIZE, TYPE, POINTS or DATA, or they do not fit together");
-  try
+  const auto number = [&](const std::string& text, std::size_t most)
   {
-    header.points = std::stoull(lines["POINTS"].front());
-    for (std::size_t i = 0; i < names.size(); ++i)
-      header.fields.push_back(
-          {names[i], std::stoull(sizes[i]), i < counts.size() ? std::stoull(counts[i]) : 1,
-           types[i].front()});
-  }
-  catch (const std::exception&)
-  {
-    fail(path, "a number of its header is none");
-  }
+    const auto value = parsed<std::size_t>(text);
+    if (!value || *value > most)
+      fail(
+          path, "its header has '" + printable(text) + "' where a number up to " +
+                    std::to_string(most) + " belongs");
+    return *value;
+  };
+  header.points = number(lines["POINTS"].front(), std::numeric_limits<std::size_t>::max());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    header.fields.push_back(
+        {names[i], number(sizes[i], kLargestNumber),
+         i < counts.size() ? number(counts[i], kMostNumbers) : 1, types[i].front()});
   return header;
 }
 
@@ -146,7 +158,7 @@ WorldPoints readAscii(std::ifstream& in, const Header& header, const std::string
   const auto places = placesOf(header, path);
   WorldPoints points;
   std::vector<std::string> cells;
-  for (std::string line; points.size() < header.points && std::getline(in, line);)
+  for (std::string line; points.size() < header.points && readBoundedLine(in, line);)
   {
     std::istringstream text(line);
     text.imbue(std::locale::classic());
@@ -157,7 +169,8 @@ WorldPoints readAscii(std::ifstream& in, const Header& header, const std::string
     std::array<float, 3> p{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (places.at(axis).cell >= cells.size()) fail(path, "a line is too short: " + line);
+      if (places.at(axis).cell >= cells.size())
+        fail(path, "a line is too short: '" + printable(line) + "'");
       std::istringstream number(cells[places.at(axis).cell]);
       number.imbue(std::locale::classic());
       if (!(number >> p.at(axis))) p.at(axis) = std::numeric_limits<float>::quiet_NaN();
@@ -179,7 +192,7 @@ WorldPoints readPcd(const std::string& path)
   if (header.data == "binary") return readBinary(in, header, path);
   if (header.data == "ascii") return readAscii(in, header, path);
   fail(
-      path, "DATA " + header.data +
+      path, "DATA " + printable(header.data) +
                 " is not supported; save it as ascii or binary (pcl_convert_pcd_ascii_binary)");
 }
 

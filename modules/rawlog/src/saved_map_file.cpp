@@ -1,19 +1,22 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "archived_object.h"
+#include "object_stream.h"
 #include "pcd_file.h"
+#include "ply_file.h"
+#include <fastlio/compat/mrpt_messages.h>
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/files/input_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/rawlog/saved_map_file.h>
 
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/opengl/PLY_import_export.h>
 #include <mrpt/serialization/CArchive.h>
 
-#include <filesystem>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 
 namespace fastlio
@@ -25,12 +28,17 @@ namespace
   throw std::runtime_error("map '" + path + "' " + why);
 }
 
+// Of MRPT's own classes, which are read as a whole: 350 million points. What of ours is read piece
+// by piece has no limit.
+constexpr std::size_t kLargestMap = std::size_t{4} << 30U;  // [bytes]
+constexpr std::size_t kMostMaps = 1000;                     // of a CMultiMetricMap
+
 std::string beginningOf(const std::string& path)
 {
+  if (const auto problem = inputFileProblem(path))
+    failMap(path, *problem + ": check the path given to --map-in");
   constexpr std::size_t kEnough = 256;
   std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path))
-    failMap(path, "cannot be read; check the path given to --map-in and the permissions");
   std::string bytes(kEnough, '\0');
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(in.gcount()));
@@ -51,51 +59,102 @@ WorldPoints pointsOf(const mrpt::maps::CPointsMap& map)
   return points;
 }
 
-WorldPoints readPly(const std::string& path)
-{
-  mrpt::maps::CSimplePointsMap map;
-  if (!map.loadFromPlyFile(path)) failMap(path, "is a PLY file that cannot be read");
-  return pointsOf(map);
-}
-
-SavedMap fromMetricMap(const mrpt::maps::CMetricMap::Ptr& map)
+SavedMap fromMap(const mrpt::serialization::CSerializable::Ptr& object)
 {
   SavedMap saved;
-  if (const auto planes = std::dynamic_pointer_cast<CVoxelPlanesMap>(map))
+  if (const auto planes = std::dynamic_pointer_cast<CVoxelPlanesMap>(object))
   {
     if (!planes->isEmpty()) saved.planes = {planes, &planes->planes()};
     saved.points = pointsOf(planes->points());
   }
-  else if (const auto several = std::dynamic_pointer_cast<mrpt::maps::CMultiMetricMap>(map))
-  {
-    for (const auto& one : several->maps)
-      if (saved.empty()) saved = fromMetricMap(mrpt::maps::CMetricMap::Ptr(one));
-  }
-  else if (const auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(map))
+  else if (const auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(object))
     saved.points = pointsOf(*points);
   return saved;
+}
+
+/** Forgets what it has given: for classes that read piece by piece. */
+class OnceStream
+{
+ public:
+  explicit OnceStream(ObjectStream& stream) : stream_(stream) {}
+
+  std::size_t Read(void* data, std::size_t size)
+  {
+    stream_.beginObject();
+    return stream_.Read(data, size);
+  }
+  std::size_t Write(const void* data, std::size_t size) { return stream_.Write(data, size); }
+  [[nodiscard]] std::string getStreamDescription() const { return "map"; }
+
+ private:
+  ObjectStream& stream_;
+};
+
+bool isReadPieceByPiece(const std::string& class_name)
+{
+  return class_name == "fastlio::CVoxelPlanesMap" || class_name == "fastlio::CIncrementalPointsMap";
+}
+
+mrpt::serialization::CSerializable::Ptr readMap(ObjectStream& stream, const std::string& class_name)
+{
+  if (!isReadPieceByPiece(class_name)) return readObjectHere(stream);
+  try
+  {
+    OnceStream once(stream);
+    auto archive = mrpt::serialization::archiveFrom(once);
+    return archive.ReadObject();
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw std::runtime_error("asks for more memory than there is");
+  }
+  catch (const std::exception& e)
+  {
+    if (stream.ranOut()) throw std::runtime_error("is cut off: it ends inside its map");
+    throw std::runtime_error("is damaged: " + printable(innermostMessage(e.what())));
+  }
+}
+
+/** The first map that has points of several, each checked by itself before it is read.
+ * \param header of the object that holds them */
+SavedMap fromSeveral(ObjectStream& stream, const ObjectHeader& header)
+{
+  constexpr unsigned char kVersion = 12;  // of all versions of MRPT since 2.0
+  const auto size = header.length + 1;
+  if (!stream.holds(0, size + 4) || stream.byteAt(header.length) != kVersion)
+    throw std::runtime_error("is cut off or of a version of CMultiMetricMap that is not known");
+  const std::uint32_t count = stream.wordAt(size);
+  stream.rewindTo(size + 4);
+  if (count > kMostMaps)
+    throw std::runtime_error("claims to hold " + std::to_string(count) + " maps");
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    stream.beginObject();
+    const auto inner = stream.peekHeader();
+    if (!inner) throw std::runtime_error("is cut off or damaged between its maps");
+    SavedMap saved = fromMap(readMap(stream, inner->class_name));
+    if (!saved.empty()) return saved;
+  }
+  return {};
 }
 
 SavedMap fromArchive(const std::string& path)
 {
   registerBridgeClasses();
-  mrpt::serialization::CSerializable::Ptr object;
   try
   {
-    mrpt::io::CFileGZInputStream stream(path);
-    auto archive = mrpt::serialization::archiveFrom(stream);
-    object = archive.ReadObject();
+    ObjectStream stream(path, kLargestMap);
+    const auto header = stream.peekHeader();
+    if (!header) throw std::runtime_error("is neither PLY nor PCD nor an archive of MRPT");
+    if (header->class_name == "mrpt::maps::CMultiMetricMap") return fromSeveral(stream, *header);
+    const auto object = readMap(stream, header->class_name);
+    if (std::dynamic_pointer_cast<mrpt::maps::CMetricMap>(object)) return fromMap(object);
+    throw std::runtime_error("holds a " + printable(header->class_name) + ", not a map");
   }
   catch (const std::exception& e)
   {
-    failMap(path, std::string("is neither PLY nor PCD nor an archive of MRPT: ") + e.what());
+    failMap(path, e.what());
   }
-  const auto map = std::dynamic_pointer_cast<mrpt::maps::CMetricMap>(object);
-  if (!map)
-    failMap(
-        path, std::string("holds a ") +
-                  (object ? object->GetRuntimeClass()->className : "nothing") + ", not a map");
-  return fromMetricMap(map);
 }
 }  // namespace
 
@@ -103,7 +162,7 @@ SavedMap loadSavedMap(const std::string& path)
 {
   const std::string beginning = beginningOf(path);
   SavedMap saved;
-  if (beginning.rfind("ply", 0) == 0)
+  if (beginning.rfind("ply\n", 0) == 0 || beginning.rfind("ply\r", 0) == 0)
     saved.points = readPly(path);
   else if (isPcd(beginning))
     saved.points = readPcd(path);

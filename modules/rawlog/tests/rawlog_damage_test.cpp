@@ -98,7 +98,7 @@ TEST_F(RawlogDamageTest, GzipFileCutAnywhereIsTruncated)
 TEST_F(RawlogDamageTest, CutInsideAFrameSavesItsWholeObservations)
 {
   auto frame = mrpt::obs::CSensoryFrame::Create();
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < 5; ++i)
     frame->insert(imuAt(0.01 * i));
   const std::string bytes = serialize({imuAt(-1), frame});
   const Reading reading = readAll({fileOf(bytes.substr(0, bytes.size() - 50))});

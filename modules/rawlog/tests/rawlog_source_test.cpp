@@ -12,6 +12,7 @@
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include <filesystem>
+#include <sys/stat.h>
 
 namespace
 {
@@ -126,6 +127,91 @@ TEST_F(RawlogSourceTest, ExternalCloudsAreLoadedFromBesideTheFile)
   ASSERT_EQ(source.problems().size(), 1U);
   EXPECT_EQ(source.problems()[0].kind, ReadProblemKind::ExternalFile);
   EXPECT_NE(source.problems()[0].message.find("gone.bin"), std::string::npos);
+}
+
+namespace
+{
+Object cloudInFile(const std::string& file)
+{
+  auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->sensorLabel = "lidar";
+  cloud->timestamp = fastlio::toMrptTime(kStart);
+  cloud->setAsExternalStorage(
+      file, mrpt::obs::CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+  return cloud;
+}
+}  // namespace
+
+/** A recording names files: of its own folder, and nothing that could block. */
+TEST_F(RawlogSourceTest, ExternalFilesElsewhereAreNotTouched)
+{
+  namespace fs = std::filesystem;
+  const fs::path own = fs::path(folder_.path()) / "log_Images";
+  fs::create_directory(own);
+  fs::create_directory(own / "folder");
+  fs::create_directory(fs::path(folder_.path()) / "log_Images2");
+  const std::vector<float> kitti{1, 2, 3, 0.5F};
+  const std::string points(
+      reinterpret_cast<const char*>(kitti.data()), kitti.size() * sizeof(float));
+  for (const char* name : {"secret.bin", "log_Images/own.bin", "log_Images2/other.bin"})
+    write(folder_.file(name), points);
+  fs::create_symlink(folder_.file("secret.bin"), own / "link.bin");
+  fs::create_symlink(folder_.path(), own / "up");
+  fs::create_symlink("own.bin", own / "alias.bin");
+  ASSERT_EQ(mkfifo((own / "pipe.bin").c_str(), 0600), 0);
+  for (const std::string& name :
+       {folder_.file("secret.bin"), std::string("../secret.bin"), std::string("/dev/zero"),
+        std::string("/dev/stdin"), std::string("link.bin"), std::string("up/secret.bin"),
+        std::string("pipe.bin"), std::string("../log_Images2/other.bin"), std::string("folder"),
+        std::string("folder/../../secret.bin"), std::string("."), std::string("gone/own.bin"),
+        std::string(2000, 'a'), std::string("own.bin\0.txt", 12), std::string("/proc/self/fd/0")})
+  {
+    RawlogSource source({fileOf(serialize({cloudInFile(name)}))});
+    EXPECT_EQ(source.next(), nullptr) << name;
+    ASSERT_EQ(source.problems().size(), 1U) << name;
+    EXPECT_EQ(source.problems()[0].kind, ReadProblemKind::ExternalFile) << name;
+    EXPECT_LT(source.problems()[0].message.size(), 2000U);
+  }
+  for (const std::string& name :
+       {std::string("own.bin"), std::string("alias.bin"), std::string("folder/../own.bin"),
+        (own / "own.bin").string()})
+  {
+    RawlogSource source({fileOf(serialize({cloudInFile(name)}))});
+    EXPECT_NE(source.next(), nullptr) << name << source.problems().front().message;
+  }
+}
+
+TEST_F(RawlogSourceTest, ExternalFilesOfAnySizeAreBounded)
+{
+  std::filesystem::create_directory(folder_.file("log_Images"));
+  write(folder_.file("log_Images/hole.bin"), "");
+  std::filesystem::resize_file(folder_.file("log_Images/hole.bin"), 20'000'000'000);
+  const std::string zeros = gzip(std::string(std::size_t{64} << 20U, '\0'));
+  std::string bomb;
+  for (int i = 0; i < 20; ++i)
+    bomb += zeros;
+  write(folder_.file("log_Images/bomb.bin.gz"), bomb);
+  for (const char* name : {"hole.bin", "bomb.bin.gz"})
+  {
+    RawlogSource source({fileOf(serialize({cloudInFile(name)}))});
+    EXPECT_EQ(source.next(), nullptr);
+    ASSERT_EQ(source.problems().size(), 1U);
+    EXPECT_NE(source.problems()[0].message.find("larger than 256 MiB"), std::string::npos)
+        << source.problems()[0].message;
+  }
+}
+
+TEST_F(RawlogSourceTest, PipesAndDevicesAreRefusedAtOnce)
+{
+  ASSERT_EQ(mkfifo(folder_.file("pipe").c_str(), 0600), 0);
+  for (const std::string& name : {folder_.file("pipe"), std::string("/dev/zero"), std::string("-")})
+  {
+    const Reading reading = readAll({name});
+    ASSERT_EQ(reading.problems.size(), 1U) << name;
+    EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotFound);
+    EXPECT_NE(reading.problems[0].message.find("save it to a file first"), std::string::npos)
+        << reading.problems[0].message;
+  }
 }
 
 TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)

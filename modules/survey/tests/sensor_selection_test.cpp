@@ -103,7 +103,7 @@ TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
     }
     return std::string();
   }();
-  EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: there is no such file")) << unreadable;
+  EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: the file does not exist")) << unreadable;
 
   EXPECT_THROW((void)select(recording(1), {"(", ""}), std::invalid_argument);
 }

@@ -1,0 +1,59 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "temporary_folder.h"
+#include <fastlio/files/input_file.h>
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+namespace fastlio
+{
+namespace
+{
+using testing::TemporaryFolder;
+
+void expectProblem(const std::string& path, const char* part)
+{
+  const auto problem = inputFileProblem(path);
+  ASSERT_TRUE(problem) << path;
+  EXPECT_NE(problem->find(part), std::string::npos) << *problem;
+}
+
+TEST(InputFile, OnlyRegularFilesAreRead)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("a")) << "x";
+  std::filesystem::create_symlink(folder.file("a"), folder.file("link"));
+  std::filesystem::create_symlink(folder.file("gone"), folder.file("dangling"));
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  EXPECT_FALSE(inputFileProblem(folder.file("a")));
+  EXPECT_FALSE(inputFileProblem(folder.file("link")));
+  expectProblem(folder.file("gone"), "does not exist");
+  expectProblem(folder.file("dangling"), "does not exist");
+  expectProblem(folder.path(), "is a folder");
+  expectProblem(folder.file("pipe"), "is a pipe or a device");
+  expectProblem("/dev/zero", "is a pipe or a device");
+  expectProblem("-", "standard input");
+  expectProblem(folder.file(std::string(5000, 'a')), "cannot be read");
+}
+
+TEST(InputFile, TheSameFileIsFoundUnderItsNames)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "b"})
+    std::ofstream(folder.file(name)) << "x";
+  std::filesystem::create_symlink(folder.file("a"), folder.file("link"));
+  EXPECT_FALSE(sameFileTwice({folder.file("a"), folder.file("b")}));
+  EXPECT_FALSE(sameFileTwice({folder.file("gone"), folder.file("gone too")}));
+  EXPECT_EQ(
+      sameFileTwice({folder.file("b"), folder.file("a"), folder.file("link")}),
+      (std::pair<std::size_t, std::size_t>{1, 2}));
+  EXPECT_EQ(
+      sameFileTwice({folder.file("a"), folder.path() + "/./a"}),
+      (std::pair<std::size_t, std::size_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace fastlio
