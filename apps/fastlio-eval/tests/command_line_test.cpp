@@ -190,7 +190,7 @@ TEST_F(FastlioEval, KittiPosesNeedTimes)
   write("poses.txt", kittiLine());
   expectOutcome("poses.txt poses.txt -a first --kitti-rate 10", 0, {"101 of 101", "100.00 m"});
   expectOutcome("poses.txt poses.txt -a first", 1, {"poses.txt", "carry no time"});
-  expectOutcome("poses.txt poses.txt --kitti-times none.txt", 1, {"none.txt", "cannot be opened"});
+  expectOutcome("poses.txt poses.txt --kitti-times none.txt", 1, {"none.txt", "does not exist"});
   expectOutcome("poses.txt poses.txt --kitti-times a --kitti-rate 10", 1, {"xclude"});
 }
 
@@ -209,8 +209,8 @@ TEST_F(FastlioEval, WrongUsageExitsWithOne)
 
 TEST_F(FastlioEval, UnusableInputExitsWithOneAndSaysWhere)
 {
-  expectOutcome("truth.tum none.tum", 1, {"none.tum", "cannot be opened"});
-  expectOutcome("truth.tum .", 1, {"is a directory"});
+  expectOutcome("truth.tum none.tum", 1, {"none.tum", "does not exist"});
+  expectOutcome("truth.tum .", 1, {"is a folder"});
   write("empty.tum", "");
   expectOutcome("truth.tum empty.tum", 1, {"empty.tum", "no data"});
   write("bad.tum", "1 0 0 0 0 0 0 1\n2 0 0 nan 0 0 0 1\n");

@@ -103,7 +103,7 @@ TEST_F(BadInput, MissingFile)
 
 TEST_F(BadInput, Folder)
 {
-  expectEnd(replayFile(file("")), 2, "cannot be read");
+  expectEnd(replayFile(file("")), 2, "is a folder");
 }
 
 TEST_F(BadInput, NotARawlog)

@@ -3,6 +3,10 @@
 
 #include "text_numbers.h"
 
+#include <fastlio/files/bounded_line.h>
+#include <fastlio/files/input_file.h>
+#include <fastlio/options/printable.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -29,7 +33,7 @@ std::string_view trim(std::string_view text)
 
 std::string quoted(std::string_view text)
 {
-  return "'" + std::string(text) + "'";
+  return "'" + printable(text) + "'";
 }
 
 bool allDigits(std::string_view text)
@@ -91,16 +95,17 @@ void failAt(const TextPlace& place, const std::string& message)
 
 std::vector<DataLine> readDataLines(const std::filesystem::path& file)
 {
-  if (std::filesystem::is_directory(file))
-    throw std::runtime_error(file.string() + ": is a directory; give a trajectory file");
+  if (const auto problem = inputFileProblem(file.string()))
+    throw std::runtime_error(file.string() + ": " + *problem + "; give a trajectory file");
   std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw std::runtime_error(
-        file.string() + ": cannot be opened for reading; check the path and its permissions");
   std::vector<DataLine> lines;
   std::string text;
-  for (std::size_t number = 1; std::getline(in, text); ++number)
+  for (std::size_t number = 1; readBoundedLine(in, text); ++number)
   {
+    if (text.size() == kLongestLine)
+      failAt(
+          {file, number},
+          "the line is longer than " + std::to_string(kLongestLine) + " characters");
     const std::string_view data = trim(text);
     if (!data.empty() && data.front() != '#') lines.push_back({number, std::string(data)});
   }

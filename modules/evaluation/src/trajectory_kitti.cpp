@@ -4,6 +4,7 @@
 #include "pose_parsing.h"
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/printable.h>
 
 #include <Eigen/LU>
 
@@ -38,7 +39,7 @@ std::vector<std::int64_t> readTimes(const std::filesystem::path& file)
   {
     const TextPlace place{file, line.number};
     if (splitAtBlanks(line.text).size() != 1)
-      failAt(place, "expected one time in seconds per line, saw '" + line.text + "'");
+      failAt(place, "expected one time in seconds per line, saw '" + printable(line.text) + "'");
     times.push_back(parseSeconds(line.text, place));
   }
   return times;

@@ -158,8 +158,8 @@ TEST_F(TrajectoryIo, UnreadableFiles)
 {
   const auto reading = [](const std::filesystem::path& path)
   { return [path] { (void)readTrajectory(path); }; };
-  expectThrows<std::runtime_error>(reading(folder_.path() / "none"), {"none", "cannot be opened"});
-  expectThrows<std::runtime_error>(reading(folder_.path()), {"is a directory"});
+  expectThrows<std::runtime_error>(reading(folder_.path() / "none"), {"none", "does not exist"});
+  expectThrows<std::runtime_error>(reading(folder_.path()), {"is a folder"});
   expectThrows<std::runtime_error>(reading(file("")), {"no data"});
   expectThrows<std::runtime_error>(reading(file("# only\n\n")), {"no data"});
 }

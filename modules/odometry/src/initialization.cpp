@@ -21,6 +21,7 @@ constexpr std::size_t kRefusedShare = 2;
 // A platform that "rests" faster than this, and than its uncertainty allows, moves steadily.
 constexpr double kRestSpeed = 0.05;  // [m/s]
 constexpr double kRestSpeedSigmas = 4.0;
+constexpr const char* kStartInMotionHint = "; initialization.mode: auto also starts in motion";
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
 
@@ -37,6 +38,20 @@ struct RestSearch
   std::int64_t next_window_ns = 0;  // then the search goes on from here
 };
 
+/** \param collected [s] from the window's begin to the newest sample */
+std::string collectingText(double collected, double duration)
+{
+  if (collected >= 0.0)
+    return mrpt::format(
+        "collecting the resting start: %.2f of %.2f s (initialization.duration)", collected,
+        duration);
+  return mrpt::format(
+      "no inertial data for the resting start: they end %.2f s before the %.2f s that precede the "
+      "scan (initialization.duration); are the clocks of LiDAR and IMU the same "
+      "(lidar.time_offset)?",
+      -collected, duration);
+}
+
 RestSearch searchRest(
     const ImuBuffer& imu, const InitializationOptions& parameters, std::int64_t first_scan_begin_ns)
 {
@@ -47,9 +62,8 @@ RestSearch searchRest(
   const std::int64_t latest_ns = std::max(imu.oldestStamp(), first_scan_begin_ns - duration_ns);
   if (imu.newestStamp() < latest_ns + duration_ns)
   {
-    search.decision.message = mrpt::format(
-        "collecting the resting start: %.2f of %.2f s (initialization.duration)",
-        secondsBetween(latest_ns, imu.newestStamp()), parameters.duration);
+    search.decision.message =
+        collectingText(secondsBetween(latest_ns, imu.newestStamp()), parameters.duration);
     return search;
   }
   // The later the window, the less is left to inertial data alone until the first scan.
@@ -116,19 +130,27 @@ StartDecision StartFinder::decide(const ScanQueue& scans, ImuBuffer& imu, bool a
   return {};
 }
 
-StartDecision StartFinder::decideAtRest(const ScanQueue& scans, ImuBuffer& imu, bool at_end) const
+StartDecision StartFinder::decideAtRest(const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
   const ScanSpan span = scans.front().span;
   while (true)
   {
     RestSearch search = searchRest(imu, parameters_.initialization, span.begin_ns);
     StartDecision& decision = search.decision;
-    if (decision.state) return decision;
+    if (decision.state)
+    {
+      not_at_rest_.clear();
+      return decision;
+    }
     if (!search.rejected)
     {
+      // What is still collected matters less than why the start has not been found so far.
+      if (!not_at_rest_.empty()) decision.message = not_at_rest_;
       decision.drop_oldest = at_end;
       return decision;
     }
+    decision.message += kStartInMotionHint;
+    not_at_rest_ = decision.message;
     // All of them, so that the search goes on behind a gap longer than its step.
     imu.forgetSamplesBefore(search.next_window_ns);
     decision.drop_oldest = span.end_ns < imu.oldestStamp();

@@ -40,8 +40,7 @@ class StartFinder
   [[nodiscard]] StartDecision decide(const ScanQueue& scans, ImuBuffer& imu, bool at_end);
 
  private:
-  [[nodiscard]] StartDecision decideAtRest(
-      const ScanQueue& scans, ImuBuffer& imu, bool at_end) const;
+  [[nodiscard]] StartDecision decideAtRest(const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision decideInMotion(const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision decideAutomatically(
       const ScanQueue& scans, ImuBuffer& imu, bool at_end);
@@ -51,6 +50,7 @@ class StartFinder
   OdometryOptions parameters_;
   std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below
   std::string refusal_;
+  std::string not_at_rest_;  // why the last window was rejected; empty: none was
 };
 
 }  // namespace fastlio

@@ -165,3 +165,34 @@ TEST(OdometryStart, APlatformThatMovesOffBeforeTheFirstScanHasItsVelocity)
   EXPECT_EQ(countOf(results, ScanStatus::Initializing), 0U);
   EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
 }
+
+/** Every scan of a start in motion names the way out, also while the next window is collected. */
+TEST(OdometryStart, AStartInMotionNamesTheModeThatTakesIt)
+{
+  const RoomRecording moving = movingFromTheStart(200.0);
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, moving);
+  ASSERT_EQ(countOf(results, ScanStatus::Initializing), results.size());
+  for (const ScanResult& r : results)
+  {
+    EXPECT_NE(r.message.find("does not rest"), std::string::npos) << r.message;
+    EXPECT_NE(r.message.find("initialization.mode: auto"), std::string::npos) << r.message;
+    EXPECT_EQ(r.message.find("collecting"), std::string::npos) << r.message;
+  }
+}
+
+TEST(OdometryStart, ClocksThatAreAnHourApartAreNamed)
+{
+  RoomRecording apart = room();
+  for (LidarScan& scan : apart.scans)
+    scan.stamp_ns += 3'600'000'000'000;
+  Odometry odometry(roomParameters());
+  const Results results = runInOrder(odometry, apart);
+  ASSERT_FALSE(results.empty());
+  for (const ScanResult& r : results)
+  {
+    EXPECT_EQ(r.status, ScanStatus::Initializing);
+    EXPECT_EQ(r.message.find(": -"), std::string::npos) << r.message;
+    EXPECT_NE(r.message.find("clocks of LiDAR and IMU"), std::string::npos) << r.message;
+  }
+}

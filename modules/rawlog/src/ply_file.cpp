@@ -3,7 +3,7 @@
 
 #include "ply_file.h"
 
-#include "bounded_line.h"
+#include <fastlio/files/bounded_line.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 

@@ -15,6 +15,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
 #include <fstream>
 #include <new>
 #include <stdexcept>
@@ -89,6 +90,16 @@ class OnceStream
  private:
   ObjectStream& stream_;
 };
+
+bool hasUsablePoint(const WorldPoints& points)
+{
+  constexpr float kFarthest = 1e7F;  // [m]
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::abs(points.x[i]) <= kFarthest && std::abs(points.y[i]) <= kFarthest &&
+        std::abs(points.z[i]) <= kFarthest)
+      return true;
+  return false;
+}
 
 bool isReadPieceByPiece(const std::string& class_name)
 {
@@ -169,6 +180,8 @@ SavedMap loadSavedMap(const std::string& path)
   else
     saved = fromArchive(path);
   if (saved.empty()) failMap(path, "has no points");
+  if (!saved.planes && !hasUsablePoint(saved.points))
+    failMap(path, "has no point with coordinates that are numbers up to 10,000 km");
   return saved;
 }
 

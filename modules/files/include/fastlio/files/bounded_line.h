@@ -1,16 +1,17 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file bounded_line.h Lines of files of others (internal). */
+/** \file bounded_line.h Lines of files of others. */
 #pragma once
 
+#include <cstddef>
 #include <istream>
 #include <string>
 
 namespace fastlio
 {
-/** A line of a map file, header or point, with room for a hundred fields. */
-inline constexpr std::size_t kLongestMapLine = 4096;
+/** A line of a table or of a map file, with room for hundreds of numbers [bytes]. */
+inline constexpr std::size_t kLongestLine = 16384;
 
 /** The next line without its end, LF or CR LF; a longer one is cut, and what is left of it is the
  * next line. False at the end. Takes no memory for the rest of a file that has no lines. */
@@ -25,7 +26,7 @@ inline bool readBoundedLine(std::istream& in, std::string& line)
       return true;
     }
     line += static_cast<char>(c);
-    if (line.size() == kLongestMapLine) return true;
+    if (line.size() == kLongestLine) return true;
   }
   return !line.empty();
 }
