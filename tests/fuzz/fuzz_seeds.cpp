@@ -16,7 +16,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstring>
-#include <stdexcept>
 
 namespace fastlio::testing
 {
@@ -170,7 +169,7 @@ std::vector<Seed> seedsOf(const std::string& target)
   if (target == "packets") return packetSeeds();
   if (target == "cloud") return cloudSeeds();
   if (target == "yaml") return yamlSeeds();
-  throw std::invalid_argument("no seeds for " + target);
+  return seedsOfFiles(target);
 }
 
 }  // namespace fastlio::testing

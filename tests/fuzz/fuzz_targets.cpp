@@ -3,6 +3,7 @@
 
 #include "fuzz_targets.h"
 
+#include "memory_file.h"
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
@@ -18,39 +19,12 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fcntl.h>
 #include <stdexcept>
-#include <sys/mman.h>
-#include <unistd.h>
 
 namespace fastlio::testing
 {
 namespace
 {
-/** A file in memory with a path, as readers want one. */
-class MemoryFile
-{
- public:
-  MemoryFile(const std::uint8_t* data, std::size_t size) : descriptor_(memfd_create("fuzz", 0))
-  {
-    while (size > 0)
-    {
-      const ssize_t written = ::write(descriptor_, data, size);
-      if (written <= 0) throw std::runtime_error("cannot write to a file in memory");
-      data += written;
-      size -= static_cast<std::size_t>(written);
-    }
-  }
-  ~MemoryFile() { close(descriptor_); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
- private:
-  int descriptor_;
-};
-
 OdometryOptions smallParameters()
 {
   OdometryOptions parameters;
@@ -173,7 +147,17 @@ void fuzzYaml(const std::uint8_t* data, std::size_t size)
 const std::vector<FuzzTarget>& fuzzTargets()
 {
   static const std::vector<FuzzTarget> targets{
-      {"rawlog", fuzzRawlog}, {"packets", fuzzPackets}, {"cloud", fuzzCloud}, {"yaml", fuzzYaml}};
+      {"rawlog", fuzzRawlog},
+      {"packets", fuzzPackets},
+      {"cloud", fuzzCloud},
+      {"yaml", fuzzYaml},
+      {"ply", fuzzMap},
+      {"pcd", fuzzMap},
+      {"archive", fuzzMap},
+      {"trajectory", fuzzTrajectory},
+      {"label", fuzzLabel},
+      {"external", fuzzExternal},
+      {"commandline", fuzzCommandLine}};
   return targets;
 }
 

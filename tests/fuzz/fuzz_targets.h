@@ -27,6 +27,16 @@ void fuzzPackets(const std::uint8_t* data, std::size_t size);
 void fuzzCloud(const std::uint8_t* data, std::size_t size);
 /** Text of a parameter file. */
 void fuzzYaml(const std::uint8_t* data, std::size_t size);
+/** A map to start in: PLY, PCD or an archive of MRPT, as the bytes say. */
+void fuzzMap(const std::uint8_t* data, std::size_t size);
+/** A trajectory for the evaluation: TUM, KITTI or CSV, as the bytes say. */
+void fuzzTrajectory(const std::uint8_t* data, std::size_t size);
+/** A line with a pattern, and a label. */
+void fuzzLabel(const std::uint8_t* data, std::size_t size);
+/** A line with the name of a file that a recording refers to, and what is in the file. */
+void fuzzExternal(const std::uint8_t* data, std::size_t size);
+/** Arguments of fastlio-replay, one a line. */
+void fuzzCommandLine(const std::uint8_t* data, std::size_t size);
 
 [[nodiscard]] const std::vector<FuzzTarget>& fuzzTargets();
 
@@ -36,5 +46,7 @@ struct Seed
   std::string name, bytes;
 };
 [[nodiscard]] std::vector<Seed> seedsOf(const std::string& target);
+/** Those of the targets in fuzz_files.cpp. */
+[[nodiscard]] std::vector<Seed> seedsOfFiles(const std::string& target);
 
 }  // namespace fastlio::testing

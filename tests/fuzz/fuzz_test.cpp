@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <sstream>
 #include <sys/resource.h>
@@ -64,13 +65,41 @@ void putNumber(std::string& bytes, std::size_t at, Random& random)
     bytes[at + i] = static_cast<char>(number >> (8 * i));
 }
 
+/** Text that readers trip over, in place of a number of a text. */
+void putNumberText(std::string& bytes, std::size_t at)
+{
+  constexpr const char* kNumbers[] = {
+      "0",     "-1",  "1",    "4294967295", "4294967296", "2147483648", "18446744073709551615",
+      "1e308", "nan", "-inf", "1e-320",     "0x10",       "65536",      "99999999999999999999"};
+  constexpr const char* kDigits = "0123456789.-+e";
+  const std::size_t begin = bytes.find_first_of(kDigits, at);
+  if (begin == std::string::npos) return;
+  const std::size_t end = std::min(bytes.find_first_not_of(kDigits, begin), bytes.size());
+  bytes.replace(begin, end - begin, kNumbers[(at + bytes.size()) % std::size(kNumbers)]);
+}
+
+/** Where the body begins of a file with a header in text; 0 for others. */
+std::size_t bodyOf(const std::string& bytes)
+{
+  for (const std::string& end :
+       {std::string("end_header\n"), std::string("DATA binary\n"), std::string("DATA ascii\n")})
+    if (const std::size_t at = bytes.find(end); at != std::string::npos) return at + end.size();
+  return 0;
+}
+
 void mutateOnce(std::string& bytes, const std::string& other, Random& random)
 {
   if (bytes.empty()) bytes = other;
   if (bytes.empty()) return;
-  const std::size_t at = random() % bytes.size(), length = 1 + random() % 64;
-  switch (random() % 7)
+  // Half of the time the header stays, so that what it describes is read.
+  std::size_t kept = random() % 2 == 0 ? bodyOf(bytes) : 0;
+  if (kept >= bytes.size()) kept = 0;
+  const std::size_t at = kept + random() % (bytes.size() - kept), length = 1 + random() % 64;
+  switch (random() % 8)
   {
+    case 6:
+      putNumberText(bytes, at);
+      break;
     case 0:
       bytes[at] ^= static_cast<char>(1U << (random() % 8));
       break;
