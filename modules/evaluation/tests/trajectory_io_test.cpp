@@ -164,6 +164,16 @@ TEST_F(TrajectoryIo, UnreadableFiles)
   expectThrows<std::runtime_error>(reading(file("# only\n\n")), {"no data"});
 }
 
+TEST_F(TrajectoryIo, LinesWithoutEndAndPipesAreRefused)
+{
+  const auto reading = [](const std::filesystem::path& path)
+  { return [path] { (void)readTrajectory(path); }; };
+  expectThrows<std::runtime_error>(
+      reading(file(std::string(1'000'000, '1'))), {":1:", "longer than 16384"});
+  expectThrows<std::runtime_error>(reading("/dev/zero"), {"/dev/zero", "a pipe or a device"});
+  expectThrows<std::runtime_error>(reading(file("1 2 \x1B[2J 4 5 6 7 8\n")), {"\\x1b[2J"});
+}
+
 TEST(TrajectoryTest, WhatIsNotATrajectoryIsRefused)
 {
   const auto checking = [](const Trajectory& t) { return [&t] { requireValid(t); }; };
