@@ -15,10 +15,15 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <new>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace fastlio
 {
@@ -99,6 +104,34 @@ bool hasUsablePoint(const WorldPoints& points)
         std::abs(points.z[i]) <= kFarthest)
       return true;
   return false;
+}
+
+/** Without the copies of points that many others equal: a search for neighbours visits all of them.
+ */
+WorldPoints withoutPiles(const WorldPoints& points)
+{
+  constexpr std::size_t kMostCopies = 10;  // of one point, more than neighbours are looked for
+  using Bits = std::array<std::uint32_t, 3>;
+  std::vector<std::pair<Bits, std::size_t>> sorted(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::array<float, 3> p{points.x[i], points.y[i], points.z[i]};
+    std::memcpy(sorted[i].first.data(), p.data(), sizeof(p));  // numbers or not, they have an order
+    sorted[i].second = i;
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> kept(points.size(), true);
+  for (std::size_t i = kMostCopies; i < sorted.size(); ++i)
+    kept[sorted[i].second] = sorted[i].first != sorted[i - kMostCopies].first;
+  WorldPoints few;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (!kept[i]) continue;
+    few.x.push_back(points.x[i]);
+    few.y.push_back(points.y[i]);
+    few.z.push_back(points.z[i]);
+  }
+  return few;
 }
 
 bool isReadPieceByPiece(const std::string& class_name)
@@ -182,6 +215,7 @@ SavedMap loadSavedMap(const std::string& path)
   if (saved.empty()) failMap(path, "has no points");
   if (!saved.planes && !hasUsablePoint(saved.points))
     failMap(path, "has no point with coordinates that are numbers up to 10,000 km");
+  saved.points = withoutPiles(saved.points);
   return saved;
 }
 

@@ -146,6 +146,20 @@ TEST(DamagedMapFile, CoordinatesThatAreNoneAreRefused)
   }
 }
 
+/** A search for neighbours would visit all points of a pile, for each of them. */
+TEST(DamagedMapFile, PilesOfEqualPointsAreReduced)
+{
+  const TemporaryFolder folder;
+  mrpt::maps::CSimplePointsMap map;
+  for (int i = 0; i < 200'000; ++i)
+    map.insertPoint(1.0F, 2.0F, i % 1000 == 999 ? static_cast<float>(i) : 3.0F);
+  archive(map, folder.file("pile"));
+  const SavedMap saved = loadSavedMap(folder.file("pile"));
+  EXPECT_EQ(saved.points.size(), 210U);
+  EXPECT_EQ(saved.points.z[0], 3.0F);
+  EXPECT_EQ(saved.points.z[10], 999.0F);
+}
+
 TEST(DamagedMapFile, PcdHeadersThatLieAreRefused)
 {
   const TemporaryFolder folder;
