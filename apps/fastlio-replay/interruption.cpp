@@ -3,6 +3,7 @@
 
 #include "interruption.h"
 
+#include <array>
 #include <csignal>
 
 namespace fastlio
@@ -16,17 +17,37 @@ void remember(int /*signal*/)
 {
   signal_received = 1;
 }
+struct Caught
+{
+  int signal;
+  bool ends_when_repeated;  //!< so that a second Ctrl-C always works
+  bool stays_ignored;       //!< where it is ignored already: by nohup, for example
+};
+
+// Own writes cause the last two again and again.
+constexpr std::array<Caught, 5> kCaught = {{
+    {SIGINT, true, false},
+    {SIGTERM, true, false},
+    {SIGHUP, true, true},
+    {SIGPIPE, false, true},
+    {SIGXFSZ, false, true},
+}};
 }  // namespace
 
 void catchInterruptions()
 {
   struct sigaction action = {};
   action.sa_handler = remember;
-  // One shot, so that a second Ctrl-C always works; reads go on, so that no data look truncated.
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const Caught& caught : kCaught)
+  {
+    struct sigaction before = {};
+    sigaction(caught.signal, nullptr, &before);
+    if (caught.stays_ignored && before.sa_handler == SIG_IGN) continue;
+    // Reads go on, so that no data look truncated.
+    action.sa_flags = SA_RESTART | (caught.ends_when_repeated ? static_cast<int>(SA_RESETHAND) : 0);
+    sigaction(caught.signal, &action, nullptr);
+  }
 }
 
 bool interrupted()
