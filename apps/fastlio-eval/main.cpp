@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include <fastlio/evaluation/report.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/same_file.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -32,6 +33,20 @@ void writeReports(
     fastlio::writeFileAtomically(command.svg_path, fastlio::toSvg(report));
 }
 
+/** No report may replace what it is about. */
+void requireHarmlessOutputs(const fastlio::EvalCommand& command)
+{
+  std::vector<fastlio::FileUse> inputs = {
+      {command.reference.string(), "--reference"}, {command.estimate.string(), "--estimate"}};
+  if (!command.kitti.times_file.empty())
+    inputs.push_back({command.kitti.times_file.string(), "--kitti-times"});
+  std::vector<fastlio::FileUse> outputs;
+  if (!command.json_path.empty() && command.json_path != "-")
+    outputs.push_back({command.json_path, "--json"});
+  if (!command.svg_path.empty()) outputs.push_back({command.svg_path.string(), "--plot"});
+  fastlio::requireDistinctFiles(inputs, outputs);
+}
+
 /** Says on standard error which limits are not kept, with both numbers. */
 int statusOf(const std::vector<fastlio::GateResult>& gates)
 {
@@ -48,6 +63,7 @@ int statusOf(const std::vector<fastlio::GateResult>& gates)
 
 int run(const fastlio::EvalCommand& command)
 {
+  requireHarmlessOutputs(command);
   const fastlio::EvaluationReport report = fastlio::evaluate(
       fastlio::readTrajectory(command.estimate, command.kitti),
       fastlio::readTrajectory(command.reference, command.kitti), command.evaluation);

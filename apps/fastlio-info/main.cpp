@@ -9,6 +9,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/input_file.h>
+#include <fastlio/files/same_file.h>
 
 #include <iostream>
 #include <stdexcept>
@@ -44,12 +45,24 @@ void write(const InfoArguments& arguments, const RecordingSurvey& survey)
     writeFileAtomically(arguments.json_path, toJson(survey));
 }
 
+/** The report may not replace what it is about. */
+void requireHarmlessOutput(const InfoArguments& arguments)
+{
+  if (arguments.json_path.empty() || arguments.json_path == "-") return;
+  std::vector<FileUse> inputs;
+  for (const std::string& file : arguments.input_files)
+    inputs.push_back({file, "recording"});
+  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
+  requireDistinctFiles(inputs, {{arguments.json_path, "--json"}});
+}
+
 int run(const InfoArguments& arguments)
 {
   if (const auto twice = sameFileTwice(arguments.input_files))
     throw std::runtime_error(
         "'" + arguments.input_files[twice->second] +
         "' is given twice; give each part of a recording once");
+  requireHarmlessOutput(arguments);
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
   const RecordingSurvey survey =

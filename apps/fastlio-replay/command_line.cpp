@@ -23,14 +23,16 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "Exit status:\n"
     "    0  ok\n"
-    "    1  wrong command line or configuration; nothing was run\n"
+    "    1  wrong command line or configuration, or outputs that would destroy something;\n"
+    "       nothing was run\n"
     "    2  input unreadable or without usable LiDAR and IMU; nothing was computed\n"
     "    3  input truncated or corrupt; results of what could be read are written\n"
     "    4  the odometry diverged or never initialised; results are written\n"
     "    5  an output file could not be written; the others are complete\n"
     "    6  degraded: stretches of the run cannot be trusted (untrusted.csv says which);\n"
     "       results are written\n"
-    "  130  interrupted (Ctrl-C or SIGTERM); results up to there are written\n"
+    "  130  interrupted (Ctrl-C, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ); results up to there are\n"
+    "       written\n"
     "When several apply, the order is 130, 5, 3, 4, 6.\n\n"
     "Example:\n"
     "  fastlio-replay -c params/velodyne_vlp16.yaml --input-rawlog walk.rawlog --output-dir out";
@@ -85,6 +87,9 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--output-tum-path", arguments.output_tum_path,
          "Write the trajectory (TUM format) to this file, with or without --output-dir")
       ->type_name("FILE");
+  app.add_flag(
+      "--overwrite", arguments.overwrite,
+      "Replace files in --output-dir also where no earlier run has written them");
   app.add_option(
          "--export", arguments.exporters,
          "Files to write into --output-dir, by the names listed below; default: those without *")

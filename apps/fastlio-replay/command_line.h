@@ -21,6 +21,7 @@ struct ReplayArguments
   std::vector<std::string> input_files;           //!< rawlogs, in order
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none
+  bool overwrite = false;                         //!< also files that no run has written
   std::optional<std::string> lidar_sensor_label;  //!< overrides input.lidar_sensor_label
   std::optional<std::string> imu_sensor_label;    //!< overrides input.imu_sensor_label
   std::size_t skip_first_n = 0;                   //!< scans that are left out at the start

@@ -98,6 +98,7 @@ ExportTarget outputOptions(const RunSetup& setup)
 ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
     : setup_(std::move(setup)),
       logger_(logger),
+      places_(setup_.outputs),
       odometry_(setup_.config.odometry),
       exporters_(makeExporters(outputOptions(setup_))),
       output_map_(outputMapOptions(setup_)),
@@ -128,7 +129,9 @@ RunSummary ReplayRun::execute()
   progress_.clear();
   RunSummary summary = summarize(source);
   summary.wall_seconds = stopwatch.Tac();
-  return exporters_.finish(std::move(summary), output_map_, &odometry_.map());
+  summary = exporters_.finish(std::move(summary), output_map_, &odometry_.map());
+  places_.removeLeftovers(summary);
+  return summary;
 }
 
 void ReplayRun::consume(DecodeAheadSource& source)

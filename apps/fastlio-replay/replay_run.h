@@ -21,9 +21,9 @@ namespace fastlio
 class ReplayRun
 {
  public:
-  /** Opens the output files.
+  /** Makes the output places and opens the files.
    * \exception std::invalid_argument a parameter is out of range
-   * \exception std::runtime_error an output file cannot be opened */
+   * \exception std::runtime_error an output file cannot be opened, or another run writes there */
   ReplayRun(RunSetup setup, mrpt::system::COutputLogger& logger);
 
   /** To the end of the input, of the scans asked for, or until interrupted(). Call once. */
@@ -44,6 +44,7 @@ class ReplayRun
 
   RunSetup setup_;
   mrpt::system::COutputLogger& logger_;
+  OutputPlaces places_;  //!< outlives what writes there
   Odometry odometry_;
   ExporterSet exporters_;
   OutputMap output_map_;

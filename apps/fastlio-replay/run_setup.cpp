@@ -5,7 +5,6 @@
 
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
-#include <fastlio/files/atomic_file.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
@@ -104,26 +103,11 @@ std::string inOneLine(std::string text)
   return text;
 }
 
-/** The trajectory file is not written twice under the same name. */
-ReplayArguments withoutDoubleTrajectory(ReplayArguments arguments)
-{
-  if (arguments.output_directory.empty() || arguments.output_tum_path.empty()) return arguments;
-  const auto own = fs::weakly_canonical(fs::path(arguments.output_directory) / "trajectory.tum");
-  if (fs::weakly_canonical(arguments.output_tum_path) == own) arguments.output_tum_path.clear();
-  return arguments;
-}
-
-void prepareOutputs(const ReplayArguments& arguments)
+OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config)
 {
   try
   {
-    if (!arguments.output_directory.empty()) prepareOutputDirectory(arguments.output_directory);
-    if (arguments.output_tum_path.empty()) return;
-    const auto parent = fs::absolute(arguments.output_tum_path).parent_path().string();
-    prepareOutputDirectory(parent);
-    if (fs::is_directory(arguments.output_tum_path))
-      throw std::runtime_error(
-          "--output-tum-path '" + arguments.output_tum_path + "' is a folder; give a file name");
+    return planOutputs(arguments, config);
   }
   catch (const std::exception& e)
   {
@@ -221,9 +205,9 @@ std::string dumpedConfig(const ReplayArguments& arguments)
 RunSetup setUpRun(const ReplayArguments& arguments)
 {
   RunSetup setup;
-  setup.arguments = withoutDoubleTrajectory(arguments);
   setup.config = loadConfiguration(arguments).file.config;
-  prepareOutputs(setup.arguments);
+  setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
+  setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);
   const SensorOptions& sensors = setup.config.sensors;
   const SensorPatterns patterns = patternsOf(sensors);

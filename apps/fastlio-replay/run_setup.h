@@ -5,6 +5,7 @@
 #pragma once
 
 #include "command_line.h"
+#include "output_places.h"
 #include <fastlio/config/config.h>
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/exporters/run_summary.h>
@@ -38,6 +39,7 @@ struct RunSetup
 {
   ReplayArguments arguments;
   Config config;
+  OutputPlan outputs;
   std::string configuration;  //!< where the configuration comes from, for people
   SensorSelection selection;
   InputPlan plan;
@@ -49,7 +51,7 @@ struct RunSetup
  * (--dump-config). \exception SetupError the file cannot be used */
 [[nodiscard]] std::string dumpedConfig(const ReplayArguments& arguments);
 
-/** Loads the configuration, makes the output places, looks for the sensors, in this order.
+/** Loads the configuration, checks the output places, looks for the sensors, in this order.
  * \exception SetupError with the exit status to end with */
 [[nodiscard]] RunSetup setUpRun(const ReplayArguments& arguments);
 

@@ -22,7 +22,7 @@ constexpr const char* kFooter = R"(Files in the output directory:
 
 Exit status:
   0  written
-  1  wrong usage, an unusable setting, or a file that cannot be written)";
+  1  wrong usage, an unusable setting, or a file that cannot be written or is not ours to replace)";
 
 /** An option of its own for a setting that is changed often. */
 struct Shorthand
@@ -103,6 +103,9 @@ void addOptions(CLI::App& app, SimCommand& command)
          "-o,--output-dir", command.output_dir,
          "Directory for the files, created when absent [simulated_NAME]")
       ->type_name("DIR");
+  app.add_flag(
+      "--overwrite", command.overwrite,
+      "Also replace files of these names that fastlio-sim did not write");
   app.add_flag("--list", command.list_scenarios, "List the scenarios");
   app.add_flag(
       "--list-settings", command.list_settings,

@@ -23,6 +23,7 @@ struct SimCommand
   bool list_scenarios = false;
   bool list_settings = false;
   bool quiet = false;
+  bool overwrite = false;
 };
 
 /** Declares the options on an application, bound to a command that must outlive it. */

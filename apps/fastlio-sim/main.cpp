@@ -33,7 +33,8 @@ void simulate(const fastlio::SimCommand& command)
       command.output_dir.empty() ? "simulated_" + command.scenario : command.output_dir;
   const bool progress = !command.quiet && isatty(STDERR_FILENO) == 1;
   const fastlio::RecordingFiles files = fastlio::writeRecording(
-      simulation, directory, progress ? showProgress : fastlio::RecordingProgress{});
+      simulation, directory, progress ? showProgress : fastlio::RecordingProgress{},
+      command.overwrite);
   if (command.quiet) return;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   std::cout << "Simulated '" << command.scenario << "': " << simulation.settings().duration

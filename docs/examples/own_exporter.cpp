@@ -3,6 +3,7 @@
 
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/files/made_folders.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/observation_bridge.h>
@@ -56,7 +57,6 @@ std::vector<fastlio::ExporterKind> kindsWithSpeed()
 
 fastlio::ExporterSet exportersInto(const std::string& directory)
 {
-  fastlio::prepareOutputDirectory(directory);
   fastlio::ExportTarget target;
   target.directory = directory;
   target.parameters.exporters = "trajectory, speed";
@@ -66,6 +66,7 @@ fastlio::ExporterSet exportersInto(const std::string& directory)
 /** Number of files that were completed. */
 std::size_t replay(const std::string& rawlog, const std::string& directory)
 {
+  const fastlio::MadeFolders folder(directory);  // removed in the end when it is still empty
   fastlio::ExporterSet exporters = exportersInto(directory);
   fastlio::Odometry odometry({});  // every option has its default
 

@@ -230,4 +230,18 @@ TEST_F(FastlioEval, UnwritableOutputExitsWithOne)
   expectOutcome(evaluate + ">/dev/full", 1, {});
 }
 
+TEST_F(FastlioEval, ReportsDoNotReplaceInputsNorEachOther)
+{
+  const std::string estimate = contentOf(folder_.path() / "estimate.tum");
+  std::filesystem::create_hard_link(folder_.path() / "estimate.tum", folder_.path() / "linked.tum");
+  std::filesystem::create_symlink("truth.tum", folder_.path() / "link.tum");
+  const std::string inputs = "truth.tum estimate.tum ";
+  expectOutcome(inputs + "--json ./estimate.tum", 1, {"'estimate.tum' (--estimate)"});
+  expectOutcome(inputs + "--plot linked.tum", 1, {"'linked.tum' (--plot)"});
+  expectOutcome(inputs + "--plot link.tum", 1, {"'truth.tum' (--reference)"});
+  expectOutcome(inputs + "--plot a --json ./a", 1, {"are the same file"});
+  EXPECT_EQ(contentOf(folder_.path() / "estimate.tum"), estimate);
+  expectOutcome(inputs + "-a yaw --plot /dev/null --json /dev/null", 0, {""});
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
 }  // namespace

@@ -164,6 +164,16 @@ TEST_F(Info, SaysWhyReplayCannotRun)
   expectInTable("of the LiDAR's time only");
 }
 
+TEST_F(Info, TheReportDoesNotReplaceTheRecording)
+{
+  const std::string rawlog = record("rest", {{"duration", "1"}, {"lidar.stride", "20"}});
+  const std::string before = contentOf(rawlog);
+  const auto result = info({rawlog, "--json", rawlog});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.output.find("is the same file as the input"), std::string::npos);
+  EXPECT_TRUE(contentOf(rawlog) == before);
+}
+
 TEST_F(Info, GapsAreFound)
 {
   const Json all = jsonOf(record("office", {{"imu.gap_interval", "3"}, {"imu.gap_length", "0.2"}}));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "replay_test_support.h"
+#include <fastlio/files/atomic_file.h>
 
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -190,13 +191,15 @@ TEST_F(GoodInput, QuietAtErrorAndTalkativeAtDebug)
   EXPECT_GT(std::count(debug.output.begin(), debug.output.end(), '\n'), 40) << debug.output;
 }
 
-/** Waits until rows have reached the disk, so that the run is in its middle. */
-bool waitForRows(const std::string& path)
+/** Waits until rows of a file have reached the disk, so that the run is in its middle. */
+bool waitForRows(const std::string& folder, const std::string& name)
 {
+  std::error_code error;
   for (int i = 0; i < 6000; ++i)
   {
-    std::error_code error;
-    if (std::filesystem::file_size(path, error) > 0 && !error) return true;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+      if (isTemporaryOf(name, entry.path().filename().string()) && entry.file_size(error) > 0)
+        return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return false;
@@ -215,7 +218,7 @@ TEST_P(InterruptionBy, FinishesTheFiles)
       command(
           {"--input-rawlog", rawlog, "--output-dir", file("out"), "--threads", "1", "--imu-rate"}),
       file("log.txt"));
-  ASSERT_TRUE(waitForRows(file("out/states.csv.tmp")));
+  ASSERT_TRUE(waitForRows(file("out"), "states.csv"));
   process.signal(GetParam());
   expectEnd(process.wait(), 130, "interrupted");
   expectAllFiles();
@@ -226,7 +229,8 @@ TEST_P(InterruptionBy, FinishesTheFiles)
   EXPECT_GT(linesOf(file("out/imu_rate.csv")), linesOf(file("out/trajectory.tum")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, InterruptionBy, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(
+    Signals, InterruptionBy, ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ));
 
 }  // namespace
 }  // namespace fastlio::testing

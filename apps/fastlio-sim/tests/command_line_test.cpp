@@ -135,4 +135,36 @@ TEST_F(FastlioSim, DirectoriesThatCannotBeWrittenAreNamed)
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_TRUE(mentions(result, path("file"))) << result.output;
 }
+
+TEST_F(FastlioSim, ReplacesItsOwnRecordingOnly)
+{
+  const std::vector<std::string> short_run = {"rest", "--duration", "1",        "--stride",
+                                              "20",   "-o",         path("out")};
+  const auto again = [&](const char* option)
+  {
+    std::vector<std::string> arguments = short_run;
+    arguments.emplace_back(option);
+    return run(arguments);
+  };
+  fs::create_directory(path("out"));
+  std::ofstream(path("out/config.yaml")) << "# of the user";
+  const ProcessResult refused = run(short_run);
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_TRUE(mentions(refused, path("out/config.yaml"))) << refused.output;
+  EXPECT_EQ(fs::file_size(path("out/config.yaml")), 13U);
+  EXPECT_FALSE(fs::exists(path("out/recording.rawlog")));
+  EXPECT_EQ(again("--overwrite").exit_status, 0);
+  EXPECT_EQ(again("--quiet").exit_status, 0);
+}
+
+TEST_F(FastlioSim, TwoOutputsAreTwoFiles)
+{
+  fs::create_directory(path("out"));
+  fs::create_symlink("ground_truth.tum", path("out/recording.rawlog"));
+  const ProcessResult result =
+      run({"rest", "--duration", "1", "--stride", "20", "--overwrite", "-o", path("out")});
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_TRUE(mentions(result, "are the same file")) << result.output;
+  EXPECT_FALSE(fs::exists(path("out/config.yaml")));
+}
 }  // namespace

@@ -5,11 +5,14 @@
 #include <fastlio/map/incremental_points_map.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <unistd.h>
+#include <string_view>
+#include <system_error>
 
 namespace fastlio
 {
@@ -17,7 +20,9 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr float kFarthest = 1e7F;  // [m]: tiles are numbered by int
+constexpr std::string_view kTileFolder = "map-tiles-";
+constexpr std::string_view kUnique = "XXXXXX";  // for mkdtemp
+constexpr float kFarthest = 1e7F;               // [m]: tiles are numbered by int
 
 bool usable(float x, float y, float z)
 {
@@ -179,9 +184,13 @@ std::string OutputMap::pathOf(const Key& key)
   {
     const fs::path place =
         options_.directory.empty() ? fs::temp_directory_path() : fs::path(options_.directory);
-    folder_ = (place / ("map-tiles-" + std::to_string(getpid()) + ".tmp")).string();
-    std::error_code ignored;  // writing the tile tells
-    fs::create_directories(folder_, ignored);
+    std::string name = (place / kTileFolder).string().append(kUnique);
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error(
+          "cannot make a folder for pieces of the map in '" + place.string() +
+          "': " + std::generic_category().message(errno) +
+          "; check permissions and free space, or allow more memory (output.map_memory)");
+    folder_ = name;
   }
   return (fs::path(folder_) / (std::to_string(key.first) + "_" + std::to_string(key.second)))
       .string();
@@ -222,6 +231,12 @@ void OutputMap::forEachTile(const std::function<void(const OutputPoints&)>& use)
     else
       use(readTile(tile->path, tile->size));
   }
+}
+
+bool isTileFolder(const std::string& name)
+{
+  return name.size() == kTileFolder.size() + kUnique.size() &&
+         name.compare(0, kTileFolder.size(), kTileFolder) == 0;
 }
 
 OutputPoints outputPointsOf(const WorldPoints& points, const RegisteredFields& fields)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -50,6 +51,19 @@ bool isWanted(const ExporterKind& kind, const std::vector<std::string>& names, b
   if (kind.name == "imu_rate") return imu_rate;
   return names.empty() && kind.standard;
 }
+
+std::vector<ExporterKind> wantedKinds(
+    const Options& options, const std::vector<ExporterKind>& kinds)
+{
+  const auto names = namesIn(options.parameters.exporters);
+  requireKnown(names, kinds);
+  std::vector<ExporterKind> wanted;
+  if (options.directory.empty()) return wanted;
+  const auto is_wanted = [&](const ExporterKind& kind)
+  { return isWanted(kind, names, options.imu_rate); };
+  std::copy_if(kinds.begin(), kinds.end(), std::back_inserter(wanted), is_wanted);
+  return wanted;
+}
 }  // namespace
 
 std::string ExportTarget::path(std::string_view file) const
@@ -63,7 +77,8 @@ const std::vector<ExporterKind>& exporterKinds()
       {"trajectory", "trajectory.tum", "pose at each scan's end (TUM)", true,
        [](const Options& o) { return makeTumExporter(o.path("trajectory.tum"), o.frame); }},
       {"kitti", "trajectory.kitti", "the same as 3x4 matrices, times beside it", false,
-       [](const Options& o) { return makeKittiExporter(o.path("trajectory.kitti"), o.frame); }},
+       [](const Options& o) { return makeKittiExporter(o.path("trajectory.kitti"), o.frame); },
+       "trajectory.kitti_times"},
       {"states", "states.csv", "the whole state and its standard deviations", true,
        [](const Options& o) { return makeStatesExporter(o.path("states.csv")); }},
       {"covariance", "covariance.csv", "pose and its 6x6 covariance", true,
@@ -108,15 +123,23 @@ std::string exporterHelp()
   return text;
 }
 
+std::vector<std::string> outputFileNames(
+    const ExportTarget& options, const std::vector<ExporterKind>& kinds)
+{
+  std::vector<std::string> files;
+  for (const ExporterKind& kind : wantedKinds(options, kinds))
+    for (const std::string_view file : {kind.file, kind.second_file})
+      if (!file.empty()) files.emplace_back(file);
+  return files;
+}
+
 ExporterSet makeExporters(const ExportTarget& options, const std::vector<ExporterKind>& kinds)
 {
-  const auto names = namesIn(options.parameters.exporters);
-  requireKnown(names, kinds);
+  const std::vector<ExporterKind> wanted = wantedKinds(options, kinds);
   ExporterSet set;
   if (!options.tum_path.empty()) set.add(makeTumExporter(options.tum_path, options.frame));
-  if (options.directory.empty()) return set;
-  for (const ExporterKind& kind : kinds)
-    if (isWanted(kind, names, options.imu_rate)) set.add(kind.make(options));
+  for (const ExporterKind& kind : wanted)
+    set.add(kind.make(options));
   return set;
 }
 

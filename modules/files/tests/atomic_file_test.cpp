@@ -1,16 +1,20 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "temporary_folder.h"
+#include "folder_listing.h"
 #include <fastlio/files/atomic_file.h>
 
 #include <stdexcept>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
 
 namespace fastlio
 {
 namespace
 {
 using testing::contentOf;
+using testing::namesIn;
 using testing::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -26,7 +30,7 @@ TEST(OutputFiles, AppearUnderTheirNameOnlyWhenCommitted)
   EXPECT_EQ(contentOf(path), "half and half");
   EXPECT_EQ(written.bytes, 13U);
   EXPECT_EQ(written.path, path);
-  EXPECT_FALSE(fs::exists(temporaryPathOf(path)));
+  EXPECT_EQ(namesIn(folder), "a.txt");
 }
 
 TEST(OutputFiles, ReplaceTheirPredecessorAtTheEnd)
@@ -41,16 +45,75 @@ TEST(OutputFiles, ReplaceTheirPredecessorAtTheEnd)
   EXPECT_EQ(contentOf(path), "new");
 }
 
-TEST(OutputFiles, KeepWhatWasWrittenWhenNeverCommitted)
+TEST(OutputFiles, LeaveNothingWhenNeverCommitted)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.txt");
   {
     AtomicFile file(path);
-    file.write("rows so far");
+    file.write(std::string(100'000, 'x'));
+    EXPECT_TRUE(isTemporaryOf("a.txt", namesIn(folder))) << namesIn(folder);
   }
-  EXPECT_FALSE(fs::exists(path));
-  EXPECT_EQ(contentOf(temporaryPathOf(path)), "rows so far");
+  EXPECT_EQ(namesIn(folder), "");
+}
+
+TEST(OutputFiles, TemporaryNamesAreNotPredictable)
+{
+  const TemporaryFolder folder;
+  const AtomicFile one(folder.file("a.txt")), other(folder.file("a.txt"));
+  const std::string names = namesIn(folder);
+  EXPECT_EQ(std::count(names.begin(), names.end(), ' '), 1) << names;
+  EXPECT_FALSE(isTemporaryOf("a.txt", "a.txt.tmp"));
+  EXPECT_FALSE(isTemporaryOf("a.txt", "a.txt.notes.of.tmp"));
+  EXPECT_FALSE(isTemporaryOf("a.txt", "b.txt.abcdefgh.tmp"));
+  EXPECT_TRUE(isTemporaryOf("a.txt", "a.txt.abcdefgh.tmp"));
+}
+
+TEST(OutputFiles, ALinkStaysAndItsTargetIsReplaced)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("elsewhere"));
+  std::ofstream(folder.file("elsewhere/target")) << "old";
+  fs::create_symlink("elsewhere/target", folder.file("link"));
+  fs::create_symlink("elsewhere/later", folder.file("dangling"));
+  writeFileAtomically(folder.file("link"), "new");
+  writeFileAtomically(folder.file("dangling"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder.file("link")));
+  EXPECT_EQ(contentOf(folder.file("elsewhere/target")), "new");
+  EXPECT_EQ(contentOf(folder.file("elsewhere/later")), "new");
+  EXPECT_EQ(namesIn(folder), "dangling elsewhere link");
+  fs::create_symlink("circle", folder.file("circle"));
+  EXPECT_THROW(writeFileAtomically(folder.file("circle"), "new"), std::runtime_error);
+}
+
+TEST(OutputFiles, WhatIsNoRegularFileIsWrittenTo)
+{
+  const TemporaryFolder folder;
+  fs::create_symlink("/dev/null", folder.file("null"));
+  writeFileAtomically(folder.file("null"), "gone");
+  EXPECT_TRUE(fs::is_character_file(folder.file("null")));
+  ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
+  std::string received;
+  std::thread reader([&] { received = contentOf(folder.file("pipe")); });
+  writeFileAtomically(folder.file("pipe"), "through the pipe");
+  reader.join();
+  EXPECT_EQ(received, "through the pipe");
+  EXPECT_TRUE(fs::is_fifo(folder.file("pipe")));
+  EXPECT_EQ(namesIn(folder), "null pipe");
+}
+
+TEST(OutputFiles, PermissionsOfTheReplacedFileStay)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("private")) << "old";
+  fs::permissions(folder.file("private"), fs::perms::owner_read | fs::perms::owner_write);
+  writeFileAtomically(folder.file("private"), "new");
+  const auto permissions = fs::status(folder.file("private")).permissions();
+  EXPECT_EQ(permissions, fs::perms::owner_read | fs::perms::owner_write);
+  if (geteuid() == 0) return;  // root may write everything
+  fs::permissions(folder.file("private"), fs::perms::owner_read);
+  EXPECT_THROW(writeFileAtomically(folder.file("private"), "newer"), std::runtime_error);
+  EXPECT_EQ(contentOf(folder.file("private")), "new");
 }
 
 TEST(OutputFiles, UnwritablePlacesAreErrorsThatNameThem)
@@ -68,15 +131,14 @@ TEST(OutputFiles, UnwritablePlacesAreErrorsThatNameThem)
     EXPECT_NE(std::string(e.what()).find(inside_a_file), std::string::npos) << e.what();
     EXPECT_NE(std::string(e.what()).find("permissions"), std::string::npos) << e.what();
   }
-  EXPECT_THROW(prepareOutputDirectory(folder.file("file")), std::runtime_error);
-  EXPECT_THROW(prepareOutputDirectory(inside_a_file), std::runtime_error);
+  EXPECT_THROW(AtomicFile{folder.path()}, std::runtime_error);
 }
 
 TEST(OutputFiles, AFullDiskIsAnErrorAtTheLatestOnCommit)
 {
   const TemporaryFolder folder;
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
-  fs::create_symlink("/dev/full", folder.file("a.txt.tmp"));
+  fs::create_symlink("/dev/full", folder.file("a.txt"));
   AtomicFile file(folder.file("a.txt"));
   const auto writeAndCommit = [&file]
   {
@@ -84,16 +146,6 @@ TEST(OutputFiles, AFullDiskIsAnErrorAtTheLatestOnCommit)
     file.commit();
   };
   EXPECT_THROW(writeAndCommit(), std::runtime_error);
-  EXPECT_FALSE(fs::exists(folder.file("a.txt")));
-}
-
-TEST(OutputFiles, DirectoriesAreMadeWithTheirParents)
-{
-  const TemporaryFolder folder;
-  prepareOutputDirectory(folder.file("a/b/c"));
-  EXPECT_TRUE(fs::is_directory(folder.file("a/b/c")));
-  EXPECT_TRUE(fs::is_empty(folder.file("a/b/c")));
-  prepareOutputDirectory(folder.file("a/b/c"));  // exists already
 }
 
 TEST(OutputFiles, WholeContentReplacesAndLeavesNothingBehind)
@@ -102,9 +154,7 @@ TEST(OutputFiles, WholeContentReplacesAndLeavesNothingBehind)
   std::ofstream(folder.file("report.json")) << "old";
   writeFileAtomically(folder.file("report.json"), "new");
   EXPECT_EQ(contentOf(folder.file("report.json")), "new");
-  const auto entries =
-      std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
-  EXPECT_EQ(entries, 1);
+  EXPECT_EQ(namesIn(folder), "report.json");
   EXPECT_THROW(writeFileAtomically(folder.file("none") + "/x", ""), std::runtime_error);
 }
 

@@ -4,20 +4,21 @@
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/config/config_document.h>
 #include <fastlio/exporters/number_text.h>
+#include <fastlio/exporters/run_folder.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/gzip_file.h>
+#include <fastlio/files/same_file.h>
 #include <fastlio/parallel/workers.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
 
 #include <Eigen/Geometry>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -49,43 +50,31 @@ class RawlogFile
 {
  public:
   RawlogFile(const std::string& path, const std::vector<ImuSample>& samples)
-      : path_(path), samples_(samples), file_(temporaryPathOf(path))
+      : samples_(samples), file_(path)
   {
-    if (!file_.fileOpenCorrectly())
-      throw std::runtime_error(
-          "Cannot write '" + temporaryPathOf(path) + "'; check that the folder is writable.");
   }
 
   void write(const EncodedSweep& sweep)
   {
     writeImuUntil(sweep.stamp_ns);
-    write(sweep.bytes);
+    file_.write(sweep.bytes);
   }
 
   void finish()
   {
     writeImuUntil(std::numeric_limits<std::int64_t>::max());
-    file_.close();
-    renameIntoPlace(path_);
+    file_.commit();
   }
 
  private:
   void writeImuUntil(std::int64_t stamp_ns)
   {
     for (; next_ < samples_.size() && samples_[next_].stamp_ns <= stamp_ns; ++next_)
-      write(serialized(*toImuObservation(samples_[next_])));
+      file_.write(serialized(*toImuObservation(samples_[next_])));
   }
 
-  void write(std::string_view bytes)
-  {
-    if (file_.Write(bytes.data(), bytes.size()) != bytes.size())
-      throw std::runtime_error(
-          "Cannot write to '" + temporaryPathOf(path_) + "'; check for free space on the disk.");
-  }
-
-  std::string path_;
   const std::vector<ImuSample>& samples_;
-  mrpt::io::CFileGZOutputStream file_;
+  GzipFile file_;
   std::size_t next_ = 0;
 };
 
@@ -124,13 +113,6 @@ void writeRawlog(
   file.finish();
 }
 
-void writeText(const std::string& path, std::string_view text)
-{
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
 std::string configText(const SimulationSettings& settings)
 {
   const std::string header = "# Parameters that match the simulated recording '" +
@@ -160,16 +142,29 @@ std::string groundTruthText(const Simulation& simulation)
 }
 
 RecordingFiles writeRecording(
-    const Simulation& simulation, const std::string& directory, const RecordingProgress& progress)
+    const Simulation& simulation, const std::string& directory, const RecordingProgress& progress,
+    bool overwrite)
 {
-  prepareOutputDirectory(directory);
-  RecordingFiles files{
+  const RunFolder folder(
+      {directory,
+       {"recording.rawlog", "ground_truth.tum", "config.yaml", "scenario.json"},
+       "scenario.json",
+       "scenario",
+       overwrite});
+  const RecordingFiles files{
       directory + "/recording.rawlog", directory + "/ground_truth.tum", directory + "/config.yaml",
       directory + "/scenario.json"};
-  writeText(files.config, configText(simulation.settings()));
-  writeText(files.ground_truth, groundTruthText(simulation));
-  writeText(files.scenario, scenarioJson(simulation));
+  requireDistinctFiles(
+      {}, {{files.rawlog, "recording"},
+           {files.ground_truth, "ground truth"},
+           {files.config, "configuration"},
+           {files.scenario, "scenario"}});
+  writeFileAtomically(files.config, configText(simulation.settings()));
+  writeFileAtomically(files.ground_truth, groundTruthText(simulation));
   writeRawlog(simulation, files.rawlog, progress);
+  // The last: it says that the recording is complete.
+  writeFileAtomically(files.scenario, scenarioJson(simulation));
+  folder.removeLeftovers({});
   return files;
 }
 

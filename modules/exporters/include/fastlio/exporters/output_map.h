@@ -86,6 +86,10 @@ class OutputMap
   std::string folder_;  //!< of the files; empty until there is one
 };
 
+/** Whether a folder of that name holds the tiles of an OutputMap: its process was killed when it is
+ * still there afterwards. */
+[[nodiscard]] bool isTileFolder(const std::string& name);
+
 /** The points that a scan added to the odometry's map (Odometry::registeredPoints()). */
 [[nodiscard]] OutputPoints outputPointsOf(
     const WorldPoints& points, const RegisteredFields& fields);

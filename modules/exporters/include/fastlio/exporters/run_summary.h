@@ -44,7 +44,7 @@ struct RunSummary
   ImuReport imu;                            //!< units, rate and faults of the inertial sensor
   std::vector<Diagnostic> diagnostics;      //!< what the user should know, in order
   double wall_seconds = 0;                  //!< of the whole run, reading included
-  bool interrupted = false;                 //!< stopped by SIGINT or SIGTERM
+  bool interrupted = false;                 //!< stopped by a signal
   std::vector<std::string> input_problems;  //!< truncated or corrupt input, in sentences
   std::string failure;                      //!< unexpected error that ended the run early, or empty
   std::vector<std::string> output_problems;  //!< files that could not be written
@@ -61,7 +61,7 @@ enum class ExitStatus : int
   OdometryFailed = 4,  //!< diverged or never initialised: results written
   OutputFailed = 5,    //!< an output file could not be written; the others are complete
   Degraded = 6,        //!< stretches of the run cannot be trusted: results written
-  Interrupted = 130    //!< SIGINT or SIGTERM: results up to there
+  Interrupted = 130    //!< a signal: results up to there
 };
 
 /** Exit status of a run that computed something; when several apply, the first of interrupted,

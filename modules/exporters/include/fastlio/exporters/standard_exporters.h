@@ -38,6 +38,7 @@ struct ExporterKind
   std::string_view content;  //!< for people
   bool standard;             //!< written when no names are given
   std::unique_ptr<Exporter> (*make)(const ExportTarget& options);
+  std::string_view second_file = {};  //!< name of another file of the same format; empty: none
 };
 
 /** Every format. A new one is a file with a class, and a row here. */
@@ -51,6 +52,11 @@ struct ExporterKind
  * \exception std::invalid_argument an unknown name (the message lists those that there are)
  * \exception std::runtime_error a file cannot be opened */
 [[nodiscard]] ExporterSet makeExporters(
+    const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
+
+/** Names of the files that makeExporters() writes into the directory, without the directory.
+ * \exception std::invalid_argument as makeExporters() */
+[[nodiscard]] std::vector<std::string> outputFileNames(
     const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
 
 /** `trajectory.tum`: "t x y z qx qy qz qw" per scan with a pose, t in seconds with 9 decimals. */

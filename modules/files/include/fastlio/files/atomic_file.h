@@ -4,8 +4,9 @@
 /** \file atomic_file.h Output files that appear under their name only when they are complete. */
 #pragma once
 
+#include <fastlio/files/file_descriptor.h>
+
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -18,47 +19,55 @@ struct OutputFile
   std::uintmax_t bytes = 0;
 };
 
-/** Where the content of \a path grows until it is complete: `<path>.tmp`. */
-[[nodiscard]] std::string temporaryPathOf(const std::string& path);
-
-/** Renames `<path>.tmp` to \a path, replacing an older file of that name.
- * \exception std::runtime_error the rename failed; the temporary file stays */
-OutputFile renameIntoPlace(const std::string& path);
-
-/** Creates \a directory (and its parents) when absent and proves that files can be written there.
- * \exception std::runtime_error it cannot be created or written */
-void prepareOutputDirectory(const std::string& directory);
-
-/** Writes to `<path>.tmp` and renames to `<path>` on commit().
+/** Writes to a temporary file beside `<path>` and gives it that name on commit().
  *
- * Readers never see half a file, and a file of an earlier run stays until its successor is
- * complete. Destroyed without commit(), the temporary file stays: what was computed is not lost.
+ * Readers never see half a file, and an older file of that name stays until its successor is on the
+ * disk, also when the power fails. Destroyed without commit(), the temporary file is removed; when
+ * the process is killed it stays, as `<path>.XXXXXXXX.tmp`. A symbolic link is followed: the file
+ * that it points to is replaced. What is no regular file (a device, a pipe), and what is the
+ * standard output or error of the process, is written to directly.
  */
 class AtomicFile
 {
  public:
-  /** Opens the temporary file.
-   * \exception std::runtime_error it cannot be opened */
+  /** Opens the temporary file; a pipe is waited for until somebody reads it.
+   * \exception std::runtime_error it cannot be opened, or `<path>` may not be written */
   explicit AtomicFile(std::string path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
 
   /** Appends bytes.
    * \exception std::runtime_error the disk refused them */
   void write(std::string_view bytes);
 
-  /** Flushes, closes and renames.
-   * \exception std::runtime_error the bytes did not reach the disk or
-   * the rename failed */
+  /** Brings the bytes to the disk, then renames.
+   * \exception std::runtime_error the bytes did not reach the disk or the rename failed; an older
+   * file is still there */
   OutputFile commit();
 
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
+  void openDirectly();
+  void openTemporary(const std::string& target);
+  void flush();
+  void writeThrough(std::string_view bytes);
+  void rename();
+
   std::string path_;
-  std::ofstream out_;
+  std::string target_;     //!< what is replaced: the path with links followed
+  std::string temporary_;  //!< empty: written directly, or renamed
+  std::string buffer_;
+  std::uintmax_t bytes_ = 0;
+  FileDescriptor file_;
 };
 
 /** A whole file in one go.
  * \exception std::runtime_error the file cannot be written */
 OutputFile writeFileAtomically(const std::string& path, std::string_view content);
+
+/** Whether \a name is that of a temporary file of AtomicFile for a file called \a file. */
+[[nodiscard]] bool isTemporaryOf(std::string_view file, std::string_view name);
 
 }  // namespace fastlio

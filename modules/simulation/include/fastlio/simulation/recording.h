@@ -26,11 +26,12 @@ struct RecordingFiles
 };
 
 /** Writes all files into a directory, which is created when absent. Each file appears under its
- * name when it is complete. The same settings give the same bytes. \exception std::runtime_error a
- * file cannot be written */
+ * name when it is complete, the scenario as the last. The same settings give the same bytes.
+ * \param overwrite also files that are no earlier recording may be replaced
+ * \exception std::runtime_error a file cannot be written, or would replace one that is not ours */
 RecordingFiles writeRecording(
     const Simulation& simulation, const std::string& directory,
-    const RecordingProgress& progress = {});
+    const RecordingProgress& progress = {}, bool overwrite = false);
 
 /** The odometry's parameters that match the simulated sensors: noise densities (a vibration counts
  * as white noise of the same power), prior of the accelerometer bias, ranges, mounting, time

@@ -1,0 +1,129 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "output_places.h"
+
+#include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/files/same_file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kTrajectory = "trajectory.tum";
+
+std::vector<std::string> namesInFolder(const ReplayArguments& arguments, const Config& config)
+{
+  ExportTarget target;
+  target.directory = arguments.output_directory;
+  target.parameters = config.exporters;
+  target.imu_rate = config.odometry.imu_rate;
+  return outputFileNames(target);
+}
+
+std::vector<FileUse> inputsOf(const ReplayArguments& arguments)
+{
+  std::vector<FileUse> inputs;
+  for (const std::string& file : arguments.input_files)
+    inputs.push_back({file, "--input-rawlog"});
+  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
+  if (!arguments.map_in.empty()) inputs.push_back({arguments.map_in, "--map-in"});
+  return inputs;
+}
+
+std::vector<FileUse> outputsOf(
+    const ReplayArguments& arguments, const std::vector<std::string>& names)
+{
+  std::vector<FileUse> outputs;
+  for (const std::string& name : names)
+    outputs.push_back({(fs::path(arguments.output_directory) / name).string(), "--output-dir"});
+  if (!arguments.output_tum_path.empty())
+    outputs.push_back({arguments.output_tum_path, "--output-tum-path"});
+  return outputs;
+}
+
+/** The folders where a recording may keep clouds in files of their own, by MRPT's names. */
+std::vector<std::string> externalFolders(const std::string& rawlog)
+{
+  const fs::path folder = fs::path(rawlog).parent_path();
+  const std::string stem = fs::path(rawlog).stem().string();
+  return {
+      (folder / (stem + "_Images")).string(), (folder / (stem + "_images")).string(),
+      (folder / "Images").string()};
+}
+
+void requireOutsideOfRecordings(
+    const ReplayArguments& arguments, const std::vector<FileUse>& outputs)
+{
+  for (const std::string& rawlog : arguments.input_files)
+    for (const std::string& folder : externalFolders(rawlog))
+      for (const FileUse& output : outputs)
+        if (isBelow(output.path, folder))
+          throw std::invalid_argument(
+              "the output '" + output.path + "' (" + output.role + ") lies in '" + folder +
+              "', which belongs to the recording '" + rawlog + "'; choose another place");
+}
+
+std::string tumFolder(const std::string& path)
+{
+  if (fs::is_directory(path))
+    throw std::runtime_error("--output-tum-path '" + path + "' is a folder; give a file name");
+  // What is there already is replaced where it is, a device is written to.
+  const fs::path folder = fs::absolute(withLinksFollowed(path)).parent_path();
+  if (!fs::exists(path)) requireWritableFolder(folder.string());
+  return folder.string();
+}
+}  // namespace
+
+OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
+{
+  OutputPlan plan;
+  const std::vector<FileUse> inputs = inputsOf(arguments);
+  for (const FileUse& input : inputs)
+    plan.inputs.push_back(input.path);
+  const std::vector<std::string> names = namesInFolder(arguments, config);
+  const std::vector<FileUse> outputs = outputsOf(arguments, names);
+  requireDistinctFiles(inputs, outputs);
+  requireOutsideOfRecordings(arguments, outputs);
+  if (!arguments.output_directory.empty())
+  {
+    plan.folder = RunFolderPlan{
+        arguments.output_directory, names, "summary.json", "exit_status", arguments.overwrite};
+    requireReplaceable(*plan.folder);
+  }
+  if (!arguments.output_tum_path.empty()) plan.tum_folder = tumFolder(arguments.output_tum_path);
+  return plan;
+}
+
+ReplayArguments withoutDoubleTrajectory(ReplayArguments arguments, const Config& config)
+{
+  if (arguments.output_directory.empty() || arguments.output_tum_path.empty()) return arguments;
+  const std::vector<std::string> names = namesInFolder(arguments, config);
+  if (std::find(names.begin(), names.end(), kTrajectory) == names.end()) return arguments;
+  const auto own = fs::weakly_canonical(fs::path(arguments.output_directory) / kTrajectory);
+  if (fs::weakly_canonical(arguments.output_tum_path) == own) arguments.output_tum_path.clear();
+  return arguments;
+}
+
+OutputPlaces::OutputPlaces(OutputPlan plan) : plan_(std::move(plan))
+{
+  if (plan_.folder) folder_.emplace(*plan_.folder);
+  if (!plan_.tum_folder.empty()) tum_folder_ = MadeFolders(plan_.tum_folder);
+}
+
+void OutputPlaces::removeLeftovers(const RunSummary& summary) const
+{
+  if (!folder_ || !summary.output_problems.empty()) return;
+  std::vector<std::string> kept = plan_.inputs;
+  for (const OutputFile& file : summary.outputs)
+    kept.push_back(file.path);
+  folder_->removeLeftovers(kept);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,176 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "folder_listing.h"
+#include <fastlio/exporters/run_folder.h>
+#include <fastlio/exporters/standard_exporters.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+using testing::contentOf;
+using testing::namesIn;
+using testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+/** A folder, and a run that wants to write a.csv and summary.json there. */
+class RunFolderTest : public ::testing::Test
+{
+ protected:
+  [[nodiscard]] RunFolderPlan plan() const
+  {
+    return {folder_.path(), {"a.csv", "summary.json"}, "summary.json", "exit_status"};
+  }
+
+  void write(const std::string& name, const std::string& content) const
+  {
+    std::ofstream(folder_.file(name), std::ios::binary) << content;
+  }
+
+  /** What an earlier run into this folder left, where it had another name. */
+  void writeEarlierRun() const
+  {
+    write("a.csv", "old");
+    write("b.csv", "three");
+    write("c.csv", "another one");
+    write(
+        "summary.json",
+        R"({"exit_status": 0, "outputs": [{"path": "/before/a.csv", "bytes": 3},
+            {"path": "/before/b.csv", "bytes": 5}, {"path": "/before/c.csv", "bytes": 4},
+            {"path": "/before/gone.csv", "bytes": 4}, {"path": 5}, "junk"]})");
+  }
+
+  [[nodiscard]] std::string refusal() const
+  {
+    try
+    {
+      requireReplaceable(plan());
+      const RunFolder run(plan());
+      return "";
+    }
+    catch (const std::runtime_error& e)
+    {
+      return e.what();
+    }
+  }
+
+  [[nodiscard]] const TemporaryFolder& folder() const { return folder_; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunFolderTest, FilesThatNoRunWroteAreNotReplacedUnlessAsked)
+{
+  write("notes.txt", "nobody minds");
+  EXPECT_EQ(refusal(), "");
+  write("a.csv", "of the user");
+  const std::string text = refusal();
+  EXPECT_NE(text.find(folder().file("a.csv")), std::string::npos) << text;
+  EXPECT_NE(text.find("--overwrite"), std::string::npos) << text;
+  write("summary.json", R"({"of": "another program"})");
+  EXPECT_NE(refusal(), "");
+  RunFolderPlan overwrite = plan();
+  overwrite.overwrite = true;
+  requireReplaceable(overwrite);
+  const RunFolder run(overwrite);
+}
+
+TEST_F(RunFolderTest, ALinkThatLeadsNowhereIsAFileOfSomebodyToo)
+{
+  fs::create_symlink("/home/somebody/a.csv", folder().file("a.csv"));
+  EXPECT_NE(refusal(), "");
+}
+
+TEST_F(RunFolderTest, RecordsOfAnyShapeAreSurvived)
+{
+  write("a.csv", "of the user");
+  for (const char* junk : {"", "[", "[1]", "null", "7", "{\"exit_status\""})
+  {
+    write("summary.json", junk);
+    EXPECT_NE(refusal(), "") << junk;
+  }
+  for (const char* odd : {R"({"exit_status": 0})", R"({"exit_status": 0, "outputs": 3})"})
+  {
+    write("summary.json", odd);
+    EXPECT_EQ(refusal(), "") << odd;
+  }
+}
+
+TEST_F(RunFolderTest, TheEarlierRunGoesWhenTheNewOneIsComplete)
+{
+  writeEarlierRun();
+  write("notes.txt", "of the user");
+  write("a.csv.abcdefgh.tmp", "whose?");
+  EXPECT_EQ(refusal(), "");
+  {
+    const RunFolder run(plan());
+    EXPECT_EQ(contentOf(folder().file("b.csv")), "three");
+    run.removeLeftovers({});
+  }
+  EXPECT_EQ(namesIn(folder()), "a.csv a.csv.abcdefgh.tmp c.csv notes.txt summary.json")
+      << "c.csv has another size than the run has written";
+}
+
+TEST_F(RunFolderTest, InputsStay)
+{
+  writeEarlierRun();
+  fs::create_symlink("b.csv", folder().file("link"));
+  const RunFolder run(plan());
+  run.removeLeftovers({folder().file("link")});
+  EXPECT_EQ(contentOf(folder().file("b.csv")), "three");
+}
+
+TEST_F(RunFolderTest, WhatAKilledRunLeftIsReplacedAndRemoved)
+{
+  for (const char* name : {".fastlio-lock", "a.csv", "a.csv.abcdefgh.tmp", "b.csv.abcdefgh.tmp"})
+    write(name, "x");
+  fs::create_directories(folder().file("map-tiles-Ab12xY"));
+  fs::create_directories(folder().file("map-tiles-of-mine"));
+  EXPECT_EQ(refusal(), "");
+  write(".fastlio-lock", "x");
+  {
+    const RunFolder run(plan());
+    run.removeLeftovers({});
+  }
+  EXPECT_EQ(namesIn(folder()), "a.csv b.csv.abcdefgh.tmp map-tiles-of-mine");
+}
+
+TEST_F(RunFolderTest, OneRunAtATime)
+{
+  const RunFolder run(plan());
+  EXPECT_NE(refusal().find("another run"), std::string::npos);
+}
+
+TEST(OutputFileNames, AreThoseThatExportersWrite)
+{
+  const TemporaryFolder folder;
+  ExportTarget target;
+  target.directory = folder.path();
+  for (const ExporterKind& kind : exporterKinds())
+    target.parameters.exporters += std::string(kind.name) + ",";
+  target.imu_rate = true;
+  const ExporterSet set = makeExporters(target);
+  const std::vector<std::string> names = outputFileNames(target);
+  EXPECT_EQ(names.size(), exporterKinds().size() + 1);  // kitti has two
+  std::vector<std::string> opened;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    opened.push_back(entry.path().filename().string());
+  EXPECT_EQ(opened.size(), names.size());
+  for (const std::string& name : names)
+    EXPECT_EQ(
+        std::count_if(
+            opened.begin(), opened.end(),
+            [&name](const std::string& file) { return isTemporaryOf(name, file); }),
+        1)
+        << name;
+  target.directory.clear();
+  EXPECT_TRUE(outputFileNames(target).empty());
+}
+
+}  // namespace
+}  // namespace fastlio

@@ -1,0 +1,94 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "folder_listing.h"
+#include <fastlio/files/folder_lock.h>
+#include <fastlio/files/made_folders.h>
+
+#include <stdexcept>
+#include <unistd.h>
+
+namespace fastlio
+{
+namespace
+{
+using testing::contentOf;
+using testing::namesIn;
+using testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+TEST(MadeFolders, AreMadeWithTheirParentsAndGoWhenTheyStayEmpty)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("old"));
+  {
+    const MadeFolders made(folder.file("old/b/c/"));
+    EXPECT_TRUE(fs::is_directory(folder.file("old/b/c")));
+  }
+  EXPECT_TRUE(fs::is_directory(folder.file("old")));
+  EXPECT_FALSE(fs::exists(folder.file("old/b")));
+  {
+    const MadeFolders made(folder.file("a/b/c"));
+    std::ofstream(folder.file("a/b/file")) << "x";
+  }
+  EXPECT_EQ(namesIn(folder.file("a/b")), "file");
+}
+
+TEST(MadeFolders, ImpossibleOnesAreErrorsThatLeaveNothing)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("file")) << "x";
+  EXPECT_THROW(MadeFolders(folder.file("file")), std::runtime_error);
+  EXPECT_THROW(MadeFolders(folder.file("file/a/b")), std::runtime_error);
+  const std::string too_long(300, 'x');
+  EXPECT_THROW(MadeFolders(folder.file("new/" + too_long)), std::runtime_error);
+  EXPECT_THROW(requireWritableFolder(folder.file("file/a")), std::runtime_error);
+  requireWritableFolder(folder.file("a/b/c"));
+  EXPECT_EQ(namesIn(folder), "file");
+}
+
+TEST(FolderLock, KeepsOthersOutAndTellsWhoHoldsIt)
+{
+  const TemporaryFolder folder;
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_FALSE(lock.tookOver());
+    EXPECT_TRUE(hasLockFile(folder.path()));
+    try
+    {
+      const FolderLock second(folder.path());
+      FAIL() << "two hold one folder";
+    }
+    catch (const std::runtime_error& e)
+    {
+      const std::string message = e.what();
+      EXPECT_NE(message.find("process " + std::to_string(getpid())), std::string::npos) << message;
+      EXPECT_NE(message.find(folder.path()), std::string::npos) << message;
+    }
+  }
+  EXPECT_EQ(namesIn(folder), "");
+}
+
+TEST(FolderLock, TheLockOfAKilledProcessIsTakenOver)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file(".fastlio-lock")) << "123456789123 a long line of whatever else";
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_TRUE(lock.tookOver());
+    EXPECT_EQ(contentOf(folder.file(".fastlio-lock")), std::to_string(getpid()) + "\n");
+  }
+  EXPECT_EQ(namesIn(folder), "");
+}
+
+TEST(FolderLock, FollowsNoLink)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("precious")) << "x";
+  fs::create_symlink("precious", folder.file(".fastlio-lock"));
+  EXPECT_THROW(FolderLock{folder.path()}, std::runtime_error);
+  EXPECT_EQ(contentOf(folder.file("precious")), "x");
+}
+
+}  // namespace
+}  // namespace fastlio

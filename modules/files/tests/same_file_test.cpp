@@ -1,0 +1,79 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "temporary_folder.h"
+#include <fastlio/files/same_file.h>
+
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+using testing::TemporaryFolder;
+namespace fs = std::filesystem;
+
+TEST(SameFile, HardAndSymbolicLinksAndDetoursLeadToOneFile)
+{
+  const TemporaryFolder folder;
+  const std::string a = folder.file("a");
+  std::ofstream(a) << "x";
+  std::ofstream(folder.file("b")) << "x";
+  fs::create_hard_link(a, folder.file("hard"));
+  fs::create_symlink("a", folder.file("soft"));
+  fs::create_directory(folder.file("in"));
+  fs::create_directory_symlink(".", folder.file("here"));
+  for (const char* name : {"a", "hard", "soft", "here/a", "./in/../a"})
+    EXPECT_TRUE(isSameFile(a, folder.file(name))) << name;
+  for (const char* name : {"b", "c", "here/b"})
+    EXPECT_FALSE(isSameFile(a, folder.file(name))) << name;
+}
+
+TEST(SameFile, FilesThatAreNotThereYetAreTheirPlaces)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("in"));
+  fs::create_directory_symlink(".", folder.file("here"));
+  fs::create_symlink("later", folder.file("dangling"));
+  for (const char* name : {"later", "here/later", "in/../here/later", "dangling"})
+    EXPECT_TRUE(isSameFile(folder.file("later"), folder.file(name))) << name;
+  EXPECT_FALSE(isSameFile(folder.file("later"), folder.file("never")));
+  EXPECT_FALSE(isSameFile("/dev/null", "/dev/null"));  // swallows everything, holds nothing
+}
+
+TEST(SameFile, WhatIsBelowAFolder)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("in"));
+  fs::create_directory_symlink("in", folder.file("link"));
+  EXPECT_TRUE(isBelow(folder.file("in/a"), folder.file("in")));
+  EXPECT_TRUE(isBelow(folder.file("link/a/b"), folder.file("in")));
+  EXPECT_FALSE(isBelow(folder.file("in/../a"), folder.file("in")));
+  EXPECT_FALSE(isBelow(folder.file("inner"), folder.file("in")));
+}
+
+TEST(SameFile, TheMessageNamesBoth)
+{
+  const TemporaryFolder folder;
+  const auto messageOf = [](const std::vector<FileUse>& in, const std::vector<FileUse>& out)
+  {
+    try
+    {
+      requireDistinctFiles(in, out);
+      return std::string();
+    }
+    catch (const std::invalid_argument& e)
+    {
+      return std::string(e.what());
+    }
+  };
+  const FileUse input{folder.file("a"), "--in"}, same{folder.file("./a"), "--out"};
+  const FileUse other{folder.file("b"), "--plot"};
+  EXPECT_EQ(messageOf({input}, {other}), "");
+  for (const std::string& text : {input.path, same.path, input.role, same.role})
+    EXPECT_NE(messageOf({input}, {other, same}).find(text), std::string::npos) << text;
+  EXPECT_NE(messageOf({}, {other, other}).find("are the same file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fastlio
