@@ -14,6 +14,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/rtti/CObject.h>
 
+#include <new>
 #include <stdexcept>
 
 namespace
@@ -213,6 +214,10 @@ BridgeOutput ObservationBridge::convertScan(const CObservation& observation, std
     ++statistics_.scans_converted;
     statistics_.points_converted += scan.points.size();
     return scan;
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;  // no fault of the scan: it must not go missing in silence
   }
   catch (const std::exception& e)
   {
