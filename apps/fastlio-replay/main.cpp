@@ -8,8 +8,11 @@
 #include "replay_run.h"
 #include "run_report.h"
 #include "run_setup.h"
+#include <fastlio/files/failure_text.h>
 
+#include <cstdio>
 #include <iostream>
+#include <new>
 
 namespace
 {
@@ -23,6 +26,19 @@ int report(const RunSummary& summary, mrpt::system::COutputLogger& logger)
     logger.logStr(level, sentence);
   if (logger.getMinLoggingLevel() <= mrpt::system::LVL_WARN) std::cout << reportText(summary);
   return static_cast<int>(status);
+}
+
+/** Once the run has begun, nothing is blamed on the command line any more. */
+int execute(ReplayRun& run, mrpt::system::COutputLogger& logger)
+{
+  try
+  {
+    return report(run.execute(), logger);
+  }
+  catch (const std::exception& e)
+  {
+    throw SetupError(ExitStatus::OutputFailed, "the run could not be completed: " + failureText(e));
+  }
 }
 
 int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
@@ -42,15 +58,11 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
   logger.logStr(mrpt::system::LVL_INFO, "parameters: " + setup.configuration);
   catchInterruptions();
   ReplayRun run(std::move(setup), logger);
-  return report(run.execute(), logger);
+  return execute(run, logger);
 }
-}  // namespace
 
-int main(int argc, char** argv)
+int logged(const ReplayArguments& arguments)
 {
-  const auto parsed = parseCommandLine(argc, argv);
-  if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  const auto& arguments = std::get<ReplayArguments>(parsed);
   mrpt::system::COutputLogger logger("fastlio-replay");
   logger.setMinLoggingLevel(arguments.verbosity);
   try
@@ -64,7 +76,26 @@ int main(int argc, char** argv)
   }
   catch (const std::exception& e)
   {
-    logger.logStr(mrpt::system::LVL_ERROR, e.what());
+    logger.logStr(mrpt::system::LVL_ERROR, failureText(e));
     return static_cast<int>(ExitStatus::Usage);
   }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+try
+{
+  const auto parsed = parseCommandLine(argc, argv);
+  if (const auto* status = std::get_if<int>(&parsed)) return *status;
+  return logged(std::get<ReplayArguments>(parsed));
+}
+catch (const std::bad_alloc&)
+{
+  std::fputs("fastlio-replay: there is not enough memory\n", stderr);  // needs none itself
+  return static_cast<int>(ExitStatus::Usage);
+}
+catch (const std::exception& e)
+{
+  std::cerr << "fastlio-replay: " << e.what() << '\n';
+  return static_cast<int>(ExitStatus::Usage);
 }

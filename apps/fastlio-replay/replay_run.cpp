@@ -7,6 +7,7 @@
 #include "run_counts.h"
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/files/failure_text.h>
 #include <fastlio/map/surface_map.h>
 
 #include <mrpt/system/CTicTac.h>
@@ -123,7 +124,7 @@ RunSummary ReplayRun::execute()
   }
   catch (const std::exception& e)
   {
-    failure_ = std::string("the run ended early: ") + e.what();
+    failure_ = "the run ended early: " + failureText(e);
   }
   source.stop();
   progress_.clear();
@@ -189,7 +190,14 @@ void ReplayRun::take(const ScanResult& result)
 void ReplayRun::extendOutputMap()
 {
   if (!exporters_.needMap()) return;
-  output_map_.insert(outputPointsOf(odometry_.registeredPoints(), odometry_.registeredFields()));
+  try
+  {
+    output_map_.insert(outputPointsOf(odometry_.registeredPoints(), odometry_.registeredFields()));
+  }
+  catch (const std::exception& e)
+  {
+    exporters_.giveUpMap(failureText(e));  // the rest of the run does not depend on it
+  }
 }
 
 /** Tells when scans start to fare differently; every scan at DEBUG. */

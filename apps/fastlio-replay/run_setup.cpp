@@ -6,6 +6,7 @@
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/input_file.h>
+#include <fastlio/files/failure_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
@@ -59,7 +60,7 @@ ConfigFile readFile(const ReplayArguments& arguments)
   }
   catch (const std::exception& e)
   {
-    throw SetupError(ExitStatus::Usage, e.what());
+    throw SetupError(ExitStatus::Usage, failureText(e));
   }
 }
 
@@ -111,7 +112,7 @@ OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config
   }
   catch (const std::exception& e)
   {
-    throw SetupError(ExitStatus::Usage, e.what());
+    throw SetupError(ExitStatus::Usage, failureText(e));
   }
 }
 
@@ -138,11 +139,11 @@ auto checked(Step step)
   }
   catch (const std::invalid_argument& e)
   {
-    throw SetupError(ExitStatus::Usage, e.what());
+    throw SetupError(ExitStatus::Usage, failureText(e));
   }
   catch (const std::exception& e)
   {
-    throw SetupError(ExitStatus::InputUnusable, e.what());
+    throw SetupError(ExitStatus::InputUnusable, failureText(e));
   }
 }
 
@@ -176,7 +177,7 @@ std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const Outpu
   }
   catch (const std::exception& e)
   {
-    throw SetupError(ExitStatus::InputUnusable, e.what());
+    throw SetupError(ExitStatus::InputUnusable, failureText(e));
   }
 }
 

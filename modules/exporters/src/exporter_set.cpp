@@ -2,56 +2,78 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/exporters/exporter.h>
+#include <fastlio/files/failure_text.h>
 
 #include <algorithm>
 #include <exception>
 
 namespace fastlio
 {
-void ExporterSet::add(std::unique_ptr<Exporter> exporter)
+namespace
 {
-  exporters_.push_back(std::move(exporter));
+std::string problemWith(const std::string& file, const std::string& reason)
+{
+  const bool named = file.empty() || reason.find(file) != std::string::npos;
+  return named ? reason : "cannot write '" + file + "': " + reason;
+}
+}  // namespace
+
+void ExporterSet::add(std::unique_ptr<Exporter> exporter, std::string file)
+{
+  members_.push_back({std::move(exporter), std::move(file)});
+}
+
+void ExporterSet::giveUp(Member& member, const std::string& reason)
+{
+  member.exporter.reset();  // its file keeps the content that it had before the run
+  problems_.push_back(problemWith(member.file, reason));
 }
 
 void ExporterSet::onScan(const ScanResult& result, const std::vector<ImuRateState>& before)
 {
-  for (auto& exporter : exporters_)
+  for (Member& member : members_)
   {
-    if (!exporter) continue;
+    if (!member.exporter) continue;
     try
     {
-      exporter->onImuRate(before);
-      exporter->onScan(result);
+      member.exporter->onImuRate(before);
+      member.exporter->onScan(result);
     }
     catch (const std::exception& e)
     {
-      problems_.emplace_back(e.what());
-      exporter.reset();  // its temporary file keeps the rows so far
+      giveUp(member, failureText(e));
     }
   }
+}
+
+void ExporterSet::giveUpMap(const std::string& reason)
+{
+  for (Member& member : members_)
+    if (member.exporter && member.exporter->needsMap()) giveUp(member, reason);
 }
 
 bool ExporterSet::needMap() const
 {
   return std::any_of(
-      exporters_.begin(), exporters_.end(),
-      [](const auto& exporter) { return exporter && exporter->needsMap(); });
+      members_.begin(), members_.end(),
+      [](const Member& member) { return member.exporter && member.exporter->needsMap(); });
 }
 
 RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces)
 {
   summary.output_problems.insert(summary.output_problems.end(), problems_.begin(), problems_.end());
-  for (auto& exporter : exporters_)
+  for (Member& member : members_)
   {
-    if (!exporter) continue;
+    if (!member.exporter) continue;
     try
     {
-      for (auto& file : exporter->finish({summary, map, surfaces}))
+      for (auto& file : member.exporter->finish({summary, map, surfaces}))
         summary.outputs.push_back(std::move(file));
     }
     catch (const std::exception& e)
     {
-      summary.output_problems.emplace_back(e.what());
+      summary.output_problems.push_back(problemWith(member.file, failureText(e)));
+      member.exporter.reset();  // frees the disk for the others
     }
   }
   return summary;

@@ -187,8 +187,8 @@ std::string OutputMap::pathOf(const Key& key)
     std::string name = (place / kTileFolder).string().append(kUnique);
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error(
-          "cannot make a folder for pieces of the map in '" + place.string() +
-          "': " + std::generic_category().message(errno) +
+          "cannot make the folder '" + name +
+          "' for pieces of the map: " + std::generic_category().message(errno) +
           "; check permissions and free space, or allow more memory (output.map_memory)");
     folder_ = name;
   }

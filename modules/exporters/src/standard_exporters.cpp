@@ -137,9 +137,10 @@ ExporterSet makeExporters(const ExportTarget& options, const std::vector<Exporte
 {
   const std::vector<ExporterKind> wanted = wantedKinds(options, kinds);
   ExporterSet set;
-  if (!options.tum_path.empty()) set.add(makeTumExporter(options.tum_path, options.frame));
+  if (!options.tum_path.empty())
+    set.add(makeTumExporter(options.tum_path, options.frame), options.tum_path);
   for (const ExporterKind& kind : wanted)
-    set.add(kind.make(options));
+    set.add(kind.make(options), options.path(kind.file));
   return set;
 }
 

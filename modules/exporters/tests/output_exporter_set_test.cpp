@@ -51,6 +51,42 @@ TEST(ExporterSet, OneFailureLeavesTheOthersComplete)
   EXPECT_EQ(exitStatusOf(summary), ExitStatus::OutputFailed);
 }
 
+/** Has no memory left when it is written to. */
+class StarvedExporter : public Exporter
+{
+ public:
+  void onScan(const ScanResult& /*result*/) override { throw std::bad_alloc(); }
+  std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {}; }
+};
+
+TEST(ExporterSet, MessagesNameTheFileAndWhatIsMissing)
+{
+  ExporterSet set;
+  set.add(std::make_unique<StarvedExporter>(), "folder/states.csv");
+  set.onScan(madeUpResult(kStamp));
+  ASSERT_EQ(set.problems().size(), 1U);
+  EXPECT_EQ(set.problems()[0], "cannot write 'folder/states.csv': there is not enough memory");
+}
+
+TEST(ExporterSet, WithoutAMapTheOtherFilesAreComplete)
+{
+  const TemporaryFolder folder;
+  ExporterSet set;
+  set.add(makePlyMapExporter(folder.file("map.ply")), folder.file("map.ply"));
+  set.add(makeTumExporter(folder.file("t.tum"), {}));
+  EXPECT_TRUE(set.needMap());
+  set.giveUpMap("the disk is full");
+  EXPECT_FALSE(set.needMap());
+  set.onScan(madeUpResult(kStamp));
+  const RunSummary summary = set.finish({}, *smallMap());
+  EXPECT_EQ(dataLinesOf(folder.file("t.tum")).size(), 1U);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("map.ply")));
+  ASSERT_EQ(summary.output_problems.size(), 1U);
+  EXPECT_EQ(
+      summary.output_problems[0],
+      "cannot write '" + folder.file("map.ply") + "': the disk is full");
+}
+
 ExportTarget optionsFor(const TemporaryFolder& folder)
 {
   ExportTarget options;

@@ -57,7 +57,8 @@ class Exporter
 class ExporterSet
 {
  public:
-  void add(std::unique_ptr<Exporter> exporter);
+  /** \param file what the exporter writes, for messages that do not name it themselves */
+  void add(std::unique_ptr<Exporter> exporter, std::string file = {});
   /** One scan, and the states at the inertial samples before it (Odometry::imuRateStates()). */
   void onScan(const ScanResult& result, const std::vector<ImuRateState>& before = {});
 
@@ -66,6 +67,9 @@ class ExporterSet
   [[nodiscard]] RunSummary finish(
       RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces = nullptr);
 
+  /** Leaves out the exporters that need the map from here on, because it is not complete. */
+  void giveUpMap(const std::string& reason);
+
   /** Whether any of them needs the map: otherwise none has to be collected. */
   [[nodiscard]] bool needMap() const;
 
@@ -73,7 +77,15 @@ class ExporterSet
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  std::vector<std::unique_ptr<Exporter>> exporters_;
+  struct Member
+  {
+    std::unique_ptr<Exporter> exporter;  //!< null: given up
+    std::string file;
+  };
+
+  void giveUp(Member& member, const std::string& reason);
+
+  std::vector<Member> members_;
   std::vector<std::string> problems_;
 };
 
