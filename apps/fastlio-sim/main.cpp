@@ -28,9 +28,10 @@ void showProgress(std::size_t done, std::size_t total)
 void simulate(const fastlio::SimCommand& command)
 {
   const auto begin = std::chrono::steady_clock::now();
-  const fastlio::Simulation simulation(fastlio::settingsOf(command));
   const std::string directory =
       command.output_dir.empty() ? "simulated_" + command.scenario : command.output_dir;
+  fastlio::requireRecordingPlace(directory, command.overwrite);
+  const fastlio::Simulation simulation(fastlio::settingsOf(command));
   const bool progress = !command.quiet && isatty(STDERR_FILENO) == 1;
   const fastlio::RecordingFiles files = fastlio::writeRecording(
       simulation, directory, progress ? showProgress : fastlio::RecordingProgress{},

@@ -178,20 +178,39 @@ TEST_F(Outputs, AFolderHoldsOneRun)
 
 TEST_F(Outputs, OneRunAtATimeWritesIntoAFolder)
 {
+  const std::string rawlog = record("a.rawlog", {});
   const auto first = longRun("first.txt");
-  expectEnd(replayFile(record("a.rawlog", {})), 1, "another run (process ");
+  first->signal(SIGSTOP);  // or it is done before the second one has begun
+  expectEnd(replayFile(rawlog), 1, "another run (process ");
   first->signal(SIGTERM);
+  first->signal(SIGCONT);
   expectEnd(first->wait(), 130, "interrupted");
   expectAllFiles();
 }
 
+TEST_F(Outputs, UnderNohupTheRunGoesOn)
+{
+  BoxRecording recording;
+  recording.seconds = 30.0;
+  Process process(
+      {"/bin/sh", "-c",
+       "trap '' HUP; exec \"$1\" --input-rawlog \"$2\" --output-dir \"$3\" --threads 1", "sh",
+       FASTLIO_REPLAY_PROGRAM, record("long.rawlog", recording), file("out")},
+      file("log.txt"));
+  for (int i = 0; i < 6000 && namesIn(file("out")).find("map.ply") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  process.signal(SIGHUP);
+  expectEnd(process.wait(), 0, "exit status 0");
+}
+
 TEST_F(Outputs, AKilledRunIsNoObstacle)
 {
+  const std::string rawlog = record("a.rawlog", {});
   const auto killed = longRun("killed.txt");
   killed->signal(SIGKILL);
   EXPECT_EQ(killed->wait().exit_status, -1);
   EXPECT_NE(namesIn(file("out")).find(".fastlio-lock"), std::string::npos);
-  EXPECT_EQ(replayFile(record("a.rawlog", {})).exit_status, 0);
+  EXPECT_EQ(replayFile(rawlog).exit_status, 0);
   expectAllFiles();
 }
 

@@ -119,6 +119,23 @@ std::string configText(const SimulationSettings& settings)
                              settings.scenario + "', seed " + std::to_string(settings.seed) + ".\n";
   return toYaml(matchingConfig(settings), header);
 }
+
+RecordingFiles filesOf(const std::string& directory)
+{
+  return {
+      directory + "/recording.rawlog", directory + "/ground_truth.tum", directory + "/config.yaml",
+      directory + "/scenario.json"};
+}
+
+RunFolderPlan folderPlan(const std::string& directory, bool overwrite)
+{
+  return {
+      directory,
+      {"recording.rawlog", "ground_truth.tum", "config.yaml", "scenario.json"},
+      "scenario.json",
+      "scenario",
+      overwrite};
+}
 }  // namespace
 
 std::string groundTruthText(const Simulation& simulation)
@@ -141,24 +158,24 @@ std::string groundTruthText(const Simulation& simulation)
   return text;
 }
 
-RecordingFiles writeRecording(
-    const Simulation& simulation, const std::string& directory, const RecordingProgress& progress,
-    bool overwrite)
+void requireRecordingPlace(const std::string& directory, bool overwrite)
 {
-  const RunFolder folder(
-      {directory,
-       {"recording.rawlog", "ground_truth.tum", "config.yaml", "scenario.json"},
-       "scenario.json",
-       "scenario",
-       overwrite});
-  const RecordingFiles files{
-      directory + "/recording.rawlog", directory + "/ground_truth.tum", directory + "/config.yaml",
-      directory + "/scenario.json"};
+  const RecordingFiles files = filesOf(directory);
   requireDistinctFiles(
       {}, {{files.rawlog, "recording"},
            {files.ground_truth, "ground truth"},
            {files.config, "configuration"},
            {files.scenario, "scenario"}});
+  requireReplaceable(folderPlan(directory, overwrite));
+}
+
+RecordingFiles writeRecording(
+    const Simulation& simulation, const std::string& directory, const RecordingProgress& progress,
+    bool overwrite)
+{
+  requireRecordingPlace(directory, overwrite);
+  const RunFolder folder(folderPlan(directory, overwrite));
+  const RecordingFiles files = filesOf(directory);
   writeFileAtomically(files.config, configText(simulation.settings()));
   writeFileAtomically(files.ground_truth, groundTruthText(simulation));
   writeRawlog(simulation, files.rawlog, progress);

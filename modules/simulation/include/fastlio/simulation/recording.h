@@ -33,6 +33,10 @@ RecordingFiles writeRecording(
     const Simulation& simulation, const std::string& directory,
     const RecordingProgress& progress = {}, bool overwrite = false);
 
+/** What writeRecording() checks of the directory, without making anything: for before a simulation
+ * is computed. \exception std::exception as writeRecording() */
+void requireRecordingPlace(const std::string& directory, bool overwrite);
+
 /** The odometry's parameters that match the simulated sensors: noise densities (a vibration counts
  * as white noise of the same power), prior of the accelerometer bias, ranges, mounting, time
  * offset, gravity. */
