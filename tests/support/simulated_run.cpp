@@ -76,7 +76,7 @@ SimulatedRun runOdometryWith(
     if (inputs.imu(sample)) odometry.addImu(sample);
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
   {
-    LidarScan scan = simulation.scan(i);
+    LidarScan scan = inputs.cast != nullptr ? inputs.cast->at(i) : simulation.scan(i);
     if (!inputs.scan(scan)) continue;
     odometry.addScan(std::move(scan));
     drain(odometry, simulation, inputs, run);

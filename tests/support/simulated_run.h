@@ -49,6 +49,8 @@ struct AlteredInputs
   /** May change a sample or a scan; false: it does not arrive. */
   std::function<bool(ImuSample&)> imu = [](ImuSample&) { return true; };
   std::function<bool(LidarScan&)> scan = [](LidarScan&) { return true; };
+  /** All scans of the simulation, if somebody has cast them before: most of the time goes there. */
+  const std::vector<LidarScan>* cast = nullptr;
   /** The true time of what now has a stamp, when stamps are altered. */
   std::function<std::int64_t(std::int64_t)> true_ns = [](std::int64_t stamp_ns)
   { return stamp_ns; };
