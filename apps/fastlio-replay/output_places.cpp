@@ -30,6 +30,7 @@ std::vector<std::string> namesInFolder(const ReplayArguments& arguments, const C
 std::vector<FileUse> inputsOf(const ReplayArguments& arguments)
 {
   std::vector<FileUse> inputs;
+  inputs.reserve(arguments.input_files.size() + 2);
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "--input-rawlog"});
   if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
@@ -85,6 +86,7 @@ OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
 {
   OutputPlan plan;
   const std::vector<FileUse> inputs = inputsOf(arguments);
+  plan.inputs.reserve(inputs.size());
   for (const FileUse& input : inputs)
     plan.inputs.push_back(input.path);
   const std::vector<std::string> names = namesInFolder(arguments, config);

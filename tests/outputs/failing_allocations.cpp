@@ -11,6 +11,8 @@
 
 using fastlio::testing::failsNow;
 
+// Memory is what is made here. NOLINTBEGIN(cppcoreguidelines-no-malloc)
+
 namespace
 {
 void* refusable(std::size_t size, std::size_t alignment)
@@ -82,3 +84,4 @@ void operator delete[](void* memory, std::size_t /*size*/, std::align_val_t /*al
 {
   free(memory);
 }
+// NOLINTEND(cppcoreguidelines-no-malloc)

@@ -208,3 +208,4 @@ extern "C"
         "pthread_create")(thread, attributes, function, argument);
   }
 }
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)

@@ -16,6 +16,9 @@ namespace
 {
 namespace fs = std::filesystem;
 
+constexpr const char* kExporters =
+    "trajectory,states,covariance,timing,untrusted,ply,metricmap,graph";
+
 /** Three seconds with so few points that a run takes a tenth of a second, and pieces of the map go
  * to files nevertheless. */
 void writeInputs(const std::string& folder)
@@ -62,9 +65,7 @@ FailingRuns::FailingRuns()
   inputs_ = filesIn(folder_.file("in"));
   std::vector<std::string> other_run = command();
   other_run.insert(
-      other_run.end(), {"--frame", "imu", "--skip-first-n", "1", "--export",
-                        "trajectory,states,covariance,timing,untrusted,ply,metricmap,"
-                        "graph"});
+      other_run.end(), {"--frame", "imu", "--skip-first-n", "1", "--export", kExporters});
   const ProcessResult before = Process(other_run, folder_.file("log.txt")).wait();
   EXPECT_EQ(before.exit_status, 0) << before.output;
   earlier_ = filesIn(out());

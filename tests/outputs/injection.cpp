@@ -81,7 +81,7 @@ void journal(const char* what, const char* path, long bytes)
 }  // namespace fastlio::testing
 
 /** What fails before main(), in libraries that start up, is nobody's to handle. */
-extern "C" int __libc_start_main(
+extern "C" int __libc_start_main(  // NOLINT(bugprone-reserved-identifier): it is that function
     fastlio::testing::Main function, int argc, char** argv, void (*begin)(), void (*end)(),
     void (*unload)(), void* stack)
 {

@@ -14,6 +14,16 @@ namespace
 {
 namespace fs = std::filesystem;
 
+// Programs in the shell: $1 is fastlio-replay, $2 the recording, $3 the output folder.
+constexpr const char* kUnderNohup =
+    R"(trap '' HUP; exec "$1" --input-rawlog "$2" --output-dir "$3" --threads 1)";
+constexpr const char* kInFolder =
+    R"(cd "$4" && exec "$1" --input-rawlog "$2" --output-dir "$3" --output-tum-path t.tum)";
+constexpr const char* kReadBriefly =
+    R"("$1" -v DEBUG --threads 1 --input-rawlog "$2" --output-dir "$3" 2>&1 | head -n 3)";
+constexpr const char* kWithSmallFiles =
+    R"(ulimit -f 40; exec "$1" --input-rawlog "$2" --output-dir "$3")";
+
 /** Runs whose outputs meet what is there already. */
 class Outputs : public ReplayTest
 {
@@ -193,9 +203,8 @@ TEST_F(Outputs, UnderNohupTheRunGoesOn)
   BoxRecording recording;
   recording.seconds = 30.0;
   Process process(
-      {"/bin/sh", "-c",
-       "trap '' HUP; exec \"$1\" --input-rawlog \"$2\" --output-dir \"$3\" --threads 1", "sh",
-       FASTLIO_REPLAY_PROGRAM, record("long.rawlog", recording), file("out")},
+      {"/bin/sh", "-c", kUnderNohup, "sh", FASTLIO_REPLAY_PROGRAM, record("long.rawlog", recording),
+       file("out")},
       file("log.txt"));
   for (int i = 0; i < 6000 && namesIn(file("out")).find("map.ply") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -236,10 +245,8 @@ TEST_F(Outputs, RelativePathsAreBelowTheWorkingDirectory)
   const std::string rawlog = record("a.rawlog", {});
   fs::create_directory(file("fresh"));
   const auto result = Process(
-                          {"/bin/sh", "-c",
-                           "cd \"$1\" && exec \"$2\" --input-rawlog ../a.rawlog --output-dir out "
-                           "--output-tum-path t.tum",
-                           "sh", file("fresh"), FASTLIO_REPLAY_PROGRAM},
+                          {"/bin/sh", "-c", kInFolder, "sh", FASTLIO_REPLAY_PROGRAM, "../a.rawlog",
+                           "out", file("fresh")},
                           file("log.txt"))
                           .wait();
   expectEnd(result, 0, "exit status 0");
@@ -253,14 +260,11 @@ TEST_F(Outputs, OfAClosedPipeEndTheRunInOrder)
   BoxRecording recording;
   recording.seconds = 60.0;
   const std::string rawlog = record("long.rawlog", recording);
-  const auto result = Process(
-                          {"/bin/sh", "-c",
-                           "{ \"$1\" -v DEBUG --threads 1 --input-rawlog \"$2\" --output-dir "
-                           "\"$3\"; echo ended $?; } "
-                           "3>&1 2>&1 | head -n 3",
-                           "sh", FASTLIO_REPLAY_PROGRAM, rawlog, file("out")},
-                          file("log.txt"))
-                          .wait();
+  const auto result =
+      Process(
+          {"/bin/sh", "-c", kReadBriefly, "sh", FASTLIO_REPLAY_PROGRAM, rawlog, file("out")},
+          file("log.txt"))
+          .wait();
   EXPECT_EQ(result.exit_status, 0) << result.output;
   expectAllFiles();
   const auto summary = nlohmann::json::parse(contentOf(file("out/summary.json")));
@@ -274,8 +278,7 @@ TEST_F(Outputs, AFileThatGrowsTooLargeEndsTheRunInOrder)
   const std::string rawlog = record("long.rawlog", recording);
   const auto result =
       Process(
-          {"/bin/sh", "-c", "ulimit -f 40; exec \"$1\" --input-rawlog \"$2\" --output-dir \"$3\"",
-           "sh", FASTLIO_REPLAY_PROGRAM, rawlog, file("out")},
+          {"/bin/sh", "-c", kWithSmallFiles, "sh", FASTLIO_REPLAY_PROGRAM, rawlog, file("out")},
           file("log.txt"))
           .wait();
   expectEnd(result, 130, file("out/states.csv"));

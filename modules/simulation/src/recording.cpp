@@ -175,7 +175,7 @@ RecordingFiles writeRecording(
 {
   requireRecordingPlace(directory, overwrite);
   const RunFolder folder(folderPlan(directory, overwrite));
-  const RecordingFiles files = filesOf(directory);
+  RecordingFiles files = filesOf(directory);
   writeFileAtomically(files.config, configText(simulation.settings()));
   writeFileAtomically(files.ground_truth, groundTruthText(simulation));
   writeRawlog(simulation, files.rawlog, progress);
