@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fastlio::object_layouts
@@ -113,10 +114,14 @@ inline std::multimap<std::string, Layout> makeLayouts()
        {0, {kString, fixed(kStamp), kPose, {Field::StoredCloud}}}},
       {"mrpt::maps::CPointsMapXYZIRT",
        {0, {counted(kPoint), counted(4), counted(2), counted(4), kRest}}},
-      {"mrpt::maps::CPointsMapXYZI", {0, {counted(kPoint + 4), kRest}}},
-      {"mrpt::maps::CSimplePointsMap", {10, points_and_more}},
-      {"mrpt::maps::CColouredPointsMap", {9, points_and_more}},
-      {"mrpt::maps::CWeightedPointsMap", {2, points_and_more}}};
+      {"mrpt::maps::CPointsMapXYZI", {0, {counted(kPoint + 4), kRest}}}};
+  // All versions so far begin alike.
+  for (const auto& [name, newest] :
+       {std::pair{"mrpt::maps::CSimplePointsMap", 10},
+        {"mrpt::maps::CColouredPointsMap", 9},
+        {"mrpt::maps::CWeightedPointsMap", 2}})
+    for (int version = 0; version <= newest; ++version)
+      layouts.emplace(name, Layout{static_cast<unsigned char>(version), points_and_more});
   for (unsigned char version = 0; version <= 4; ++version)
     layouts.emplace("mrpt::maps::CGenericPointsMap", genericCloud(version));
   return layouts;

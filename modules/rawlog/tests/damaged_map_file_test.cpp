@@ -206,6 +206,13 @@ TEST(DamagedMapFile, ArchivesThatLieAreRefused)
   lying.replace(count, 4, "\xFF\xFF\xFF\xFF");
   text(folder.file("lying"), lying);
   expectRefused(folder.file("lying"), "cut off");
+  for (char version = 0; version < 10; ++version)
+  {
+    std::string old = lying;
+    old[count - 1] = version;
+    text(folder.file("old"), old);
+    expectRefused(folder.file("old"), "cut off");
+  }
   std::string unknown = plain;
   unknown.replace(plain.find("CSimplePointsMap"), 7, "CFuture");
   text(folder.file("unknown"), unknown);
