@@ -156,8 +156,10 @@ void fuzzExternal(const std::uint8_t* data, std::size_t size)
   const std::string text = textOf(data, size);
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string name = text.substr(0, end);
-  std::ofstream(folder.file("log_Images/own.bin"), std::ios::binary)
-      << (end < text.size() ? text.substr(end + 1) : "");
+  // The first character of the name chooses the format: an archive, KITTI (a dot) or text.
+  for (const char* file : {"log_Images/own.bin", "log_Images/near.bin"})
+    std::ofstream(folder.file(file), std::ios::binary)
+        << (end < text.size() ? text.substr(end + 1) : "");
   writeRecordingThatNames(
       folder.file("log.rawlog"), name, name.empty() ? 0U : static_cast<unsigned char>(name[0]));
   RawlogSource source({folder.file("log.rawlog")});

@@ -117,7 +117,7 @@ std::vector<Seed> externalSeeds()
   return {
       {"archive", "own.bin\n" + archiveOf(points)},
       {"kitti", "./own.bin\n" + numbers({1, 2, 3, 0.5F, 4, 5, 6, 0.25F})},
-      {"text", "folder/../own.bin\n1 2 3\n4 5 6\n"},
+      {"text", "near.bin\n1 2 3\n4 5 6\n"},
       {"outside", "../log.rawlog\nx"},
       {"device", "/dev/zero\nx"}};
 }

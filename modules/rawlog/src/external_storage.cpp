@@ -95,11 +95,20 @@ mrpt::maps::CPointsMap::Ptr archivedPoints(const std::string& path)
   return points;
 }
 
+/** MRPT tells whether a cloud is in a file, and not in which format. */
+struct FormatOf : CObservationPointCloud
+{
+  static ExternalStorageFormat of(const CObservationPointCloud& cloud)
+  {
+    return cloud.*(&FormatOf::m_externally_stored);
+  }
+};
+
 // Loading completes an observation, which MRPT regards as no change of it.
 void loadCloud(const CObservationPointCloud& cloud, const std::string& path)
 {
-  // Which of MRPT's formats it is, the cloud does not tell; an archive tells it by itself.
-  if (ObjectStream(path).peekHeader())
+  // MRPT would take the memory that an archive claims.
+  if (FormatOf::of(cloud) == CObservationPointCloud::ExternalStorageFormat::MRPT_Serialization)
   {
     const_cast<CObservationPointCloud&>(cloud).pointcloud = archivedPoints(path);
     return;
