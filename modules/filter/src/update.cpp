@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -223,6 +224,12 @@ UpdateStep standardStep(
 }
 
 // Eq. 15-20.
+double normalizedInnovation(const UpdateResult& update)
+{
+  return update.last.weighted_squares /
+         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
+}
+
 UpdateResult iteratedUpdate(
     const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
     GainForm gain)

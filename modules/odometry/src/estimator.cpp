@@ -291,7 +291,7 @@ void Estimator::releaseTimeOffset(const ScanResult& result, std::size_t points)
   const FilterRun& run = this->run();
   const bool released = variance != 0.0;
   if (!p.estimate_time_offset || released || run.motion_window) return;
-  if (options_.map.type != MapType::Planes) return;
+  if (!map_.surfaces().knowsSharedErrors()) return;
   if (result.status != ScanStatus::Tracking || !run.consistent) return;
   if (static_cast<double>(result.statistics.points_effective) <
       kTimeOffsetInlierRatio * static_cast<double>(points))

@@ -29,15 +29,6 @@ EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
   return options;
 }
 
-std::unique_ptr<SurfaceMap> surfacesOf(
-    const SavedMap& saved, const OdometryOptions& options, std::shared_ptr<const Workers> workers)
-{
-  if (saved.planes && options.map.type == MapType::Planes)
-    return std::make_unique<VoxelPlaneMap>(*saved.planes);
-  auto surfaces = makeSurfaceMap(options, std::move(workers));
-  insertSavedPoints(saved.points, *surfaces);
-  return surfaces;
-}
 }  // namespace
 
 LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers)
@@ -53,7 +44,7 @@ LocalMap::LocalMap(
     const OdometryOptions& options, std::shared_ptr<const Workers> workers, const SavedMap& saved)
     : update_given_(options.map.update),
       radius_(options.map.radius),
-      surfaces_(surfacesOf(saved, options, workers)),
+      surfaces_(makeSurfaceMap(options, workers, saved)),
       edges_(edgeMapOptions(options)),
       groups_(std::move(workers)),
       insertions_(surfaces_->insertionCount()),

@@ -37,4 +37,15 @@ std::unique_ptr<SurfaceMap> makeSurfaceMap(
   return makePlaneMap(parameters, std::move(workers));
 }
 
+std::unique_ptr<SurfaceMap> makeSurfaceMap(
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers,
+    const SavedMap& saved)
+{
+  if (saved.planes && parameters.map.type == MapType::Planes)
+    return std::make_unique<VoxelPlaneMap>(*saved.planes);
+  auto surfaces = makeSurfaceMap(parameters, std::move(workers));
+  insertSavedPoints(saved.points, *surfaces);
+  return surfaces;
+}
+
 }  // namespace fastlio

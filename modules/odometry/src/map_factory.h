@@ -6,6 +6,7 @@
 
 #include <fastlio/map/surface_map.h>
 #include <fastlio/odometry/odometry_options.h>
+#include <fastlio/odometry/saved_map.h>
 #include <fastlio/parallel/workers.h>
 
 #include <memory>
@@ -15,5 +16,9 @@ namespace fastlio
 /** \param workers who share the map's insertions */
 [[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
     const OdometryOptions& parameters, std::shared_ptr<const Workers> workers);
+/** Of the saved map's planes, where the type of map has planes; else of its points. */
+[[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers,
+    const SavedMap& saved);
 
 }  // namespace fastlio

@@ -37,12 +37,6 @@ double headingStd(const FilterState& s)
   return std::sqrt(std::max(0.0, down.dot(P * down)));
 }
 
-double innovation(const UpdateResult& update)
-{
-  return update.last.weighted_squares /
-         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
-}
-
 /** The state with another heading. */
 FilterState turnedBy(double heading, const FilterState& s)
 {
@@ -77,7 +71,7 @@ bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const Loca
   if (match.constraints.unconstrained > 0) return true;
   const double ratio = static_cast<double>(match.update.last.count) /
                        static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
-  return innovation(match.update) <= kWrongPoseInnovation &&
+  return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
          ratio >= kMinUsualFraction * map.usualInlierRatio();
 }
 

@@ -42,17 +42,11 @@ constexpr double kFoundAngleStd = 0.01, kFoundPositionStd = 0.03;  // [rad], [m]
 
 using Square6 = Eigen::Matrix<double, 6, 6>;
 
-double innovationOf(const UpdateResult& update)
-{
-  return update.last.weighted_squares /
-         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
-}
-
 PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
 {
   PoseCandidate candidate;
   candidate.T_world_imu = update.posterior.x.pose();
-  candidate.innovation = innovationOf(update);
+  candidate.innovation = normalizedInnovation(update);
   candidate.inlier_ratio = static_cast<double>(update.last.count) / static_cast<double>(points);
   candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
   return candidate;

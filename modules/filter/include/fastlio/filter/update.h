@@ -83,6 +83,10 @@ struct UpdateResult
   InformationSums last;  //!< sums at the last iterate
 };
 
+/** Mean of z^2/r at the last iterate: about 1 when the noise explains the residuals; 0 without
+ * measurements. */
+[[nodiscard]] double normalizedInnovation(const UpdateResult& update);
+
 /** Evaluates the measurements at an iterate; \a iteration counts from 0. */
 using MeasurementModel =
     std::function<MeasurementEvaluation(const NavState& iterate, int iteration)>;

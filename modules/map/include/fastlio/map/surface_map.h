@@ -61,6 +61,11 @@ class SurfaceMap
   /** Insertions so far, which PlaneMatch::created_insertion counts; 0 for maps that do not tell. */
   [[nodiscard]] virtual std::uint32_t insertionCount() const { return 0; }
 
+  /** It tells by created_insertion which matches share a plane's error. Where it does not, the
+   * filter takes their errors for independent and is too sure of what only the map's planes tell.
+   */
+  [[nodiscard]] virtual bool knowsSharedErrors() const { return false; }
+
   /** Number of points held. */
   [[nodiscard]] virtual std::size_t pointCount() const = 0;
 

@@ -54,6 +54,7 @@ class VoxelPlaneMap : public SurfaceMap
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
   [[nodiscard]] std::uint32_t insertionCount() const override;
+  [[nodiscard]] bool knowsSharedErrors() const override { return true; }
   /** Number of finest voxels with points. */
   [[nodiscard]] std::size_t pointCount() const override;
   /** The mean point of each finest voxel. */
