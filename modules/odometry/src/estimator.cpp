@@ -17,9 +17,6 @@ namespace fastlio
 {
 namespace
 {
-// Of the pseudo-measurements v = 0 [m/s] and w = gyro bias [rad/s] (0.05 deg/s) at rest: a parked
-// vehicle sways by so much.
-constexpr double kZeroVelocityStd = 0.01, kZeroRateStd = 0.0008726646259971648;
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
 

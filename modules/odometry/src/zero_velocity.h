@@ -10,6 +10,10 @@
 
 namespace fastlio
 {
+/** Of the pseudo-measurements v = 0 [m/s] and w = gyro bias [rad/s] (0.05 deg/s): a parked vehicle
+ * sways by so much. */
+inline constexpr double kZeroVelocityStd = 0.01, kZeroRateStd = 0.0008726646259971648;
+
 /** A posterior and I - K H of the update that led to it. */
 struct ZeroVelocityUpdate
 {
