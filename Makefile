@@ -26,7 +26,7 @@ help:
 	@echo "make test    install what is missing, build, run every test"
 	@echo "               RECORDINGS=DIR also tests on the recordings (NAME.rawlog + NAME.gt.tum) there"
 	@echo "               PRESET=release|debug|asan|tsan tests another build than that for any machine"
-	@echo "make faults  faults put into recordings; prints the table of docs/robustness.md"
+	@echo "make faults  faults put into recordings, the table of docs/robustness.md; outages at every second"
 	@echo "make fuzz    libFuzzer on everything that reads files   FUZZ_SECONDS=$(FUZZ_SECONDS) for each"
 	@echo "make sanitize  every test with address and undefined-behaviour sanitizers, then with that of threads"
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
@@ -64,9 +64,11 @@ test: test-dependencies
 	ctest --preset $(TEST_PRESET) --parallel $(JOBS)
 
 faults: test-dependencies
-	cmake --preset $(TEST_PRESET)
-	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults
+	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_recordings
 	build/$(TEST_PRESET)/tests/faults/test_faults
+	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/outages/test_outages
+	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_recordings --gtest_filter='*Outage*'
 
 fuzz:
 	@cmake/install_dependencies.sh build fuzz

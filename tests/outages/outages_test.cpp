@@ -4,13 +4,10 @@
 // Scans are missing for a while in motion: the odometry finds its pose again, or says that it has
 // lost it. What it must never do is to go on from a wrong pose and to be sure of it.
 
-#include "simulated_run.h"
+#include "walks.h"
 #include <fastlio/exporters/run_health.h>
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/math/angles.h>
-#include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
-#include <fastlio/simulation/scenario.h>
 
 #include <gtest/gtest.h>
 
@@ -47,13 +44,6 @@ PointColumns firstOf(const PointColumns& points, std::size_t count)
   return first;
 }
 
-SimulationSettings walk(const std::string& scenario)
-{
-  SimulationSettings settings = defaultSettings(scenario);
-  settings.duration = 24.0;
-  return settings;
-}
-
 /** A walk, cast once for all its faults. */
 struct CastWalk
 {
@@ -81,29 +71,6 @@ SimulatedRun runWithOutage(const CastWalk& walk, const Outage& outage, Missing m
     return missing == Missing::Points;
   };
   return runOdometryWith(inputs, walk.simulation, options);
-}
-
-double positionError(const SimulatedRun& run, const JudgedScan& scan)
-{
-  return stateError(run, scan).segment<3>(kPosition).norm();
-}
-
-double positionStd(const JudgedScan& scan)
-{
-  return std::sqrt(scan.result.filter.P.diagonal().segment<3>(kPosition).sum());
-}
-
-/** \return the number of scans that claim to track and are off by more than 0.3 m and 5 sigma */
-int confidentlyWrong(const SimulatedRun& run)
-{
-  int wrong = 0;
-  for (const JudgedScan& scan : run.scans)
-  {
-    if (scan.result.status != ScanStatus::Tracking) continue;
-    const double error = positionError(run, scan);
-    if (error > 0.3 && error > 5.0 * positionStd(scan)) ++wrong;
-  }
-  return wrong;
 }
 
 class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<std::string, double>>
@@ -238,99 +205,6 @@ TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
       [](const JudgedScan& scan)
       { return scan.result.message.find("found again") != std::string::npos; });
   EXPECT_NE(found, run.scans.end());
-}
-
-// Nothing tells where along a tunnel one is: an outage of one direction. Single planes that a voxel
-// at an edge fitted across the tunnel made the odometry sure of it (up to 17 sigma off).
-class Tunnel : public ::testing::TestWithParam<std::uint64_t>
-{
-};
-
-TEST_P(Tunnel, ThePositionAlongItIsNeverSurerThanItIsRight)
-{
-  SimulationSettings settings = defaultSettings("tunnel");
-  settings.seed = GetParam();
-  const SimulatedRun run = runOdometry(Simulation(settings), matchingParameters(settings));
-  EXPECT_EQ(confidentlyWrong(run), 0);
-  const ScanResult& last = run.scans.back().result;
-  EXPECT_EQ(last.health.cause, HealthCause::DegenerateDirection);
-  EXPECT_LT(last.health.value, 0.5)
-      << "the position is uncertain by " << positionStd(run.scans.back()) << " m";
-  for (const JudgedScan& scan : run.scans)
-  {
-    if (scan.result.health.value >= 0.5) continue;
-    EXPECT_EQ(scan.result.health.cause, HealthCause::DegenerateDirection)
-        << scan.result.health.reason;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, Tunnel, ::testing::Values(1, 2, 4));
-
-TEST(Units, ALidarInMillimetresIsReportedAndRead)
-{
-  const Simulation simulation(walk("office"));
-  const OdometryOptions options = matchingParameters(simulation.settings());
-  const auto inMillimetres = [&](LidarScan& scan)
-  {
-    for (auto* column : {&scan.points.x, &scan.points.y, &scan.points.z})
-      for (float& value : *column)
-        value *= 1000.0F;
-    return true;
-  };
-  const SimulatedRun run = runOdometryWithScans(simulation, options, inMillimetres);
-  EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
-  EXPECT_LT(positionError(run, run.scans.back()), 0.02);
-}
-
-TEST(Units, ALidarWhosePointsAreAllOutOfRangeIsNeverOk)
-{
-  const Simulation simulation(walk("office"));
-  OdometryOptions options = matchingParameters(simulation.settings());
-  options.lidar.max_range = 0.2;
-  options.lidar.min_range = 0.1;
-  const SimulatedRun run = runOdometry(simulation, options);
-  EXPECT_EQ(countOf(run, ScanStatus::Tracking) + countOf(run, ScanStatus::FirstScan), 0U);
-  for (const JudgedScan& scan : run.scans)
-    EXPECT_LT(scan.result.health.value, 0.5);
-}
-
-// The map of a LiDAR that is mounted otherwise than the options say is consistent in itself.
-TEST(Mounting, AWrongOneIsReportedWithItsAngle)
-{
-  SimulationSettings settings = walk("office");
-  settings.duration = 30.0;
-  const Simulation simulation(settings);
-  OdometryOptions options = matchingParameters(simulation.settings());
-  const Mat3 R_wrong = expSO3({0.0, 0.0, 5.0 / kDegPerRad});
-  const auto turned = [&](LidarScan& scan)
-  {
-    scan.T_imu_lidar.R = R_wrong * scan.T_imu_lidar.R;
-    return true;
-  };
-  const SimulatedRun run = runOdometryWithScans(simulation, options, turned);
-  const ScanResult& last = run.scans.back().result;
-  EXPECT_EQ(last.health.cause, HealthCause::MotionDisagreement);
-  EXPECT_LT(last.health.value, 0.5);
-  ASSERT_TRUE(last.statistics.mounting_error.has_value());
-  EXPECT_NEAR(kDegPerRad * last.statistics.mounting_error->angle, 5.0, 1.6);
-  EXPECT_LT(
-      kDegPerRad * logSO3(last.statistics.mounting_error->R_true_given * R_wrong).norm(), 1.6);
-}
-
-TEST(Mounting, ARightOneIsNoTrouble)
-{
-  for (const char* scenario : {"office", "shake", "car"})
-  {
-    const SimulatedRun run =
-        runOdometry(Simulation(walk(scenario)), matchingParameters(walk(scenario)));
-    for (const JudgedScan& scan : run.scans)
-    {
-      ASSERT_TRUE(
-          scan.result.health.cause != HealthCause::MotionDisagreement ||
-          scan.result.health.value > 0.5)
-          << scenario << ": " << scan.result.health.reason;
-    }
-  }
 }
 
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)

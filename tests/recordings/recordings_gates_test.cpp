@@ -6,17 +6,16 @@
  * at any number of threads. */
 
 #include "process.h"
+#include "recordings_folder.h"
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace fastlio::testing
@@ -38,47 +37,6 @@ double largestApe(const std::string& name)
   const auto known = kKnown.find(name);
   return known == kKnown.end() ? kGeneral : known->second;
 }
-
-/** NAME of every NAME.rawlog that has a NAME.gt.tum beside it. */
-std::vector<std::string> recordingNames()
-{
-  std::vector<std::string> names;
-  const fs::path folder = MRPT_FASTLIO_RECORDINGS_DIR;
-  if (folder.empty() || !fs::is_directory(folder)) return names;
-  for (const auto& entry : fs::directory_iterator(folder))
-  {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".rawlog" && fs::exists(folder / (name + ".gt.tum")))
-      names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-/** A folder that goes with the test. */
-class ScratchFolder
-{
- public:
-  explicit ScratchFolder(const std::string& name)
-      : path_(
-            fs::temp_directory_path() /
-            ("fastlio-recordings-" + name + "-" + std::to_string(getpid())))
-  {
-    fs::create_directories(path_);
-  }
-  ~ScratchFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 ProcessResult replay(const std::string& name, int threads, const ScratchFolder& scratch)
 {

@@ -47,6 +47,9 @@ struct ScanOutcome
   double position_std = 0.0;               //!< of the filter, along the worst axis [m]
 };
 
+/** Points that matched a plane, of all that could have. */
+[[nodiscard]] double inlierRatio(const ScanStatistics& statistics, std::size_t points);
+
 /** The scan matches as those before it did: its inlier ratio is at least kMinUsualFraction of the
  * usual one. (Residuals alone do not tell: along a tunnel they grow although the pose is right but
  * for one direction.) \param points of the scan that could have matched */

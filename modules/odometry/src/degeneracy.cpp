@@ -20,6 +20,9 @@ using Square6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kClearlyConstrained = 0.05;
 // Planes that may be wrong at once: in a simulated tunnel one or two of some 600 were.
 constexpr std::size_t kDistrustedPlanes = 3;
+// Without them, this part of the signal-to-noise ratio has to be left: spurious planes leave at
+// most a quarter, a floor that only near points see half and more.
+constexpr double kSupportedPart = 0.3;
 
 /** Lever arm that makes rotations and translations equally strong on the whole [m]. */
 double leverArmOf(const Matrix6& information)
@@ -163,12 +166,15 @@ void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& c)
   c.unconstrained = 0;
   Vector6 keep = Vector6::Ones();
   for (int i = 5; i >= 0; --i)
-    if (c.supported_information[i] <= min_signal_to_noise * c.noise_information[i])
+  {
+    const double needed = min_signal_to_noise * c.noise_information[i];
+    if (c.information[i] <= needed || c.supported_information[i] <= kSupportedPart * needed)
     {
       c.unconstrained = i + 1;
       keep.head(i + 1).setZero();
       break;
     }
+  }
   if (c.unconstrained == 0) return;
   Vector6 unit = Vector6::Ones();
   unit.head<3>().setConstant(c.lever_arm);

@@ -87,7 +87,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   Work work{scan, deskewed, predicted, {}};
   work.outcome.search = matched.poses;
   state_.stamp_ns = span.end_ns;
-  compareMotion(matched, work, result.statistics);
+  compareMotion(matched, work, imu, result.statistics);
   adopt(match, work, result);
   noteSupport(match, work, result);
   applyZeroVelocityUpdate(statusOf(work.outcome, options_) == ScanStatus::Tracking, result);
@@ -141,19 +141,6 @@ const DeskewedScan& Estimator::deskew(
   return deskewed;
 }
 
-/** Along a degenerate direction the prediction is not corrected, so it cannot be compared. */
-void Estimator::compareMotion(
-    const MapSearchResult& matched, const Work& work, ScanStatistics& statistics)
-{
-  const MatchResult& match = matched.match;
-  if (matched.poses || run().motion_window)
-    agreement_.restart();
-  else if (match.update.updated && match.constraints.unconstrained == 0)
-    agreement_.add(state_.filter.x, work.predicted.state, match.update.posterior);
-  statistics.motion_innovation = agreement_.innovation();
-  statistics.mounting_error = agreement_.mountingError();
-}
-
 /** The posterior becomes the state; what the map's errors add to its covariance is reported. */
 void Estimator::adopt(const MatchResult& match, const Work& work, ScanResult& result)
 {
@@ -178,7 +165,8 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   ScanOutcome& outcome = work.outcome;
   outcome.place = placeOf(mode_);
   outcome.map_was_empty = map_.empty();
-  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() >= kMinEffectivePoints;
+  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() + work.deskewed.edges.size() >=
+                                           kMinEffectivePoints;
   outcome.updated = match.update.updated;
   outcome.prediction_finite = work.predicted.finite;
   outcome.points = work.deskewed.surfaces.size();

@@ -107,7 +107,9 @@ class Estimator
   [[nodiscard]] MapSearchResult trackOrSearch(
       const DeskewedScan& scan, const ScanPrediction& predicted);
   void beginNewMap(const DeskewedScan& scan);
-  void compareMotion(const MapSearchResult& matched, const Work& work, ScanStatistics& statistics);
+  void compareMotion(
+      const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
+      ScanStatistics& statistics);
   void adopt(const MatchResult& match, const Work& work, ScanResult& result);
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);
   void applyZeroVelocityUpdate(bool matched, ScanResult& result);

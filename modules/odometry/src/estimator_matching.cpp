@@ -5,6 +5,7 @@
 
 #include "estimator.h"
 #include <fastlio/math/stopwatch.h>
+#include <fastlio/math/time.h>
 
 #include <utility>
 
@@ -63,6 +64,24 @@ void Estimator::beginNewMap(const DeskewedScan& scan)
 {
   if (map_.isGiven() || scan.surfaces.size() < kMinEffectivePoints) return;
   map_ = LocalMap(options_, workers_);
+}
+
+/** Along a degenerate direction the prediction is not corrected, so it cannot be compared; nor
+ * where inertial data are missing or in doubt. */
+void Estimator::compareMotion(
+    const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
+    ScanStatistics& statistics)
+{
+  if (map_.isGiven()) return;
+  const MatchResult& match = matched.match;
+  const std::int64_t since_ns = state_.stamp_ns - toNanoseconds(work.predicted.blind_s);
+  const bool in_doubt = inflatedRatio(imu.inflations(), since_ns, state_.stamp_ns) > 0.0;
+  if (matched.poses || run().motion_window || in_doubt)
+    agreement_.restart();
+  else if (match.update.updated && match.constraints.unconstrained == 0)
+    agreement_.add(state_.filter.x, work.predicted.state, match.update.posterior);
+  statistics.motion_innovation = agreement_.innovation();
+  statistics.mounting_error = agreement_.mountingError();
 }
 
 }  // namespace fastlio

@@ -25,8 +25,6 @@ constexpr double kWideGridStep = 1.0;  // [m]
 // A candidate's uncertainty, of the step: neighbours overlap.
 constexpr double kStartStd = 0.6;
 constexpr double kSearchSigmas = 3.5;
-// Bounds the time that a search takes, to about a second.
-constexpr std::size_t kMostCandidates = 3000;
 constexpr std::size_t kSamplePoints = 300;
 constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
@@ -179,9 +177,8 @@ bool needsPoseSearch(const FilterState& predicted, double blind_s)
          predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
 }
 
-CandidateGrid candidateGrid(const FilterState& predicted, std::size_t headings)
+CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most)
 {
-  const std::size_t most = std::max<std::size_t>(1, kMostCandidates / headings);
   CandidateGrid grid = gridOf(predicted, kGridStep, most);
   return grid.complete ? grid : gridOf(predicted, kWideGridStep, most);
 }
@@ -193,7 +190,8 @@ PoseSearchResult searchPose(
   PoseSearchResult result;
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
-  const CandidateGrid grid = candidateGrid(predicted, attitudes.size());
+  const CandidateGrid grid = candidateGrid(
+      predicted, std::max<std::size_t>(1, limits.most_candidates / attitudes.size()));
   result.complete = grid.complete;
   std::vector<PoseCandidate> candidates;
   for (const Vec3& offset : grid.offsets)
@@ -215,7 +213,9 @@ PoseSearchResult searchPose(
   for (const PoseCandidate& place : places)
     if (!isSamePlace(place, *result.best))
       result.rival_score = std::max(result.rival_score, place.score);
-  result.accepted = result.complete && result.best->inlier_ratio >= limits.min_inlier_ratio &&
+  const double needed =
+      result.complete ? limits.min_inlier_ratio : limits.min_incomplete_inlier_ratio;
+  result.accepted = result.best->inlier_ratio >= needed &&
                     result.best->innovation <= limits.max_innovation &&
                     result.rival_score < kRivalShare * result.best->score;
   return result;

@@ -34,8 +34,8 @@ struct CandidateGrid
 };
 
 /** A grid over three standard deviations of the predicted position; wider where it would have too
- * many places. \param headings that are tried at each place */
-[[nodiscard]] CandidateGrid candidateGrid(const FilterState& predicted, std::size_t headings);
+ * many places. \param most places */
+[[nodiscard]] CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most);
 
 /** Matches a scan from a start; so many iterations search the map anew. */
 using MatchFromStart =
@@ -45,7 +45,9 @@ using MatchFromStart =
 struct PoseSearchLimits
 {
   double min_inlier_ratio = 0.3;
-  double max_innovation = 3.0;  //!< mean z^2/r
+  double min_incomplete_inlier_ratio = 0.5;  //!< where not all places can be tried
+  double max_innovation = 3.0;         //!< mean z^2/r
+  std::size_t most_candidates = 3000;  //!< bounds the time of a search, to half a second or so
 };
 
 /** A pose that a candidate was pulled to, with its evidence. */
@@ -64,7 +66,7 @@ struct PoseSearchResult
   bool complete = true;  //!< the places that were tried are all that the prediction allows
   std::optional<PoseCandidate> best;
   double rival_score = 0.0;  //!< of the best candidate at another place
-  bool accepted = false;     //!< enough evidence, more than any rival has, and none was left out
+  bool accepted = false;     //!< enough evidence, and more than any rival has
 };
 
 /** Matches a sample of the scan from every candidate, and the whole scan from the best of them.

@@ -6,6 +6,8 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/odometry/point_to_line.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <functional>
 #include <utility>
 
@@ -17,12 +19,22 @@ constexpr int kPullInIterations = 15;
 // Gate, in standard deviations of residual and prior: 99.7 % of what noise explains passes.
 constexpr double kResidualGate = 3.0;
 
+/** The prediction's uncertainty of position, as the gate takes it. One direction may be far more
+ * uncertain than the others (along a tunnel), which says nothing about planes across. The two others
+ * count whatever the plane: a prediction that is a little too sure of itself may not lose the planes
+ * that would correct it. */
+Mat3 priorOfGate(const Mat3& P)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(P, Eigen::EigenvaluesOnly);
+  return P + solver.eigenvalues().head<2>().sum() * Mat3::Identity();
+}
+
 ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predicted)
 {
   ResidualModel model;
   model.range_variance = p.range_noise * p.range_noise;
   model.gate = kResidualGate;
-  model.prior_position_covariance = predicted.bottomRightCorner<3, 3>();
+  model.prior_position_covariance = priorOfGate(predicted.bottomRightCorner<3, 3>());
   model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
   return model;
 }

@@ -33,7 +33,7 @@ struct ResidualModel
 {
   double range_variance = 4e-4;  //!< [m^2]
   double gate = 3.0;             //!< in standard deviations
-  /** Of the prediction's position, world frame [m^2]. */
+  /** How far the prediction's position may be off, world frame [m^2]. */
   Mat3 prior_position_covariance = Mat3::Zero();
   double prior_attitude_variance = 0.0;  //!< of the prediction, summed over the axes [rad^2]
 };

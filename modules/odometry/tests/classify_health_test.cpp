@@ -1,0 +1,96 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "classified_scans.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace fastlio;
+using namespace fastlio::testing;
+
+TEST(Classify, AGoodScanIsHealthy)
+{
+  const ScanHealth health = healthAfter([](ScanResult&) {});
+  EXPECT_GT(health.value, 0.8);
+  EXPECT_EQ(health.reason, "");
+}
+
+TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
+{
+  struct Case
+  {
+    HealthCause cause;
+    std::string parameter;
+    std::function<void(ScanResult&, double)> set;  // to a multiple of the limit, > 1 is worse
+  };
+  const std::vector<Case> cases{
+      {HealthCause::FewMatches, "of the fraction that matched before",
+       [&](ScanResult& r, double k)
+       {
+         r.statistics.points_downsampled = 100000;
+         r.statistics.points_effective = static_cast<std::size_t>(0.2 * 50000 / k);
+       }},
+      {HealthCause::LargeResidual, "times what their noise explains",
+       [&](ScanResult& r, double k) { r.statistics.normalized_innovation = k * 3.0; }},
+      {HealthCause::DegenerateDirection, "leave a direction open",
+       [&](ScanResult& r, double k) { r.statistics.information_eigenvalues[0] = 100.0 / k; }},
+      {HealthCause::Bias, "the gyro's bias",
+       [&](ScanResult& r, double k) { r.filter.x.gyro_bias = Vec3(0, k * M_PI / 18.0, 0); }},
+      {HealthCause::Bias, "the accelerometer's bias",
+       [&](ScanResult& r, double k) { r.filter.x.accel_bias = Vec3(k * 2.0, 0, 0); }},
+      {HealthCause::ScanTiming, "since the scan before",
+       [&](ScanResult& r, double k)
+       { r.begin_ns = r.stamp_ns - static_cast<std::int64_t>(1e9 * k * 0.5); }},
+  };
+  for (const Case& c : cases)
+  {
+    const auto at = [&](double k) { return healthAfter([&](ScanResult& r) { c.set(r, k); }); };
+    EXPECT_NEAR(at(1.0).value, 0.5, 1e-4) << c.parameter;
+    const ScanHealth worse = at(1.2), better = at(0.9);
+    EXPECT_LT(worse.value, 0.5) << c.parameter;
+    EXPECT_GT(better.value, 0.5) << c.parameter;
+    EXPECT_EQ(worse.cause, c.cause) << c.parameter;
+    EXPECT_NE(worse.reason.find(c.parameter), std::string::npos) << worse.reason;
+    EXPECT_EQ(better.reason, "");
+  }
+}
+
+TEST(Classify, InflatedInertialDataAreTheirPartOfTheScan)
+{
+  const std::vector<NoiseInflation> inflations{{kStamp, kStamp + kScan / 2, 1.0, 1.0}};
+  const ScanHealth health = classified(goodOutcome(), goodScan(), inflations).health;
+  EXPECT_EQ(health.cause, HealthCause::InertialData);
+  EXPECT_NE(health.reason.find("50 %"), std::string::npos) << health.reason;
+}
+
+TEST(Classify, ADirectionThatIsKnownToBeDegenerateIsNoTrouble)
+{
+  const ScanHealth health = healthAfter(
+      [](ScanResult& r)
+      {
+        r.statistics.information_eigenvalues[0] = 0.0;
+        r.statistics.constraints.unconstrained = 1;
+      });
+  EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
+  EXPECT_GT(health.value, 0.5);
+}
+
+TEST(Classify, ADegenerateDirectionIsTroubleOnceThePositionIsUncertain)
+{
+  const ScanHealth health = healthAfter(
+      [](ScanResult& r)
+      {
+        r.statistics.constraints.unconstrained = 1;
+        r.statistics.constraints.directions.col(0) = Vector6::Unit(3);
+        r.filter.P(kPosition, kPosition) = 0.6 * 0.6;
+      });
+  EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
+  EXPECT_LT(health.value, 0.5);
+  EXPECT_NE(health.reason.find("motion along (1.00, 0.00, 0.00)"), std::string::npos)
+      << health.reason;
+  EXPECT_NE(health.reason.find("0.60 m"), std::string::npos) << health.reason;
+}

@@ -1,0 +1,45 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file walks.h Simulated walks, and whether the odometry was wrong and sure of it. */
+#pragma once
+
+#include "simulated_run.h"
+#include <fastlio/simulation/scenario.h>
+
+#include <cmath>
+#include <string>
+
+namespace fastlio::testing
+{
+inline SimulationSettings walk(const std::string& scenario)
+{
+  SimulationSettings settings = defaultSettings(scenario);
+  settings.duration = 24.0;
+  return settings;
+}
+
+inline double positionError(const SimulatedRun& run, const JudgedScan& scan)
+{
+  return stateError(run, scan).segment<3>(kPosition).norm();
+}
+
+inline double positionStd(const JudgedScan& scan)
+{
+  return std::sqrt(scan.result.filter.P.diagonal().segment<3>(kPosition).sum());
+}
+
+/** \return the number of scans that claim to track and are off by more than 0.3 m and 5 sigma */
+inline int confidentlyWrong(const SimulatedRun& run)
+{
+  int wrong = 0;
+  for (const JudgedScan& scan : run.scans)
+  {
+    if (scan.result.status != ScanStatus::Tracking) continue;
+    const double error = positionError(run, scan);
+    if (error > 0.3 && error > 5.0 * positionStd(scan)) ++wrong;
+  }
+  return wrong;
+}
+
+}  // namespace fastlio::testing
