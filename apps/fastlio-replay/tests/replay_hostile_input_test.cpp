@@ -69,9 +69,12 @@ TEST_F(HostileInput, AnInitialPoseThatIsNoneIsRefused)
   const std::string rawlog = record("a.rawlog", {});
   ASSERT_EQ(replayFile(rawlog, {"--export", "ply"}).exit_status, 0);
   for (const char* pose : {"nan,0,0,0,0,0", "0,0,0,inf,0,0", "1e300,0,0,0,0,0"})
-    expectEnd(
-        replayFile(rawlog, {"--map-in", file("out/map.ply"), "--initial-pose", pose}), 1,
-        "--initial-pose");
+  {
+    const auto result = replay(
+        {"--input-rawlog", rawlog, "--output-dir", file("again"), "--map-in", file("out/map.ply"),
+         "--initial-pose", pose});
+    expectEnd(result, 1, "--initial-pose");
+  }
 }
 
 TEST_F(HostileInput, ADamagedMapIsOneSentence)
