@@ -58,8 +58,9 @@ void withoutStrongestPlanes(
     const ResidualModel& model, std::vector<PlaneInformation>& storage,
     ScanConstraints& constraints);
 
-/** A direction is unconstrained where its supported information is not more than
- * \a min_signal_to_noise times that of the noise, and so are all weaker ones. */
+/** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
+ * that of the noise, or where its supported information is not more than three tenths of that; and
+ * so are all weaker ones. */
 void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
 
 /** True when some direction has so much less information than the best one that it is worth the
