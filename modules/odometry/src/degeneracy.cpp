@@ -52,6 +52,7 @@ void homogeneous(
     out[3][l] = 1.0;
   }
 }
+
 /** What each plane tells about a direction, in the order of the planes' numbers. */
 void informationByPlane(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
