@@ -97,11 +97,12 @@ void considerMatches(const ScanStatistics& s, ScanHealth& health)
       });
 }
 
-/** A direction that is left to the inertial data is fine as long as they know it well enough. */
-void considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
+/** A direction that is left to the inertial data is fine as long as they know it well enough.
+ * \return false where they do not */
+bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
 {
   const ScanConstraints& constraints = result.statistics.constraints;
-  if (constraints.unconstrained == 0) return;
+  if (constraints.unconstrained == 0) return true;
   const Matrix6 own = result.filter.P.topLeftCorner<6, 6>() - result.map_covariance;
   const double std = std::sqrt(own.bottomRightCorner<3, 3>().diagonal().maxCoeff());
   consider(
@@ -116,6 +117,7 @@ void considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
             open.is_rotation ? "rotation about" : "motion along", open.axis.x(), open.axis.y(),
             open.axis.z(), std, kMaxDegenerateStd);
       });
+  return std <= kMaxDegenerateStd;
 }
 
 /** What scans correct again and again, the inertial data got wrong, or the scans' pose did. */
@@ -186,8 +188,9 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
   else if (result.status == ScanStatus::Tracking)
   {
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, health);
-    considerMatches(result.statistics, health);
-    considerDegenerateDirections(result, health);
+    // A position that is off along an open direction leaves residuals wherever something stands
+    // across it: they are no second cause.
+    if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
     considerMotion(result.statistics, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, health);
