@@ -73,8 +73,7 @@ faults: test-dependencies
 fuzz:
 	@cmake/install_dependencies.sh build fuzz
 	cmake --preset fuzz
-	cmake --build --preset fuzz --parallel $(JOBS) --target fastlio-fuzz-rawlog fastlio-fuzz-packets \
-	  fastlio-fuzz-cloud fastlio-fuzz-yaml
+	cmake --build --preset fuzz --parallel $(JOBS) --target fuzzers
 	tests/fuzz/run.sh build/fuzz $(FUZZ_SECONDS)
 
 sanitize:
