@@ -5,8 +5,8 @@
 
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
-#include <fastlio/files/input_file.h>
 #include <fastlio/files/failure_text.h>
+#include <fastlio/files/input_file.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>

@@ -190,8 +190,8 @@ PoseSearchResult searchPose(
   PoseSearchResult result;
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
-  const CandidateGrid grid = candidateGrid(
-      predicted, std::max<std::size_t>(1, limits.most_candidates / attitudes.size()));
+  const CandidateGrid grid =
+      candidateGrid(predicted, std::max<std::size_t>(1, limits.most_candidates / attitudes.size()));
   result.complete = grid.complete;
   std::vector<PoseCandidate> candidates;
   for (const Vec3& offset : grid.offsets)

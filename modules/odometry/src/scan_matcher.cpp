@@ -20,9 +20,9 @@ constexpr int kPullInIterations = 15;
 constexpr double kResidualGate = 3.0;
 
 /** The prediction's uncertainty of position, as the gate takes it. One direction may be far more
- * uncertain than the others (along a tunnel), which says nothing about planes across. The two others
- * count whatever the plane: a prediction that is a little too sure of itself may not lose the planes
- * that would correct it. */
+ * uncertain than the others (along a tunnel), which says nothing about planes across. The two
+ * others count whatever the plane: a prediction that is a little too sure of itself may not lose
+ * the planes that would correct it. */
 Mat3 priorOfGate(const Mat3& P)
 {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(P, Eigen::EigenvaluesOnly);
