@@ -72,6 +72,7 @@ OutputMapOptions outputMapOptions(const RunSetup& setup)
   options.tile_size = output.tile_size;
   options.points_in_memory = static_cast<std::size_t>(output.map_memory * kPointsPerMillion);
   options.directory = setup.arguments.output_directory;
+  if (setup.saved_map) options.origin = setup.saved_map->origin;
   return options;
 }
 
@@ -107,6 +108,12 @@ ReplayRun::ReplayRun(RunSetup setup, COutputLogger& logger)
 {
   if (!setup_.saved_map) return;
   odometry_.startIn(*setup_.saved_map);
+  if (const Vec3& origin = odometry_.mapOrigin(); !origin.isZero())
+    logger_.logFmt(
+        LVL_INFO,
+        "the map lies far from the origin of its coordinates: map.metricmap and map.planes, which "
+        "hold single precision, count from (%.0f, %.0f, %.0f) m",
+        origin.x(), origin.y(), origin.z());
   if (setup_.config.odometry.map.update && exporters_.needMap())
     output_map_.insert(withoutFields(setup_.saved_map->points));
   setup_.saved_map.reset();  // the odometry has taken it
@@ -244,6 +251,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.inputs = inputFiles(setup_.arguments.input_files);
   summary.configuration = setup_.configuration;
   summary.frame = setup_.frame.name;
+  summary.map_origin = odometry_.mapOrigin();
   summary.sensors = sensorTexts(setup_);
   summary.odometry = setup_.config.odometry;
   summary.options = textsOf(configTable(), setup_.config);

@@ -3,6 +3,8 @@
 
 #include "replay_test_support.h"
 
+#include <mrpt/core/format.h>
+
 #include <sstream>
 
 namespace fastlio::testing
@@ -52,6 +54,33 @@ TEST_F(SavedMaps, AMapThatGrowsIsSavedAsAWhole)
        file("out/map.ply")});
   expectEnd(result, 0, "exit status 0");
   EXPECT_GE(linesOf(file("again/map.txt")), points - 1);
+}
+
+TEST_F(SavedMaps, CoordinatesOfTheEarthAreKept)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  ASSERT_EQ(replayFile(rawlog, {"--export", "text,trajectory"}).exit_status, 0);
+  const auto near = firstPosition(contentOf(file("out/trajectory.tum")));
+  // The map that was written, at UTM coordinates.
+  std::istringstream lines(contentOf(file("out/map.txt")));
+  std::string rows, line;
+  std::size_t points = 0;
+  std::getline(lines, line);
+  for (double x = 0, y = 0, z = 0; lines >> x >> y >> z && std::getline(lines, line); ++points)
+    rows += mrpt::format("%.4f %.4f %.4f\n", x + 448'000.0, y + 5'412'000.0, z);
+  const std::string map = write(
+      "utm.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nPOINTS " +
+                     std::to_string(points) + "\nDATA ascii\n" + rows);
+  const auto result = replay(
+      {"--input-rawlog", rawlog, "--output-dir", file("again"), "--export",
+       "trajectory,ply,summary", "--map-in", map, "--initial-pose",
+       "448000.2,5411999.9,-0.1,3,0,0"});
+  expectEnd(result, 0, "count from (448000, 5412000, 0) m");
+  const auto seen = firstPosition(contentOf(file("again/trajectory.tum")));
+  EXPECT_NEAR(seen[0], near[0] + 448'000.0, 0.05);
+  EXPECT_NEAR(seen[1], near[1] + 5'412'000.0, 0.05);
+  EXPECT_NE(contentOf(file("again/map.ply")).find("property double x\n"), std::string::npos);
+  EXPECT_NE(contentOf(file("again/summary.json")).find("map_origin_m"), std::string::npos);
 }
 
 TEST_F(SavedMaps, WhatIsWrongIsSaid)

@@ -8,25 +8,30 @@ namespace fastlio
 {
 namespace
 {
-using Header = std::string (*)(std::size_t points);
+using Header = std::string (*)(const OutputMap& map);
 
-std::string pcdHeader(std::size_t points)
+std::string pcdHeader(const OutputMap& map)
 {
-  const std::string n = std::to_string(points);
+  const std::string n = std::to_string(map.size());
+  const std::string size = map.origin().isZero() ? "4" : "8";  // of a coordinate [bytes]
   return "# .PCD v0.7 - Point Cloud Data file format\n"
          "# map of the LiDAR-inertial odometry, world frame, metres; time in seconds\n"
-         "VERSION 0.7\nFIELDS x y z intensity time\nSIZE 4 4 4 4 8\nTYPE F F F F F\n"
+         "VERSION 0.7\nFIELDS x y z intensity time\nSIZE " +
+         size + " " + size + " " + size +
+         " 4 8\nTYPE F F F F F\n"
          "COUNT 1 1 1 1 1\nWIDTH " +
          n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
 }
 
-std::string plyHeader(std::size_t points)
+std::string plyHeader(const OutputMap& map)
 {
+  const std::string type = map.origin().isZero() ? "float" : "double";
   return "ply\nformat binary_little_endian 1.0\n"
          "comment map of the LiDAR-inertial odometry, world frame, metres; time in seconds\n"
          "element vertex " +
-         std::to_string(points) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty float intensity\n"
+         std::to_string(map.size()) + "\nproperty " + type + " x\nproperty " + type +
+         " y\nproperty " + type +
+         " z\nproperty float intensity\n"
          "property double time\nend_header\n";
 }
 
@@ -41,7 +46,7 @@ class PointFileExporter : public Exporter
 
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
-    file_.write(header_(end.map.size()));
+    file_.write(header_(end.map));
     writePoints(end.map, file_);
     return {file_.commit()};
   }

@@ -11,13 +11,15 @@ namespace
 {
 constexpr int kCoordinateDecimals = 4;  // a tenth of a millimetre
 
-void writeTextTile(const OutputPoints& p, AtomicFile& file)
+void writeTextTile(const OutputPoints& p, const Vec3& origin, AtomicFile& file)
 {
   std::string lines;
   for (std::size_t i = 0; i < p.size(); ++i)
   {
-    for (const float number : {p.x[i], p.y[i], p.z[i]})
-      lines += fixedText(static_cast<double>(number), kCoordinateDecimals) + " ";
+    for (const double number :
+         {static_cast<double>(p.x[i]) + origin.x(), static_cast<double>(p.y[i]) + origin.y(),
+          static_cast<double>(p.z[i]) + origin.z()})
+      lines += fixedText(number, kCoordinateDecimals) + " ";
     lines += roundTripText(static_cast<double>(p.intensity[i])) + " " + secondsText(p.stamp_ns[i]) +
              "\n";
   }
@@ -35,7 +37,8 @@ class TextMapExporter : public Exporter
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
     file_.write("# x y z [m, world] intensity time [s]\n");
-    end.map.forEachTile([this](const OutputPoints& tile) { writeTextTile(tile, file_); });
+    end.map.forEachTile([&](const OutputPoints& tile)
+                        { writeTextTile(tile, end.map.origin(), file_); });
     return {file_.commit()};
   }
 

@@ -25,7 +25,19 @@ void appendLittleEndian(std::string& bytes, Number value)
     bytes.push_back(static_cast<char>((bits >> (8 * i)) & 0xFFU));
 }
 
-void writeTile(const OutputPoints& p, AtomicFile& file)
+void appendPosition(std::string& bytes, const OutputPoints& p, std::size_t i, const Vec3& origin)
+{
+  if (origin.isZero())
+    for (const float number : {p.x[i], p.y[i], p.z[i]})
+      appendLittleEndian<std::uint32_t>(bytes, number);
+  else
+    for (const double number :
+         {static_cast<double>(p.x[i]) + origin.x(), static_cast<double>(p.y[i]) + origin.y(),
+          static_cast<double>(p.z[i]) + origin.z()})
+      appendLittleEndian<std::uint64_t>(bytes, number);
+}
+
+void writeTile(const OutputPoints& p, const Vec3& origin, AtomicFile& file)
 {
   std::string bytes;
   for (std::size_t first = 0; first < p.size(); first += kPointsPerWrite)
@@ -33,8 +45,8 @@ void writeTile(const OutputPoints& p, AtomicFile& file)
     bytes.clear();
     for (std::size_t i = first; i < std::min(first + kPointsPerWrite, p.size()); ++i)
     {
-      for (const float number : {p.x[i], p.y[i], p.z[i], p.intensity[i]})
-        appendLittleEndian<std::uint32_t>(bytes, number);
+      appendPosition(bytes, p, i, origin);
+      appendLittleEndian<std::uint32_t>(bytes, p.intensity[i]);
       appendLittleEndian<std::uint64_t>(bytes, toSeconds(p.stamp_ns[i]));
     }
     file.write(bytes);
@@ -44,7 +56,7 @@ void writeTile(const OutputPoints& p, AtomicFile& file)
 
 void writePoints(const OutputMap& map, AtomicFile& file)
 {
-  map.forEachTile([&file](const OutputPoints& tile) { writeTile(tile, file); });
+  map.forEachTile([&](const OutputPoints& tile) { writeTile(tile, map.origin(), file); });
 }
 
 }  // namespace fastlio

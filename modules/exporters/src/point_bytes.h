@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file point_bytes.h The points of map.ply and map.pcd: x, y, z, intensity as float, time as
- * double, little-endian. */
+ * double, little-endian. Where the map has an origin, x, y and z are double, too. */
 #pragma once
 
 #include <fastlio/exporters/output_map.h>

@@ -170,6 +170,7 @@ Json summaryJson(const RunSummary& run)
       {"exit_status", static_cast<int>(status)},
       {"configuration", run.configuration},
       {"frame", run.frame},
+      {"map_origin_m", vectorJson(run.map_origin)},
       {"input", inputJson(run)},
       {"scans", scansJson(run.statistics)},
       {"points", pointsJson(run.statistics.points())},

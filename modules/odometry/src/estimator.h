@@ -43,7 +43,8 @@ class Estimator
  public:
   explicit Estimator(const OdometryOptions& options);
 
-  /** The run begins in a map of an earlier run; before start(). */
+  /** The run begins in a map of an earlier run; before start(). From then on the estimator counts
+   * positions from the map's origin. */
   void useSavedMap(const SavedMap& saved);
   /** The first state. \param motion_window of a start in motion */
   void start(

@@ -31,7 +31,7 @@ FilterRun startedRun(
 void Estimator::useSavedMap(const SavedMap& saved)
 {
   map_ = LocalMap(options_, workers_, saved);
-  mode_ = Initializing{saved.T_map_imu};
+  mode_ = Initializing{Pose{saved.T_map_imu.R, saved.T_map_imu.p - saved.origin}};
 }
 
 void Estimator::start(

@@ -19,7 +19,7 @@ void Odometry::startIn(const SavedMap& map)
     throw std::invalid_argument("Odometry::startIn: the map has no points; was it saved?");
   if (impl_->estimator_.started())
     throw std::logic_error("Odometry::startIn: call it before the first scan.");
-  impl_->estimator_.useSavedMap(map);
+  impl_->startIn(map);
 }
 
 void Odometry::addImu(const ImuSample& sample)
@@ -32,15 +32,19 @@ void Odometry::addScan(LidarScan scan)
 }
 std::optional<ScanResult> Odometry::next()
 {
-  return impl_->next(false);
+  return impl_->inWorld(impl_->next(false));
 }
 std::optional<ScanResult> Odometry::flush()
 {
-  return impl_->next(true);
+  return impl_->inWorld(impl_->next(true));
 }
 const SurfaceMap& Odometry::map() const
 {
   return impl_->estimator_.map();
+}
+const Vec3& Odometry::mapOrigin() const
+{
+  return impl_->map_origin_;
 }
 const WorldPoints& Odometry::registeredPoints() const
 {
@@ -52,7 +56,7 @@ const RegisteredFields& Odometry::registeredFields() const
 }
 const std::vector<ImuRateState>& Odometry::imuRateStates() const
 {
-  return impl_->estimator_.imuRateStates();
+  return impl_->imuRateStates();
 }
 std::optional<ImuRateState> Odometry::stateAtNewestSample()
 {

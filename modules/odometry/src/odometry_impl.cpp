@@ -38,6 +38,27 @@ Odometry::Impl::Impl(const OdometryOptions& options)
 {
 }
 
+void Odometry::Impl::startIn(const SavedMap& map)
+{
+  estimator_.useSavedMap(map);
+  map_origin_ = map.origin;
+}
+
+std::optional<ScanResult> Odometry::Impl::inWorld(std::optional<ScanResult> result)
+{
+  if (map_origin_.isZero()) return result;
+  if (result) result->filter.x.p += map_origin_;
+  imu_rate_in_world_ = estimator_.imuRateStates();
+  for (ImuRateState& state : imu_rate_in_world_)
+    state.x.p += map_origin_;
+  return result;
+}
+
+const std::vector<ImuRateState>& Odometry::Impl::imuRateStates() const
+{
+  return map_origin_.isZero() ? estimator_.imuRateStates() : imu_rate_in_world_;
+}
+
 void Odometry::Impl::addImu(const ImuSample& sample)
 {
   ++counted_.imu_in;
@@ -202,7 +223,9 @@ std::optional<ImuRateState> Odometry::Impl::stateAtNewestSample()
 {
   const StackAnchor anchor;
   if (imu_.empty() || !estimator_.started()) return std::nullopt;
-  return estimator_.stateAtNewestSample(imu_);
+  auto state = estimator_.stateAtNewestSample(imu_);
+  if (state && !map_origin_.isZero()) state->x.p += map_origin_;
+  return state;
 }
 
 }  // namespace fastlio

@@ -25,15 +25,20 @@ class Odometry::Impl
  public:
   explicit Impl(const OdometryOptions& options);
 
+  void startIn(const SavedMap& map);
   void addImu(const ImuSample& sample);
   void addScan(LidarScan scan);
   std::optional<ScanResult> next(bool at_end);
+  /** The estimator counts from the origin of its map. */
+  [[nodiscard]] std::optional<ScanResult> inWorld(std::optional<ScanResult> result);
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
+  [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const;
   [[nodiscard]] const InputStatistics& inputStatistics();
   [[nodiscard]] ImuReport imuReport() const { return conditioner_.report(); }
 
   const OdometryOptions options_;
   Estimator estimator_;
+  Vec3 map_origin_ = Vec3::Zero();
   std::vector<Diagnostic> diagnostics_;
 
  private:
@@ -61,6 +66,7 @@ class Odometry::Impl
   StartFinder start_finder_;
   Reinitialization reinitialization_;
   bool mounting_reported_ = false;
+  std::vector<ImuRateState> imu_rate_in_world_;  // where map_origin_ is not zero
 };
 
 }  // namespace fastlio

@@ -102,6 +102,38 @@ TEST(SavedMap, PointsInAFrameOfTheirOwnAreFound)
   EXPECT_EQ(odometry.map().pointCount(), before);
 }
 
+// At UTM coordinates, single precision has steps of half a metre.
+TEST(SavedMap, CoordinatesFarFromTheOriginKeepTheirPrecision)
+{
+  OdometryOptions parameters = roomParameters();
+  parameters.imu_rate = true;
+  SavedMap map;
+  map.points = earlierRun().points;
+  map.T_map_imu = kWrongBy;
+  Odometry near(parameters), far(parameters);
+  near.startIn(map);
+  map.origin = {448'000.0, 5'412'000.0, 1'000.0};
+  map.T_map_imu.p += map.origin;
+  far.startIn(map);
+  EXPECT_EQ(near.mapOrigin(), Vec3::Zero());
+  EXPECT_EQ(far.mapOrigin(), map.origin);
+  const Results expected = runInOrder(near, earlierRun().recording);
+  const Results seen = runInOrder(far, earlierRun().recording);
+  ASSERT_EQ(seen.size(), expected.size());
+  constexpr double kRounding = 1e-8;  // of the origin in double precision
+  for (std::size_t i = 0; i < seen.size(); ++i)
+  {
+    ASSERT_EQ(seen[i].status, expected[i].status);
+    ASSERT_LT((seen[i].filter.x.p - map.origin - expected[i].filter.x.p).norm(), kRounding) << i;
+    ASSERT_LT((seen[i].filter.P - expected[i].filter.P).norm(), kRounding) << i;
+  }
+  ASSERT_FALSE(far.imuRateStates().empty());
+  EXPECT_LT(
+      (far.imuRateStates().back().x.p - map.origin - near.imuRateStates().back().x.p).norm(),
+      kRounding);
+  EXPECT_EQ(far.registeredPoints().x, near.registeredPoints().x);
+}
+
 TEST(SavedMap, ReadyPlanesAreUsedAsTheyAre)
 {
   OdometryOptions parameters = roomParameters();

@@ -112,53 +112,45 @@ std::array<Place, 3> placesOf(const Header& header, const std::string& path)
   return places;
 }
 
-float numberAt(const std::vector<char>& record, const Place& place)
+double numberAt(const std::vector<char>& record, const Place& place)
 {
   if (place.size == 8)
   {
     double value = 0;
     std::memcpy(&value, record.data() + place.byte, sizeof value);
-    return static_cast<float>(value);
+    return value;
   }
   float value = 0;
   std::memcpy(&value, record.data() + place.byte, sizeof value);
-  return value;
+  return static_cast<double>(value);
 }
 
-void append(WorldPoints& points, const std::array<float, 3>& p)
-{
-  points.x.push_back(p[0]);
-  points.y.push_back(p[1]);
-  points.z.push_back(p[2]);
-}
-
-WorldPoints readBinary(std::ifstream& in, const Header& header, const std::string& path)
+LocalPoints readBinary(std::ifstream& in, const Header& header, const std::string& path)
 {
   const auto places = placesOf(header, path);
   std::size_t bytes = 0;
   for (const Field& field : header.fields)
     bytes += field.size * field.count;
   std::vector<char> record(bytes);
-  WorldPoints points;
+  LocalPoints points;
   for (std::size_t i = 0; i < header.points; ++i)
   {
     if (!in.read(record.data(), static_cast<std::streamsize>(bytes)))
       fail(
           path, "it ends after " + std::to_string(i) + " of " + std::to_string(header.points) +
                     " points");
-    append(
-        points,
+    points.add(
         {numberAt(record, places[0]), numberAt(record, places[1]), numberAt(record, places[2])});
   }
   return points;
 }
 
-WorldPoints readAscii(std::ifstream& in, const Header& header, const std::string& path)
+LocalPoints readAscii(std::ifstream& in, const Header& header, const std::string& path)
 {
   const auto places = placesOf(header, path);
-  WorldPoints points;
+  LocalPoints points;
   std::vector<std::string> cells;
-  for (std::string line; points.size() < header.points && readBoundedLine(in, line);)
+  for (std::string line; points.points.size() < header.points && readBoundedLine(in, line);)
   {
     std::istringstream text(line);
     text.imbue(std::locale::classic());
@@ -166,26 +158,26 @@ WorldPoints readAscii(std::ifstream& in, const Header& header, const std::string
     for (std::string cell; text >> cell;)
       cells.push_back(cell);
     if (cells.empty()) continue;
-    std::array<float, 3> p{};
+    std::array<double, 3> p{};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       if (places.at(axis).cell >= cells.size())
         fail(path, "a line is too short: '" + printable(line) + "'");
       std::istringstream number(cells[places.at(axis).cell]);
       number.imbue(std::locale::classic());
-      if (!(number >> p.at(axis))) p.at(axis) = std::numeric_limits<float>::quiet_NaN();
+      if (!(number >> p.at(axis))) p.at(axis) = std::numeric_limits<double>::quiet_NaN();
     }
-    append(points, p);
+    points.add(p);
   }
-  if (points.size() < header.points)
+  if (points.points.size() < header.points)
     fail(
-        path, "it ends after " + std::to_string(points.size()) + " of " +
+        path, "it ends after " + std::to_string(points.points.size()) + " of " +
                   std::to_string(header.points) + " points");
   return points;
 }
 }  // namespace
 
-WorldPoints readPcd(const std::string& path)
+LocalPoints readPcd(const std::string& path)
 {
   std::ifstream in(path, std::ios::binary);
   const Header header = readHeader(in, path);

@@ -187,7 +187,7 @@ class PlyBody
 };
 
 /** One vertex, edge, ...; false when the file ends before, or a word is no number. */
-bool readOne(PlyBody& body, const Element& element, std::vector<float>& values)
+bool readOne(PlyBody& body, const Element& element, std::vector<double>& values)
 {
   values.clear();
   for (const Property& property : element.properties)
@@ -196,14 +196,14 @@ bool readOne(PlyBody& body, const Element& element, std::vector<float>& values)
     {
       const auto value = body.next(*property.type);
       if (!value) return false;
-      values.push_back(static_cast<float>(*value));
+      values.push_back(*value);
       continue;
     }
     const auto count = body.next(*property.count);
     if (!count || *count < 0) return false;
     for (double i = 0; i < *count; ++i)
       if (!body.next(*property.type)) return false;
-    values.push_back(0.0F);
+    values.push_back(0.0);
   }
   return true;
 }
@@ -224,13 +224,13 @@ std::array<std::size_t, 3> axesOf(const Element& vertex, const std::string& path
 }
 }  // namespace
 
-WorldPoints readPly(const std::string& path)
+LocalPoints readPly(const std::string& path)
 {
   std::ifstream in(path, std::ios::binary);
   const PlyHeader header = readPlyHeader(in, path);
   PlyBody body(in, *header.format);
-  std::vector<float> values;
-  WorldPoints points;
+  std::vector<double> values;
+  LocalPoints points;
   for (const Element& element : header.elements)
   {
     const bool is_vertex = element.name == "vertex";
@@ -244,9 +244,7 @@ WorldPoints readPly(const std::string& path)
                       std::to_string(element.count) + " (" + printable(element.name) +
                       ") cannot be read");
       if (!is_vertex) continue;
-      points.x.push_back(values[axes[0]]);
-      points.y.push_back(values[axes[1]]);
-      points.z.push_back(values[axes[2]]);
+      points.add({values[axes[0]], values[axes[1]], values[axes[2]]});
     }
     if (is_vertex) return points;  // what follows, faces for instance, is not needed
   }

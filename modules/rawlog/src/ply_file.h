@@ -4,7 +4,7 @@
 /** \file ply_file.h Coordinates out of PLY files. */
 #pragma once
 
-#include <fastlio/map/surface_map.h>
+#include "local_points.h"
 
 #include <string>
 
@@ -14,6 +14,6 @@ namespace fastlio
  * binary_big_endian); other elements and properties are skipped. MRPT's own reader takes what is
  * missing at the end for points, with a line on standard error for each.
  * \exception std::runtime_error the file is damaged or of another form */
-[[nodiscard]] WorldPoints readPly(const std::string& path);
+[[nodiscard]] LocalPoints readPly(const std::string& path);
 
 }  // namespace fastlio

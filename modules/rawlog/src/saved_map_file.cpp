@@ -56,12 +56,23 @@ bool isPcd(const std::string& beginning)
   return beginning.rfind("# .PCD", 0) == 0 || beginning.rfind("VERSION", 0) == 0;
 }
 
-WorldPoints pointsOf(const mrpt::maps::CPointsMap& map)
+void take(LocalPoints&& read, SavedMap& saved)
 {
-  WorldPoints points;
-  points.x.assign(map.getPointsBufferRef_x().begin(), map.getPointsBufferRef_x().end());
-  points.y.assign(map.getPointsBufferRef_y().begin(), map.getPointsBufferRef_y().end());
-  points.z.assign(map.getPointsBufferRef_z().begin(), map.getPointsBufferRef_z().end());
+  saved.points = std::move(read.points);
+  saved.origin = read.origin;
+  // Planes count from the origin of their file.
+  if (!saved.origin.isZero()) saved.planes.reset();
+}
+
+LocalPoints pointsOf(const mrpt::maps::CPointsMap& map)
+{
+  LocalPoints points;
+  for (std::size_t i = 0; i < map.size(); ++i)
+  {
+    mrpt::math::TPoint3Df p;
+    map.getPoint(i, p.x, p.y, p.z);
+    points.add({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+  }
   return points;
 }
 
@@ -71,10 +82,10 @@ SavedMap fromMap(const mrpt::serialization::CSerializable::Ptr& object)
   if (const auto planes = std::dynamic_pointer_cast<CVoxelPlanesMap>(object))
   {
     if (!planes->isEmpty()) saved.planes = {planes, &planes->planes()};
-    saved.points = pointsOf(planes->points());
+    take(pointsOf(planes->points()), saved);
   }
   else if (const auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(object))
-    saved.points = pointsOf(*points);
+    take(pointsOf(*points), saved);
   return saved;
 }
 
@@ -98,10 +109,10 @@ class OnceStream
 
 bool hasUsablePoint(const WorldPoints& points)
 {
-  constexpr float kFarthest = 1e7F;  // [m]
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (std::abs(points.x[i]) <= kFarthest && std::abs(points.y[i]) <= kFarthest &&
-        std::abs(points.z[i]) <= kFarthest)
+    if (LocalPoints::usable(
+            {static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+             static_cast<double>(points.z[i])}))
       return true;
   return false;
 }
@@ -207,9 +218,9 @@ SavedMap loadSavedMap(const std::string& path)
   const std::string beginning = beginningOf(path);
   SavedMap saved;
   if (beginning.rfind("ply\n", 0) == 0 || beginning.rfind("ply\r", 0) == 0)
-    saved.points = readPly(path);
+    take(readPly(path), saved);
   else if (isPcd(beginning))
-    saved.points = readPcd(path);
+    take(readPcd(path), saved);
   else
     saved = fromArchive(path);
   if (saved.empty()) failMap(path, "has no points");

@@ -54,9 +54,66 @@ void archive(const mrpt::serialization::CSerializable& object, const std::string
   mrpt::serialization::archiveFrom(stream) << object;
 }
 
+// A millimetre counts, wherever on the earth.
+const Vec3 kUtm{448'123.0, 5'412'345.0, 250.0};
+
+void expectSmallMapAt(const Vec3& offset, const SavedMap& saved)
+{
+  const OutputPoints expected = smallMapPoints();
+  ASSERT_EQ(saved.points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    const Vec3 relative(expected.x[i], expected.y[i], expected.z[i]);
+    const Vec3 p(saved.points.x[i], saved.points.y[i], saved.points.z[i]);
+    EXPECT_LT((p + saved.origin - relative - offset).norm(), 1e-3) << i;
+  }
+}
+
 void text(const std::string& path, const std::string& content)
 {
   std::ofstream(path, std::ios::binary) << content;
+}
+
+TEST(SavedMapFile, CoordinatesFarFromTheOriginKeepTheirPrecision)
+{
+  const TemporaryFolder folder;
+  OutputMapOptions options;
+  options.spacing = 0.0;
+  options.origin = kUtm;
+  OutputMap map(options);
+  map.insert(smallMapPoints());
+  const RunSummary summary;
+  (void)makePlyMapExporter(folder.file("a.ply"))->finish({summary, map});
+  (void)makePcdMapExporter(folder.file("a.pcd"))->finish({summary, map});
+  (void)makeTextMapExporter(folder.file("a.txt"))->finish({summary, map});
+  for (const auto* name : {"a.ply", "a.pcd"})
+  {
+    const SavedMap saved = loadSavedMap(folder.file(name));
+    EXPECT_EQ(saved.origin, Vec3(448'000.0, 5'412'000.0, 0.0)) << name;
+    expectSmallMapAt(kUtm, saved);
+  }
+  const OutputPoints points = smallMapPoints();
+  std::ifstream lines(folder.file("a.txt"));
+  std::string line;
+  std::getline(lines, line);
+  double x = 0.0, y = 0.0;
+  lines >> x >> y;
+  EXPECT_NEAR(x, kUtm.x() + static_cast<double>(points.x.front()), 1e-3);
+  EXPECT_NEAR(y, kUtm.y() + static_cast<double>(points.y.front()), 1e-3);
+}
+
+TEST(SavedMapFile, TheFirstPointOnEarthDecidesOnTheOrigin)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.pcd");
+  text(
+      path,
+      "VERSION 0.7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nPOINTS 3\nDATA ascii\n"
+      "nan nan nan\n1e30 0 0\n448123.25 5412345.5 250\n");
+  const SavedMap saved = loadSavedMap(path);
+  EXPECT_EQ(saved.origin, Vec3(448'000.0, 5'412'000.0, 0.0));
+  EXPECT_EQ(saved.points.x.back(), 123.25F);
+  EXPECT_EQ(saved.points.y.back(), 345.5F);
 }
 
 TEST(SavedMapFile, EveryFormatOfOurOwnComesBack)

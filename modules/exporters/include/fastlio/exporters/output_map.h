@@ -21,7 +21,8 @@ namespace fastlio
 {
 class CIncrementalPointsMap;
 
-/** Points in the world frame and what was measured with them, as columns of equal length. */
+/** Points in the world frame, counted from the map's origin, and what was measured with them, as
+ * columns of equal length. */
 struct OutputPoints
 {
   std::vector<float> x, y, z;          //!< [m]
@@ -39,6 +40,7 @@ struct OutputMapOptions
   double tile_size = 50.0;                   //!< edge of a tile, a column of the world [m]
   std::size_t points_in_memory = 5'000'000;  //!< beyond it, tiles go to files
   std::string directory;                     //!< for these files; empty: the system's own place
+  Vec3 origin = Vec3::Zero();                //!< what points are counted from, in the world [m]
 };
 
 /** Points in square tiles of the world. When there are more points than may stay in memory, the
@@ -60,6 +62,7 @@ class OutputMap
    * \exception std::runtime_error a tile cannot be written to disk or read back */
   void insert(const OutputPoints& points);
 
+  [[nodiscard]] const Vec3& origin() const { return options_.origin; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t pointsInMemory() const { return in_memory_; }
 

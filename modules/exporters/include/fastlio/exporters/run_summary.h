@@ -36,6 +36,7 @@ struct RunSummary
   std::vector<InputFile> inputs;         //!< in reading order
   std::string configuration;             //!< the YAML file, or which defaults were used
   std::string frame;                     //!< body frame of the exported poses: "vehicle" or "imu"
+  Vec3 map_origin = Vec3::Zero();        //!< Odometry::mapOrigin() [m]
   std::vector<std::string> sensors;      //!< one line per sensor in use
   OdometryOptions odometry;              //!< as used
   std::vector<OptionText> options;       //!< everything that is configured, as used

@@ -70,8 +70,12 @@ class Odometry
   [[nodiscard]] std::optional<ScanResult> flush();
 
   [[nodiscard]] const SurfaceMap& map() const;
-  /** The points of the last scan that was used, in the world frame; empty when the last scan did
-   * not join the map. Valid until the next call of next() or flush(). */
+  /** What map() and registeredPoints() are counted from, in the world [m]: the origin of the map
+   * that the run began in; else zero. Poses are in the world. */
+  [[nodiscard]] const Vec3& mapOrigin() const;
+
+  /** The points of the last scan that was used, in the world frame counted from mapOrigin(); empty
+   * when the last scan did not join the map. Valid until the next call of next() or flush(). */
   [[nodiscard]] const WorldPoints& registeredPoints() const;
 
   /** Intensity and time of those points; with the same lifetime. */

@@ -17,10 +17,14 @@ namespace fastlio
 struct SavedMap
 {
   WorldPoints points;  //!< on surfaces, about as dense as map.output_spacing [m]
+  /** What points and planes are counted from, in the world [m]: single precision has steps of 0.5 m
+   * at UTM coordinates. */
+  Vec3 origin = Vec3::Zero();
   /** Ready planes, used instead of the points when map.type is planes. */
   std::shared_ptr<const VoxelPlaneMap> planes;
-  Pose T_map_imu;  //!< at the start, within initialization.pose_*_std; only the heading of its
-                   //!< attitude counts, the rest is measured with gravity
+  Pose T_map_imu;  //!< at the start, in the world (not counted from \a origin), within
+                   //!< initialization.pose_*_std; only the heading of its attitude counts, the rest
+                   //!< is measured with gravity
 
   [[nodiscard]] bool empty() const { return !planes && points.size() == 0; }
 };
