@@ -32,7 +32,7 @@ void Odometry::Impl::start(const StartDecision& decision)
   {
     estimator_.reinitialise(
         *decision.state, decision.stamp_ns, decision.motion_window,
-        reinitialization_.takeCarried());
+        reinitialization_.takeCarried(decision.stamp_ns));
     report(decision.stamp_ns, "re-initialised with the pose carried over");
     return;
   }

@@ -50,10 +50,10 @@ bool Reinitialization::isNeededAt(const InertialBreak& gap) const
 
 std::string Reinitialization::decideAt(const InertialBreak& gap, const FilterState& state)
 {
-  const FilterState& last = gap.new_map && last_good_ ? *last_good_ : state;
-  CarriedPose carried = carriedOver(last, gap.seconds());
-  carried.new_map = gap.new_map;
-  decide(carried);
+  if (gap.new_map && last_good_)
+    decide({*last_good_, last_good_ns_, true});
+  else
+    decide({state, gap.begin_ns, gap.new_map});
   if (gap.new_map) return "the unit of the gyro was wrong";
   return mrpt::format(
       "%.2f s without inertial samples (imu.max_gap is %.2f s)", gap.seconds(),
@@ -80,22 +80,25 @@ std::optional<std::string> Reinitialization::detectTrackingLoss(
   const double lost_s = toSeconds(result.stamp_ns - lost_since_ns_);
   if (!options_.recovery.enabled || lost_s < kPatience) return std::nullopt;
   const double unaided_s = toSeconds(result.stamp_ns - last_good_ns_);
-  decide(
-      isFiniteState(state) || !last_good_ ? carriedOver(state, 0.0)
-                                          : carriedOver(*last_good_, unaided_s));
+  if (isFiniteState(state) || !last_good_)
+    decide({state, result.stamp_ns, false});
+  else
+    decide({*last_good_, last_good_ns_, false});
   return mrpt::format("no scan has matched the map for %.1f s", unaided_s);
 }
 
-void Reinitialization::decide(const CarriedPose& carried)
+void Reinitialization::decide(const BelievedState& last)
 {
-  carried_ = carried;
+  last_believed_ = last;
   lost_since_ns_ = 0;
 }
 
-CarriedPose Reinitialization::takeCarried()
+CarriedPose Reinitialization::takeCarried(std::int64_t start_ns)
 {
-  const CarriedPose carried = *carried_;
-  carried_.reset();
+  const BelievedState& last = *last_believed_;
+  CarriedPose carried = carriedOver(last.state, toSeconds(start_ns - last.stamp_ns));
+  carried.new_map = last.new_map;
+  last_believed_.reset();
   return carried;
 }
 

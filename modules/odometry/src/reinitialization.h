@@ -48,20 +48,28 @@ class Reinitialization
   [[nodiscard]] std::optional<std::string> detectTrackingLoss(
       const ScanResult& result, const FilterState& state, bool relocalizing);
 
-  [[nodiscard]] bool pending() const { return carried_.has_value(); }
-  /** What the new start goes on with. */
-  [[nodiscard]] CarriedPose takeCarried();
+  [[nodiscard]] bool pending() const { return last_believed_.has_value(); }
+  /** What the new start goes on with: nothing is known between the last state that is believed and
+   * the start, however long that took. */
+  [[nodiscard]] CarriedPose takeCarried(std::int64_t start_ns);
 
   /** The initialisation of a run that is interrupted: in whatever way is possible. */
   [[nodiscard]] static OdometryOptions startingAnyHow(OdometryOptions options);
 
  private:
-  void decide(const CarriedPose& carried);
+  struct BelievedState
+  {
+    FilterState state;
+    std::int64_t stamp_ns = 0;
+    bool new_map = false;  //!< the map is not believed
+  };
+
+  void decide(const BelievedState& last);
 
   const OdometryOptions options_;
   std::deque<InertialBreak> breaks_;
-  std::optional<CarriedPose> carried_;
-  std::optional<FilterState> last_good_;  // of the latest scan that was tracked well
+  std::optional<BelievedState> last_believed_;  // while a re-initialisation is pending
+  std::optional<FilterState> last_good_;        // of the latest scan that was tracked well
   std::int64_t last_good_ns_ = 0;
   std::int64_t lost_since_ns_ = 0;  // scans see enough, the pose is not trusted; 0: it is
 };
