@@ -25,8 +25,8 @@ constexpr double kMaxHeading = 1.5707963267948966;   // farther turns are not tr
 constexpr double kFoundInlierRatio = 0.3;
 // Of a prediction. A found pose has to match this part of what scans matched before.
 constexpr double kUsualPart = 0.5;
-// Where the prediction is so uncertain that not all places can be tried, a rival may be elsewhere.
-constexpr double kUsualPartIncomplete = 0.75;
+// Where only the places on one level can be tried, a rival may be above or below.
+constexpr double kUsualPartOnLevel = 0.75;
 // A carried pose is searched once in a while and by heading, too: some seconds are well spent.
 constexpr std::size_t kMostCarriedCandidates = 12000;
 // Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
@@ -149,8 +149,8 @@ MapSearchResult MapSearch::around(
   };
   PoseSearchLimits wanted;
   wanted.min_inlier_ratio = std::max(kFoundInlierRatio, kUsualPart * map_.usualInlierRatio());
-  wanted.min_incomplete_inlier_ratio =
-      std::max(kFoundInlierRatio, kUsualPartIncomplete * map_.usualInlierRatio());
+  wanted.min_level_inlier_ratio =
+      std::max(kFoundInlierRatio, kUsualPartOnLevel * map_.usualInlierRatio());
   wanted.max_innovation = kMaxInnovation;
   if (attitudes.size() > 1) wanted.most_candidates = kMostCarriedCandidates;
   PoseSearchResult poses;

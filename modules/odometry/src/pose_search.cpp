@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fastlio
 {
@@ -120,14 +121,34 @@ PoseCandidate refined(
   }
   return candidate;
 }
-/** \param most places; more are cut off, the least likely ones */
-CandidateGrid gridOf(const FilterState& predicted, double step, std::size_t most)
+
+/** The whole scan from the best candidates. \return places with matches, best first */
+std::vector<PoseCandidate> refinedPlaces(
+    std::vector<PoseCandidate> candidates, const FilterState& predicted, const DeskewedScan& scan,
+    const MatchFromStart& match)
+{
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  std::vector<PoseCandidate> places = bestPlaces(candidates);
+  for (PoseCandidate& place : places)
+    place = refined(place, predicted, scan, match);
+  std::stable_sort(places.begin(), places.end(), better);
+  if (!places.empty() && places.front().score <= 0.0) places.clear();
+  return places;
+}
+
+Vec3 positionStd(const FilterState& predicted)
+{
+  const Vec3 variance = predicted.P.diagonal().segment<3>(kPosition);
+  if (!variance.allFinite()) return Vec3::Constant(std::numeric_limits<double>::infinity());
+  return variance.cwiseMax(0.0).cwiseSqrt();
+}
+
+/** \param std of the position [m] \param most places; more are cut off, the least likely ones */
+CandidateGrid gridOf(const Vec3& std, double step, std::size_t most)
 {
   CandidateGrid grid;
   grid.step = step;
-  const Vec3 variance = predicted.P.diagonal().segment<3>(kPosition);
-  const Vec3 std = variance.cwiseMax(0.0).cwiseSqrt();
-  grid.complete = variance.allFinite();
+  grid.complete = std.allFinite();
   // More steps than these would be cut off by the most that are tried anyway.
   constexpr double kMostSteps = 20.0;
   const auto steps = [&](double sigma)
@@ -179,8 +200,18 @@ bool needsPoseSearch(const FilterState& predicted, double blind_s)
 
 CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most)
 {
-  CandidateGrid grid = gridOf(predicted, kGridStep, most);
-  return grid.complete ? grid : gridOf(predicted, kWideGridStep, most);
+  CandidateGrid grid = gridOf(positionStd(predicted), kGridStep, most);
+  return grid.complete ? grid : gridOf(positionStd(predicted), kWideGridStep, most);
+}
+
+CandidateGrid levelGrid(const FilterState& predicted, double height, std::size_t most)
+{
+  Vec3 std = positionStd(predicted);
+  std.z() = 0.0;
+  CandidateGrid grid = gridOf(std, kWideGridStep, most);
+  for (Vec3& offset : grid.offsets)
+    offset.z() = height;
+  return grid;
 }
 
 PoseSearchResult searchPose(
@@ -190,32 +221,35 @@ PoseSearchResult searchPose(
   PoseSearchResult result;
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
-  const CandidateGrid grid =
-      candidateGrid(predicted, std::max<std::size_t>(1, limits.most_candidates / attitudes.size()));
-  result.complete = grid.complete;
+  const std::size_t most = std::max<std::size_t>(1, limits.most_candidates / attitudes.size());
   std::vector<PoseCandidate> candidates;
-  for (const Vec3& offset : grid.offsets)
-    for (const Mat3& R : attitudes)
-    {
-      ++result.candidates;
-      const FilterState start =
-          startAt(predicted, {R, predicted.x.p + offset}, kStartStd * grid.step);
-      const UpdateResult update = match(start, sample, kSampleIterations);
-      if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
-    }
-  std::stable_sort(candidates.begin(), candidates.end(), better);
-  std::vector<PoseCandidate> places = bestPlaces(candidates);
-  for (PoseCandidate& place : places)
-    place = refined(place, predicted, scan, match);
-  std::stable_sort(places.begin(), places.end(), better);
-  if (places.empty() || places.front().score <= 0.0) return result;
+  const auto tryPlaces = [&](const CandidateGrid& grid)
+  {
+    for (const Vec3& offset : grid.offsets)
+      for (const Mat3& R : attitudes)
+      {
+        ++result.candidates;
+        const FilterState start =
+            startAt(predicted, {R, predicted.x.p + offset}, kStartStd * grid.step);
+        const UpdateResult update = match(start, sample, kSampleIterations);
+        if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
+      }
+    result.complete = grid.complete;
+    return refinedPlaces(candidates, predicted, scan, match);
+  };
+  const CandidateGrid grid = candidateGrid(predicted, most);
+  std::vector<PoseCandidate> places = tryPlaces(grid);
+  // The best place tells the height: its rivals stand on the same level.
+  if (!grid.complete && !places.empty())
+    places =
+        tryPlaces(levelGrid(predicted, places.front().T_world_imu.p.z() - predicted.x.p.z(), most));
+  if (places.empty()) return result;
   result.best = places.front();
   for (const PoseCandidate& place : places)
     if (!isSamePlace(place, *result.best))
       result.rival_score = std::max(result.rival_score, place.score);
-  const double needed =
-      result.complete ? limits.min_inlier_ratio : limits.min_incomplete_inlier_ratio;
-  result.accepted = result.best->inlier_ratio >= needed &&
+  const double needed = grid.complete ? limits.min_inlier_ratio : limits.min_level_inlier_ratio;
+  result.accepted = result.complete && result.best->inlier_ratio >= needed &&
                     result.best->innovation <= limits.max_innovation &&
                     result.rival_score < kRivalShare * result.best->score;
   return result;

@@ -37,6 +37,11 @@ struct CandidateGrid
  * many places. \param most places */
 [[nodiscard]] CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most);
 
+/** The same on one level, for a prediction that is too uncertain for all places in space.
+ * \param height of the level over the predicted position [m] */
+[[nodiscard]] CandidateGrid levelGrid(
+    const FilterState& predicted, double height, std::size_t most);
+
 /** Matches a scan from a start; so many iterations search the map anew. */
 using MatchFromStart =
     std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
@@ -45,9 +50,9 @@ using MatchFromStart =
 struct PoseSearchLimits
 {
   double min_inlier_ratio = 0.3;
-  double min_incomplete_inlier_ratio = 0.5;  //!< where not all places can be tried
-  double max_innovation = 3.0;         //!< mean z^2/r
-  std::size_t most_candidates = 3000;  //!< bounds the time of a search, to half a second or so
+  double min_level_inlier_ratio = 0.5;  //!< where not all places can be tried, but those of a level
+  double max_innovation = 3.0;          //!< mean z^2/r
+  std::size_t most_candidates = 3000;   //!< bounds the time of a search, to half a second or so
 };
 
 /** A pose that a candidate was pulled to, with its evidence. */
@@ -63,7 +68,9 @@ struct PoseCandidate
 struct PoseSearchResult
 {
   std::size_t candidates = 0;
-  bool complete = true;  //!< the places that were tried are all that the prediction allows
+  /** The places that were tried are all that the prediction allows, in space or on the level of the
+   * best one. Rooms repeat: who cannot look everywhere does not know whether the best is right. */
+  bool complete = true;
   std::optional<PoseCandidate> best;
   double rival_score = 0.0;  //!< of the best candidate at another place
   bool accepted = false;     //!< enough evidence, and more than any rival has

@@ -129,18 +129,28 @@ TEST(PoseSearch, RefusesToChooseBetweenRivals)
   EXPECT_TRUE(two(0.4).accepted);
 }
 
-// Who cannot look everywhere does not know whether the best place is the only one.
-TEST(PoseSearch, AsksForMoreWhenItCannotLookEverywhere)
+// Too many places in space: those on the level of the best one are tried farther away.
+TEST(PoseSearch, LooksForRivalsOnTheLevelWhereItCannotLookEverywhere)
+{
+  const FilterState s = predictionWithStd(5.0, 5.0, 5.0);
+  EXPECT_FALSE(candidateGrid(s, 3000).complete);
+  const auto found = [&](const std::vector<Place>& places)
+  { return searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith(places)); };
+  const Vec3 near(1, 0, 2), far(1, 13, 2);
+  EXPECT_TRUE(found({{near, 0.6}}).accepted);
+  EXPECT_FALSE(found({{near, 0.45}}).accepted) << "more evidence is needed";
+  EXPECT_FALSE(found({{near, 0.6}, {far, 0.55}}).accepted);
+  EXPECT_TRUE(found({{near, 0.6}, {far, 0.3}}).accepted);
+}
+
+// Rooms repeat: who cannot look everywhere does not know whether the best place is the only one.
+TEST(PoseSearch, AcceptsNothingWhenNotEvenTheLevelCanBeSearched)
 {
   const FilterState s = predictionWithStd(20.0, 20.0, 20.0);
-  const auto found = [&](double inlier_ratio)
-  {
-    return searchPose(
-        s, {s.x.R}, someScan(1000), {}, matcherWith({{{1, 0, 0}, inlier_ratio}}));
-  };
-  ASSERT_FALSE(found(0.45).complete);
-  EXPECT_FALSE(found(0.45).accepted);
-  EXPECT_TRUE(found(0.6).accepted);
+  const auto result = searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith({{{1, 0, 0}, 0.9}}));
+  EXPECT_TRUE(result.best);
+  EXPECT_FALSE(result.complete);
+  EXPECT_FALSE(result.accepted);
 }
 
 TEST(PoseSearch, AnotherHeadingAtTheSamePlaceIsARival)
