@@ -9,9 +9,12 @@
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/math/time.h>
 
+#include <mrpt/core/format.h>
 #include <mrpt/system/CTicTac.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace fastlio
@@ -155,6 +158,28 @@ void ReplayRun::consume(DecodeAheadSource& source)
   if (interrupted()) return;
   while (const auto result = odometry_.flush())
     take(*result);
+  checkEnd();
+}
+
+/** The recording may go on where the trajectory ends. */
+void ReplayRun::checkEnd()
+{
+  constexpr std::size_t kFewScans = 10;  // sensors do not stop at the same moment
+  constexpr double kShortTime = 1.0;     // [s]
+  if (statistics_.poses() == 0) return;
+  const InputStatistics& in = odometry_.inputStatistics();
+  const std::int64_t until_ns = std::max(in.newest_imu_ns, statistics_.endNs());
+  const double rest_s = toSeconds(until_ns - statistics_.endNs());
+  if (in.scans_after_result > kFewScans)
+    statistics_.addLostEnd(until_ns, in.scans_after_result, lostEndText(in));
+  else if (rest_s > kShortTime)
+    end_remark_ = Diagnostic{
+        statistics_.endNs(), mrpt::format(
+                                 "no scans follow, but %.1f s of inertial data do: the trajectory "
+                                 "ends here",
+                                 rest_s)};
+  if (end_remark_)
+    logger_.logStr(LVL_WARN, "at " + secondsText(end_remark_->stamp_ns) + ": " + end_remark_->text);
 }
 
 bool ReplayRun::feed(DecodedInput input)
@@ -261,6 +286,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.statistics = statistics_;
   summary.imu = odometry_.imuReport();
   summary.diagnostics = odometry_.diagnostics();
+  if (end_remark_) summary.diagnostics.push_back(*end_remark_);
   summary.interrupted = interrupted();
   summary.input_problems = sentences(source.problems());
   summary.failure = failure_;

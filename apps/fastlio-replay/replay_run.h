@@ -34,6 +34,7 @@ class ReplayRun
   /** False when no further input is wanted. */
   bool feed(DecodedInput input);
   bool feedScan(LidarScan scan);
+  void checkEnd();
   void drain();
   void take(const ScanResult& result);
   void extendOutputMap();
@@ -55,7 +56,8 @@ class ReplayRun
   std::optional<ScanStatus> last_status_;
   std::size_t exporter_problems_told_ = 0;
   std::size_t diagnostics_reported_ = 0;
-  std::string failure_;  //!< an exception that ended the loop
+  std::optional<Diagnostic> end_remark_;  //!< the recording goes on after the trajectory
+  std::string failure_;                   //!< an exception that ended the loop
 };
 
 }  // namespace fastlio

@@ -3,6 +3,8 @@
 
 #include "run_counts.h"
 
+#include <mrpt/core/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -47,6 +49,15 @@ std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputS
       {"packet_blocks_corrupt", bridge.packet_blocks_corrupt},
       {"packet_times_corrupt", bridge.packet_times_corrupt},
       {"other_sensors", bridge.other_sensors}};
+}
+
+std::string lostEndText(const InputStatistics& odometry)
+{
+  return mrpt::format(
+      "the last %zu scans could not be processed: of all scans, %zu were without inertial data, %zu "
+      "were stamped before others, %zu had absurd stamps, %zu were empty",
+      odometry.scans_after_result, odometry.scans_without_imu, odometry.scans_out_of_order,
+      odometry.scans_bad_stamp, odometry.scans_empty);
 }
 
 std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)

@@ -19,4 +19,7 @@ namespace fastlio
 /** Those of inputCounts() that tell of losses, without zeros. */
 [[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
 
+/** Why there is no result for the scans after the last one, as far as the counts tell. */
+[[nodiscard]] std::string lostEndText(const InputStatistics& odometry);
+
 }  // namespace fastlio

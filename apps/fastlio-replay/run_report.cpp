@@ -44,6 +44,8 @@ std::string scansText(const RunStatistics& statistics)
     text += separator + std::to_string(statistics.count(status)) + " " + toString(status);
     separator = ", ";
   }
+  if (const std::size_t missing = statistics.missingScans(); missing > 0)
+    text += "; " + std::to_string(missing) + " missing in between";
   return text;
 }
 
@@ -96,6 +98,7 @@ std::string imuText(const ImuReport& imu)
   if (imu.gaps > 0)
     text +=
         ", " + std::to_string(imu.gaps) + " gaps (longest " + fixedText(imu.longest_gap, 3) + " s)";
+  if (imu.missing > 0) text += ", " + std::to_string(imu.missing) + " samples missing";
   if (imu.saturated > 0) text += ", " + std::to_string(imu.saturated) + " clipped samples";
   if (imu.spikes > 0) text += ", " + std::to_string(imu.spikes) + " spikes";
   if (imu.clock_steps > 0) text += ", clock set back " + std::to_string(imu.clock_steps) + " times";

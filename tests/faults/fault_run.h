@@ -20,15 +20,16 @@ struct FaultOutcome
   bool finite = false;            //!< every number of trajectory and states is finite
   std::size_t poses = 0;
   double worst_position = 0.0;  //!< largest position error after alignment [m]
-  bool told = false;            //!< a report of trouble, drops, diagnostics or an exit status
+  bool named = false;           //!< what the program prints names the fault
   std::string log;
 };
 
 /** Writes the bytes as a rawlog, replays it with the recording's parameters and judges the outputs.
  * \param folder for the files
- * \param judge_position worst_position is wanted; needs poses in motion */
+ * \param judge_position worst_position is wanted; needs poses in motion
+ * \param words a regular expression that names the fault; empty: none */
 [[nodiscard]] FaultOutcome replayBytes(
     const std::string& bytes, const FaultRecording& recording, const std::string& folder,
-    bool judge_position);
+    bool judge_position, const std::string& words);
 
 }  // namespace fastlio::testing

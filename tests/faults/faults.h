@@ -30,6 +30,9 @@ struct ObservationFault
    * cannot be recovered from, and only has to be survived. */
   double error_factor = 0.0;
   double poses_share = 0.0;  //!< so many of the clean recording's poses are there, at least
+  /** A regular expression for the words that name the fault in what the program prints; empty: it
+   * is put right without loss, or nothing tells it from what sensors measure. */
+  std::string words = {};
 };
 
 [[nodiscard]] std::vector<ObservationFault> observationFaults();
@@ -42,6 +45,7 @@ struct FileFault
   std::string name;
   std::size_t count = 1;  //!< so many of them, at different places
   std::function<std::string(const RawlogBytes&, std::size_t index, Random&)> damage;
+  bool always_seen = true;  //!< false: without a checksum, another number is a number
 };
 
 [[nodiscard]] std::vector<FileFault> fileFaults();

@@ -38,10 +38,12 @@ std::vector<FileFault> fileFaults()
   return {
       {"one bit flipped, plain rawlog", 60,
        [](const RawlogBytes& rawlog, std::size_t, Random& random)
-       { return withFlippedBits(rawlog.bytes, 1, random); }},
+       { return withFlippedBits(rawlog.bytes, 1, random); },
+       false},
       {"a hundred bits flipped, plain rawlog", 20,
        [](const RawlogBytes& rawlog, std::size_t, Random& random)
-       { return withFlippedBits(rawlog.bytes, 100, random); }},
+       { return withFlippedBits(rawlog.bytes, 100, random); },
+       false},
       {"one bit flipped at a place of each kind in an object", 33,
        [](const RawlogBytes& rawlog, std::size_t index, Random& random)
        {
@@ -49,14 +51,16 @@ std::vector<FileFault> fileFaults()
          bytes[placeInObject(rawlog, index, objectAt(rawlog, index, 33))] ^=
              static_cast<char>(1U << (random() % 8));
          return bytes;
-       }},
+       },
+       false},
       {"one bit flipped, compressed rawlog", 30,
        [](const RawlogBytes& rawlog, std::size_t, Random& random)
        { return withFlippedBits(gzipped(rawlog.bytes), 1, random); }},
       {"truncated at a place of each kind in an object", 33,
        [](const RawlogBytes& rawlog, std::size_t index, Random&) {
          return rawlog.bytes.substr(0, placeInObject(rawlog, index, objectAt(rawlog, index, 33)));
-       }},
+       },
+       false},  // between two objects, a file may end
       {"truncated, compressed rawlog", 12,
        [](const RawlogBytes& rawlog, std::size_t index, Random&)
        {
@@ -76,7 +80,8 @@ std::vector<FileFault> fileFaults()
          std::string bytes = rawlog.bytes;
          const std::size_t begin = random() % (bytes.size() - 4096);
          return bytes.replace(begin, 4096, 4096, '\0');
-       }},
+       },
+       false},
       {"another file in the middle", 4,
        [](const RawlogBytes& rawlog, std::size_t index, Random& random)
        {

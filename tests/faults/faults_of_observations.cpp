@@ -204,56 +204,91 @@ Injection brokenPackets(double probability)
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kHour = 3600.0;
-}  // namespace
-
-std::vector<ObservationFault> observationFaults()
+std::vector<ObservationFault> faultsOfDelivery()
 {
   return {
-      {"inertial samples dropped, 1 %", dropped(isImu, 0.01), 1.5, 0.95},
-      {"inertial samples dropped, 30 %", dropped(isImu, 0.3), 3.0, 0.95},
-      {"scans dropped, 10 %", dropped(isLidar, 0.1), 1.5, 0.8},
-      {"scans dropped, 50 %", dropped(isLidar, 0.5), 2.0, 0.35},
-      {"inertial gap of 0.3 s in motion", gap(isImu, 5.0, 5.3), 3.0, 0.95},
-      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 250.0, 0.7},
-      {"inertial gap of 1 s at rest", gap(isImu, 1.0, 2.0), 3.0, 0.5},
-      {"no scans for 2 s in motion", gap(isLidar, 5.0, 7.0), 5.0, 0.6},
-      {"no inertial samples at all", dropped(isImu, 1.0), 0.0, 0.0},
-      {"inertial data end early", gap(isImu, 6.0, 100.0), 50.0, 0.55},
-      {"everything duplicated", duplicated(1.0), 1.01, 1.0},
-      {"observations duplicated, 5 %", duplicated(0.05), 1.01, 1.0},
+      {"inertial samples dropped, 1 %", dropped(isImu, 0.01), 1.5, 0.95, "samples missing"},
+      {"inertial samples dropped, 30 %", dropped(isImu, 0.3), 3.0, 0.95, "samples missing"},
+      {"scans dropped, 10 %", dropped(isLidar, 0.1), 1.5, 0.8, "missing in between"},
+      {"scans dropped, 50 %", dropped(isLidar, 0.5), 2.0, 0.35, "missing in between"},
+      {"inertial gap of 0.3 s in motion", gap(isImu, 5.0, 5.3), 3.0, 0.95, "gaps .longest 0.3"},
+      {"inertial gap of 1 s in motion", gap(isImu, 5.0, 6.0), 250.0, 0.7,
+       "without inertial samples"},
+      {"inertial gap of 1 s at rest", gap(isImu, 1.0, 2.0), 3.0, 0.5, "without inertial samples"},
+      {"no scans for 2 s in motion", gap(isLidar, 5.0, 7.0), 5.0, 0.6, "missing in between"},
+      {"no inertial samples at all", dropped(isImu, 1.0), 0.0, 0.0, "no inertial data"},
+      {"inertial data end early", gap(isImu, 6.0, 100.0), 50.0, 0.55,
+       "could not be processed: .* without inertial data"},
+      {"everything duplicated", duplicated(1.0), 1.01, 1.0, "imu_duplicate"},
+      {"observations duplicated, 5 %", duplicated(0.05), 1.01, 1.0, "imu_duplicate"},
       {"inertial samples late by 5 places", late(isImu, 0.05, 5), 1.01, 1.0},
       {"scans late by 0.1 s", late(isLidar, 0.3, 20), 1.01, 0.95},
-      {"scans late by 1 s", late(isLidar, 0.1, 210), 1.5, 0.8},
-      {"inertial samples late by 1 s", late(isImu, 0.02, 210), 1.5, 0.95},
-      {"NaN and infinity in inertial samples, 2 %", imuValue(0.02, {kNaN, kInf, -kInf}), 1.5, 0.95},
-      {"huge inertial values, 1 %", imuValue(0.01, {1e6, -1e12, 1e300, -1e308}), 2.0, 0.95},
-      {"inertial spikes, 1 %", imuValue(0.01, {300.0, -300.0}), 2.0, 0.95},
-      {"channels exchanged for zero, 1 %", imuValue(0.01, {0.0}), 5.0, 0.95},
-      {"accelerometer in g", imuScaled(1.0 / 9.80665, 1.0), 1.2, 1.0},
-      {"gyro in deg/s", imuScaled(1.0, 180.0 / M_PI), 5.0, 0.1},
+      {"scans late by 1 s", late(isLidar, 0.1, 210), 1.5, 0.8, "scans_out_of_order"},
+      {"inertial samples late by 1 s", late(isImu, 0.02, 210), 1.5, 0.95, "imu_out_of_order"},
+  };
+}
+
+std::vector<ObservationFault> faultsOfReadings()
+{
+  return {
+      {"NaN and infinity in inertial samples, 2 %", imuValue(0.02, {kNaN, kInf, -kInf}), 1.5, 0.95,
+       "imu_not_finite"},
+      {"huge inertial values, 1 %", imuValue(0.01, {1e6, -1e12, 1e300, -1e308}), 2.0, 0.95,
+       "spikes"},
+      {"inertial spikes, 1 %", imuValue(0.01, {300.0, -300.0}), 2.0, 0.95, "spikes"},
+      {"channels exchanged for zero, 1 %", imuValue(0.01, {0.0}), 5.0, 0.95,
+       "different motions.*inertial readings"},
+      {"accelerometer in g", imuScaled(1.0 / 9.80665, 1.0), 1.2, 1.0, "in units of g"},
+      {"gyro in deg/s", imuScaled(1.0, 180.0 / M_PI), 5.0, 0.1, "in deg/s, not in rad/s"},
       {"gyro clipped at 20 deg/s", imuClipped(1e9, 0.35), 0.0, 0.4},
-      {"accelerometer clipped at 10 m/s^2", imuClipped(10.0, 1e9), 0.0, 0.4},
-      {"gyro clipped at 45 deg/s", imuClipped(1e9, 0.785), 400.0, 0.9},
-      {"accelerometer clipped at 11 m/s^2", imuClipped(11.0, 1e9), 300.0, 0.9},
-      {"wrong stamps of inertial samples, 1 %", wrongStamps(isImu, 0.01, kHour), 1.5, 0.95},
-      {"wrong stamps of scans, 5 %", wrongStamps(isLidar, 0.05, kHour), 1.5, 0.8},
-      {"stamps wrong by 300 years, 1 %", wrongStamps(isAny, 0.01, 1e10), 2.0, 0.35},
-      {"clock set back by an hour", clockSet(isAny, 5.0, -kHour), 2.0, 0.9},
-      {"clock set forward by an hour", clockSet(isAny, 5.0, kHour), 0.0, 0.6},
-      {"inertial clock set forward by an hour", clockSet(isImu, 5.0, kHour), 0.0, 0.2},
-      {"LiDAR clock set back by an hour", clockSet(isLidar, 5.0, -kHour), 0.0, 0.2},
-      {"LiDAR exchanged for another label", relabelled(isLidar, 5.0, "lidar2"), 3.0, 0.4},
-      {"IMU exchanged for another label", relabelled(isImu, 5.0, "imu2"), 50.0, 0.4},
+      {"accelerometer clipped at 10 m/s^2", imuClipped(10.0, 1e9), 0.0, 0.4,
+       "different motions.*inertial readings"},
+      {"gyro clipped at 45 deg/s", imuClipped(1e9, 0.785), 400.0, 0.9,
+       "different motions.*inertial readings"},
+      {"accelerometer clipped at 11 m/s^2", imuClipped(11.0, 1e9), 300.0, 0.9,
+       "different motions.*inertial readings"},
+  };
+}
+
+std::vector<ObservationFault> faultsOfStampsAndLabels()
+{
+  return {
+      {"wrong stamps of inertial samples, 1 %", wrongStamps(isImu, 0.01, kHour), 1.5, 0.95,
+       "imu_bad_stamp"},
+      {"wrong stamps of scans, 5 %", wrongStamps(isLidar, 0.05, kHour), 1.5, 0.8,
+       "scans_without_imu|scans_bad_stamp|scans_out_of_order"},
+      {"stamps wrong by 300 years, 1 %", wrongStamps(isAny, 0.01, 1e10), 2.0, 0.35,
+       "imu_bad_stamp"},
+      {"clock set back by an hour", clockSet(isAny, 5.0, -kHour), 2.0, 0.9, "clock was set back"},
+      {"clock set forward by an hour", clockSet(isAny, 5.0, kHour), 0.0, 0.6,
+       "without inertial samples"},
+      {"inertial clock set forward by an hour", clockSet(isImu, 5.0, kHour), 0.0, 0.2,
+       "without inertial samples"},
+      {"LiDAR clock set back by an hour", clockSet(isLidar, 5.0, -kHour), 0.0, 0.2,
+       "could not be processed: .* stamped before others"},
+      {"LiDAR exchanged for another label", relabelled(isLidar, 5.0, "lidar2"), 3.0, 0.4,
+       "no scans follow"},
+      {"IMU exchanged for another label", relabelled(isImu, 5.0, "imu2"), 50.0, 0.4,
+       "could not be processed: .* without inertial data"},
       {"labels exchanged",
        [](Observations& all, Random& /*random*/)
        {
          for (const auto& o : all)
            o->sensorLabel = isImu(*o) ? "lidar" : "imu";
        },
-       0.0, 0.0},
-      {"random bytes in packets, 20 %", brokenPackets(0.2), 2.0, 0.85},
-      {"scans without points, 20 %", emptyScans(0.2), 2.0, 0.7},
+       0.0, 0.0, "No usable LiDAR has a label that matches 'lidar'"},
+      {"random bytes in packets, 20 %", brokenPackets(0.2), 2.0, 0.85, "packet_blocks_corrupt"},
+      {"scans without points, 20 %", emptyScans(0.2), 2.0, 0.7, "scans_empty"},
   };
+}
+}  // namespace
+
+std::vector<ObservationFault> observationFaults()
+{
+  std::vector<ObservationFault> all;
+  for (const auto& faults : {faultsOfDelivery(), faultsOfReadings(), faultsOfStampsAndLabels()})
+    all.insert(all.end(), faults.begin(), faults.end());
+  return all;
 }
 
 }  // namespace fastlio::testing

@@ -58,11 +58,13 @@ constexpr float kInff = std::numeric_limits<float>::infinity();
 std::vector<ObservationFault> pointFaults()
 {
   return {
-      {"NaN and infinity in points, 20 %", badPoints(0.2, {kNaNf, kInff, -kInff, 0.0F}), 1.5, 1.0},
-      {"huge points, 10 %", badPoints(0.1, {1e30F, -1e38F, 1e10F, 3e7F}), 1.5, 1.0},
+      {"NaN and infinity in points, 20 %", badPoints(0.2, {kNaNf, kInff, -kInff, 0.0F}), 1.5, 1.0,
+       "points_invalid"},
+      {"huge points, 10 %", badPoints(0.1, {1e30F, -1e38F, 1e10F, 3e7F}), 1.5, 1.0,
+       "points_too_far"},
       {"false points, 5 %", badPoints(0.05, {-5.0F, -1.0F, 2.0F, 7.0F, 20.0F}), 5.0, 0.9},
-      {"scans of NaN only, all", badPoints(1.0, {kNaNf}), 0.0, 0.0},
-      {"scans without points, 20 %", emptyScans(0.2), 2.0, 0.7},
+      {"scans of NaN only, all", badPoints(1.0, {kNaNf}), 0.0, 0.0, "scans_empty"},
+      {"scans without points, 20 %", emptyScans(0.2), 2.0, 0.7, "scans_empty"},
   };
 }
 

@@ -46,6 +46,7 @@ Json imuJson(const ImuReport& imu)
       {"rate_hz", imu.rate},
       {"jitter", imu.jitter},
       {"gaps", imu.gaps},
+      {"missing", imu.missing},
       {"longest_gap_s", imu.longest_gap},
       {"spikes", imu.spikes},
       {"saturated", imu.saturated},

@@ -18,6 +18,7 @@ constexpr std::size_t kLeastScans = 3;
 void RunHealth::add(const ScanResult& result)
 {
   if (seen_ == 0) begin_ns_ = result.begin_ns;
+  end_ns_ = result.stamp_ns;
   const std::size_t index = seen_++;
   if (scans_ == 0 && result.status == ScanStatus::Initializing) return;
   ++scans_;
@@ -31,16 +32,32 @@ void RunHealth::add(const ScanResult& result)
   first_ = Trouble{index, result.stamp_ns, toSeconds(result.stamp_ns - begin_ns_), result.health};
 }
 
-void RunHealth::extendStretch(const ScanResult& result)
+void RunHealth::addLostEnd(std::int64_t until_ns, std::size_t scans, const std::string& reason)
 {
-  if (stretches_.empty() ||
-      toSeconds(result.stamp_ns - stretches_.back().stretch.end_ns) > kStretchGap)
+  Growing& growing = stretchAt(end_ns_);
+  UntrustedStretch& stretch = growing.stretch;
+  stretch.end_ns = until_ns;
+  stretch.end_s = toSeconds(until_ns - begin_ns_);
+  stretch.scans += scans;
+  stretch.cause = HealthCause::ScanTiming;
+  stretch.reason = reason;
+}
+
+/** The stretch that goes on, or a new one. */
+RunHealth::Growing& RunHealth::stretchAt(std::int64_t stamp_ns)
+{
+  if (stretches_.empty() || toSeconds(stamp_ns - stretches_.back().stretch.end_ns) > kStretchGap)
   {
     stretches_.emplace_back();
-    stretches_.back().stretch.begin_ns = result.stamp_ns;
-    stretches_.back().stretch.begin_s = toSeconds(result.stamp_ns - begin_ns_);
+    stretches_.back().stretch.begin_ns = stamp_ns;
+    stretches_.back().stretch.begin_s = toSeconds(stamp_ns - begin_ns_);
   }
-  Growing& growing = stretches_.back();
+  return stretches_.back();
+}
+
+void RunHealth::extendStretch(const ScanResult& result)
+{
+  Growing& growing = stretchAt(result.stamp_ns);
   UntrustedStretch& stretch = growing.stretch;
   stretch.end_ns = result.stamp_ns;
   stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);

@@ -44,7 +44,10 @@ std::string machineName(ScanStatus status)
 void RunStatistics::add(const ScanResult& result)
 {
   const Trouble trouble{scans_, result.stamp_ns, result.status, result.message};
-  if (scans_ == 0) begin_ns_ = result.begin_ns;
+  if (scans_ == 0)
+    begin_ns_ = result.begin_ns;
+  else
+    intervals_s_.push_back(static_cast<float>(toSeconds(result.stamp_ns - end_ns_)));
   end_ns_ = result.stamp_ns;
   ++scans_;
   ++counts_.at(static_cast<std::size_t>(result.status));
@@ -89,6 +92,20 @@ void RunStatistics::addPose(const ScanResult& result)
 std::size_t RunStatistics::count(ScanStatus status) const
 {
   return counts_.at(static_cast<std::size_t>(status));
+}
+
+std::size_t RunStatistics::missingScans() const
+{
+  if (intervals_s_.empty()) return 0;
+  constexpr float kMissingPeriods = 1.8F;  // jitter does not double an interval
+  std::vector<float> intervals = intervals_s_;
+  // Of the intervals, the lower quartile: half of the scans may be missing.
+  const auto period = static_cast<float>(quantile(intervals, 0.25));
+  std::size_t missing = 0;
+  for (const float interval : intervals_s_)
+    if (period > 0.0F && interval > kMissingPeriods * period)
+      missing += static_cast<std::size_t>(std::lround(interval / period)) - 1;
+  return missing;
 }
 
 std::size_t RunStatistics::poses() const

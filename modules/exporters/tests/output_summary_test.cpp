@@ -137,6 +137,31 @@ TEST(RunHealth, NamesTheStretchesThatCannotBeTrusted)
   EXPECT_EQ(stretches[1].scans, 4U);
 }
 
+TEST(RunHealth, ScansWithoutAResultAtTheEndCannotBeTrusted)
+{
+  RunSummary run = goodRun();
+  run.statistics.add(resultAt(1, ScanStatus::Tracking, 0, 1));
+  const std::int64_t end_ns = run.statistics.endNs();
+  run.statistics.addLostEnd(end_ns + 4'000'000'000, 39, "out of order");
+  const auto stretches = run.statistics.health().untrusted();
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].begin_ns, end_ns);
+  EXPECT_EQ(stretches[0].end_ns, end_ns + 4'000'000'000);
+  EXPECT_NEAR(stretches[0].end_s - stretches[0].begin_s, 4.0, 1e-9);
+  EXPECT_EQ(stretches[0].scans, 39U);
+  EXPECT_EQ(stretches[0].reason, "out of order");
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::Degraded);
+}
+
+TEST(RunStatistics, CountsTheScansThatAreMissing)
+{
+  RunStatistics statistics;
+  EXPECT_EQ(statistics.missingScans(), 0U);
+  for (const int i : {0, 1, 2, 3, 5, 6, 7, 11, 12})
+    statistics.add(resultAt(i, ScanStatus::Tracking, 0, 1));
+  EXPECT_EQ(statistics.missingScans(), 4U);
+}
+
 TEST(ExitStatus, IsNotOkWithoutAPoseOrAfterAnUnexpectedError)
 {
   EXPECT_EQ(exitStatusOf({}), ExitStatus::OdometryFailed);

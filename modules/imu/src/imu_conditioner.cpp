@@ -7,6 +7,7 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace fastlio
@@ -23,6 +24,8 @@ constexpr double kAccelFloor = 17.0;  // [m/s^2]
 constexpr double kSaturationStd = 0.5;  // fraction of the full scale
 // Three lost samples in a row are still bridged as jitter.
 constexpr double kGapPeriods = 4.0;  // of the sampling period
+// Jitter does not double an interval.
+constexpr double kMissingPeriods = 1.8;
 // How far the motion in a gap of imu.max_gap departs from the samples around it.
 constexpr double kGapGyroStd = 0.5235987755982988;  // [rad/s]; 30 deg/s
 constexpr double kGapAccelStd = 2.0;                // [m/s^2]
@@ -179,6 +182,8 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
   if (!timed.after_break) period_.add(interval, kGapPeriods);
   const bool gap = timed.after_break || (period > 0.0 && interval > kGapPeriods * period);
   const bool spike = spike_gate_.latestSpike() > *last_ns_;
+  if (!timed.after_break && period > 0.0 && interval > kMissingPeriods * period)
+    report_.missing += static_cast<std::size_t>(std::lround(interval / period)) - 1;
   if (gap)
   {
     ++report_.gaps;

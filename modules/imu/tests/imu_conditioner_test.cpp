@@ -233,6 +233,7 @@ TEST(ImuConditioner, GapsInflateNoiseAndLongOnesBreakTheRun)
   const Conditioned c = conditioned(raw);
   ASSERT_EQ(c.samples.size(), raw.size());
   EXPECT_EQ(c.report.gaps, 2U);
+  EXPECT_EQ(c.report.missing, 10U) << "a break is no loss of samples";
   EXPECT_NEAR(c.report.longest_gap, 1.005, 1e-9);
   EXPECT_EQ(inflations(c, InertialFault::Gap), 2U);
   EXPECT_TRUE(c.samples[500].inflation && !c.samples[500].after_break);

@@ -139,7 +139,8 @@ void considerMotion(const ScanStatistics& s, ScanHealth& health)
       {
         return mrpt::format(
             "scans and inertial data see different motions, %.0f times as far apart as their noise "
-            "explains: wrong mounting (T_imu_lidar), units, point times or clocks?",
+            "explains: wrong mounting (T_imu_lidar), units, point times, clocks or inertial "
+            "readings?",
             s.motion_innovation);
       });
 }

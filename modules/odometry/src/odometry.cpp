@@ -32,11 +32,11 @@ void Odometry::addScan(LidarScan scan)
 }
 std::optional<ScanResult> Odometry::next()
 {
-  return impl_->inWorld(impl_->next(false));
+  return impl_->handedOver(impl_->next(false));
 }
 std::optional<ScanResult> Odometry::flush()
 {
-  return impl_->inWorld(impl_->next(true));
+  return impl_->handedOver(impl_->next(true));
 }
 const SurfaceMap& Odometry::map() const
 {

@@ -44,8 +44,9 @@ void Odometry::Impl::startIn(const SavedMap& map)
   map_origin_ = map.origin;
 }
 
-std::optional<ScanResult> Odometry::Impl::inWorld(std::optional<ScanResult> result)
+std::optional<ScanResult> Odometry::Impl::handedOver(std::optional<ScanResult> result)
 {
+  if (result) counted_.scans_after_result = intake_.queue().size();
   if (map_origin_.isZero()) return result;
   if (result) result->filter.x.p += map_origin_;
   imu_rate_in_world_ = estimator_.imuRateStates();
@@ -109,6 +110,7 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
 void Odometry::Impl::addScan(LidarScan scan)
 {
   ++counted_.scans_in;
+  ++counted_.scans_after_result;
   if (scan.points.size() == 0)
   {
     ++counted_.scans_empty;
@@ -146,6 +148,7 @@ const InputStatistics& Odometry::Impl::inputStatistics()
   statistics_.imu_out_of_order += imu.late;
   statistics_.scans_out_of_order += intake_.late();
   statistics_.scans_bad_stamp += intake_.badStamps();
+  if (!imu_.empty()) statistics_.newest_imu_ns = imu_.newestStamp();
   return statistics_;
 }
 

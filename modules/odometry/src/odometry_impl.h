@@ -29,8 +29,8 @@ class Odometry::Impl
   void addImu(const ImuSample& sample);
   void addScan(LidarScan scan);
   std::optional<ScanResult> next(bool at_end);
-  /** The estimator counts from the origin of its map. */
-  [[nodiscard]] std::optional<ScanResult> inWorld(std::optional<ScanResult> result);
+  /** A result as it is handed over: the estimator counts from the origin of its map. */
+  [[nodiscard]] std::optional<ScanResult> handedOver(std::optional<ScanResult> result);
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
   [[nodiscard]] const std::vector<ImuRateState>& imuRateStates() const;
   [[nodiscard]] const InputStatistics& inputStatistics();

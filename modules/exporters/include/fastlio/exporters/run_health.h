@@ -23,7 +23,7 @@ struct UntrustedStretch
 {
   std::int64_t begin_ns = 0, end_ns = 0;  //!< ends of its first and last scan
   double begin_s = 0.0, end_s = 0.0;      //!< the same, since the first scan's begin [s]
-  std::size_t scans = 0;                  //!< in trouble
+  std::size_t scans = 0;                  //!< in trouble, or without a result
   HealthCause cause = HealthCause::None;  //!< of most of them
   std::string reason;                     //!< in words, of the scan that fared worst
 };
@@ -42,6 +42,9 @@ class RunHealth
   };
 
   void add(const ScanResult& result);
+  /** The recording has scans after the last result, but they could not be processed.
+   * \param until_ns to where it goes on */
+  void addLostEnd(std::int64_t until_ns, std::size_t scans, const std::string& reason);
 
   /** Scans since the first pose. */
   [[nodiscard]] std::size_t scans() const { return scans_; }
@@ -65,9 +68,10 @@ class RunHealth
   };
 
   void extendStretch(const ScanResult& result);
+  Growing& stretchAt(std::int64_t stamp_ns);
 
   std::size_t seen_ = 0, scans_ = 0, troubled_ = 0;
-  std::int64_t begin_ns_ = 0;
+  std::int64_t begin_ns_ = 0, end_ns_ = 0;
   double sum_ = 0.0, worst_ = 1.0;
   std::optional<Trouble> first_;
   std::map<HealthCause, std::size_t> causes_;

@@ -56,9 +56,16 @@ class RunStatistics
 {
  public:
   void add(const ScanResult& result);
+  /** RunHealth::addLostEnd() */
+  void addLostEnd(std::int64_t until_ns, std::size_t scans, const std::string& reason)
+  {
+    health_.addLostEnd(until_ns, scans, reason);
+  }
 
   [[nodiscard]] std::size_t scans() const { return scans_; }
   [[nodiscard]] std::size_t count(ScanStatus status) const;
+  /** Scans that the intervals between those processed leave room for. */
+  [[nodiscard]] std::size_t missingScans() const;
   /** Scans whose pose is in the trajectory. */
   [[nodiscard]] std::size_t poses() const;
   /** Length of the IMU's path through the poses at the scans' ends [m]. */
@@ -97,7 +104,8 @@ class RunStatistics
   RunHealth health_;
   double path_length_ = 0;
   double compute_ms_ = 0;
-  std::vector<float> scan_ms_;  //!< one per pose: 35 MB for a day and a night at 100 Hz
+  std::vector<float> intervals_s_;  //!< between the ends of scans
+  std::vector<float> scan_ms_;      //!< one per pose: 35 MB for a day and a night at 100 Hz
   PointTotals points_;
   std::vector<Trouble> troubles_;
   std::optional<Trouble> not_initialized_;

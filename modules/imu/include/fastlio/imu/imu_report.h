@@ -29,6 +29,7 @@ struct ImuReport
                               //!< do not count
   double longest_gap = 0.0;   //!< [s]
   std::size_t gaps = 0;       //!< longer than four sampling periods
+  std::size_t missing = 0;    //!< samples that the intervals leave room for, except in breaks
   std::size_t spikes = 0;     //!< samples left out
   std::size_t saturated = 0;  //!< samples with a clipped axis
   std::size_t bad_stamps = 0;   //!< samples with absurd stamps, left out

@@ -31,6 +31,8 @@ struct InputStatistics
   std::size_t imu_bad_stamps = 0;  //!< stamps that no other sample confirms
   std::size_t scans_in = 0, scans_empty = 0, scans_out_of_order = 0, scans_without_imu = 0;
   std::size_t scans_bad_stamp = 0;
+  std::size_t scans_after_result = 0;  //!< given after the last scan with a result, in a row
+  std::int64_t newest_imu_ns = 0;      //!< stamp of the newest sample that is believed; 0: none
 };
 
 /** FAST-LIO: feed samples and scans in any interleaving, then drain next().
