@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME ${FASTLIO_DEB_dev})
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME ${FASTLIO_DEB_plugin})
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-  "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION}), libmrpt-maps-dev, libmrpt-slam-dev, libeigen3-dev")
+  "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION}), libmrpt-maps-dev, libmrpt-slam-dev, libeigen3-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "Programs (fastlio-replay, fastlio-sim, fastlio-eval, fastlio-info), shared libraries and parameter files.")

@@ -5,6 +5,7 @@
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/json_text.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
@@ -14,13 +15,6 @@ namespace fastlio
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
-Json json(const Vec3& v)
-{
-  return {v.x(), v.y(), v.z()};
-}
-
 Json json(const Pose& T)
 {
   const auto pose = toMrptPose(T);
@@ -126,8 +120,8 @@ Json imuJson(const RecordingSurvey& survey)
        {"rest_begins_s", toSeconds(imu.rest_begin_ns - sensor.stamps.first_ns)},
        {"gravity", imu.accel_norm},
        {"acceleration_unit", imu.accel_unit},
-       {"up", json(imu.up)},
-       {"gyro_bias", json(imu.gyro_mean)},
+       {"up", vectorJson(imu.up)},
+       {"gyro_bias", vectorJson(imu.gyro_mean)},
        {"gyro_noise_density", imu.gyro_noise_density},
        {"acceleration_noise_density", imu.accel_noise_density}});
   return all;
@@ -176,7 +170,7 @@ std::string toJson(const RecordingSurvey& survey)
   }
   all["notes"] = survey.notes;
   all["warnings"] = survey.warnings;
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(all);
 }
 
 }  // namespace fastlio

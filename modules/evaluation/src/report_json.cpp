@@ -4,6 +4,7 @@
 #include "text_numbers.h"
 #include "units.h"
 #include <fastlio/evaluation/report.h>
+#include <fastlio/options/json_text.h>
 
 #include <nlohmann/json.hpp>
 
@@ -11,8 +12,6 @@ namespace fastlio
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
 Json toJsonValue(const std::optional<double>& value)
 {
   return value ? Json(*value) : Json(nullptr);
@@ -41,12 +40,11 @@ Json alignmentJson(const EvaluationReport& r)
     const auto row = r.alignment.T_ref_est.R.row(i);
     matrix.push_back({row[0], row[1], row[2]});
   }
-  const Vec3& p = r.alignment.T_ref_est.p;
   return {
       {"type", toString(r.options.alignment)},
       {"scale", r.alignment.scale},
       {"rotation_ref_est", matrix},
-      {"translation_ref_est_m", {p.x(), p.y(), p.z()}}};
+      {"translation_ref_est_m", vectorJson(r.alignment.T_ref_est.p)}};
 }
 
 Json segmentJson(const SegmentError& s)
@@ -134,23 +132,21 @@ std::string toJson(const EvaluationReport& report, const std::vector<GateResult>
   Json rpe_metre = {{"span_m", report.options.rpe_metres}};
   rpe_metre.update(
       pairJson(report.rpe_metre, "translation_percent", toPercent(1.0), "rotation_deg_per_m"));
-  const Json json = {
-      {"estimate", report.estimate_source},
-      {"reference", report.reference_source},
-      {"association", associationJson(report.association)},
-      {"begin_s", formatSeconds(begin_ns)},
-      {"duration_s", report.duration},
-      {"path_length_m", report.drift.path_length},
-      {"alignment", alignmentJson(report)},
-      {"ape", pairJson(report.ape, "translation_m", 1.0, "rotation_deg")},
-      {"rpe_per_second", rpe_second},
-      {"rpe_per_metre", rpe_metre},
-      {"segments", segmentsJson(report)},
-      {"end_to_end_drift", driftJson(report.drift)},
-      {"nees", consistencyJson(report)},
-      {"gates", gatesJson(gates)}};
-  // File names need not be UTF-8; such bytes are replaced rather than refused.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(
+      {{"estimate", report.estimate_source},
+       {"reference", report.reference_source},
+       {"association", associationJson(report.association)},
+       {"begin_s", formatSeconds(begin_ns)},
+       {"duration_s", report.duration},
+       {"path_length_m", report.drift.path_length},
+       {"alignment", alignmentJson(report)},
+       {"ape", pairJson(report.ape, "translation_m", 1.0, "rotation_deg")},
+       {"rpe_per_second", rpe_second},
+       {"rpe_per_metre", rpe_metre},
+       {"segments", segmentsJson(report)},
+       {"end_to_end_drift", driftJson(report.drift)},
+       {"nees", consistencyJson(report)},
+       {"gates", gatesJson(gates)}});
 }
 
 }  // namespace fastlio

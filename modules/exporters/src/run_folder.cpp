@@ -4,6 +4,7 @@
 #include <fastlio/exporters/output_map.h>
 #include <fastlio/exporters/run_folder.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/options/json_text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,25 +26,25 @@ std::string pathIn(const RunFolderPlan& plan, const std::string& name)
 }
 
 /** The record of the run before; null when there is none, or when it is something else. */
-nlohmann::json earlierRecord(const RunFolderPlan& plan)
+Json earlierRecord(const RunFolderPlan& plan)
 {
   const std::string path = pathIn(plan, plan.record);
   std::error_code error;
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestRecord) return {};
   std::ifstream in(path, std::ios::binary);
-  nlohmann::json record = nlohmann::json::parse(in, nullptr, false);
+  Json record = readJson(in);
   const bool ours = record.is_object() && record.contains(plan.record_key);
-  return ours ? record : nlohmann::json();
+  return ours ? record : Json();
 }
 
 /** The "outputs" of a record. */
-std::vector<OutputFile> listedFiles(const nlohmann::json& record)
+std::vector<OutputFile> listedFiles(const Json& record)
 {
   std::vector<OutputFile> files;
   if (!record.is_object() || !record.contains("outputs")) return files;
   for (const auto& file : record["outputs"])
-    if (file.is_object() && file.value("path", nlohmann::json()).is_string() &&
-        file.value("bytes", nlohmann::json()).is_number_unsigned())
+    if (file.is_object() && file.value("path", Json()).is_string() &&
+        file.value("bytes", Json()).is_number_unsigned())
       files.push_back({file["path"], file["bytes"]});
   return files;
 }

@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "health_json.h"
 #include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/options/json_text.h>
 #include <fastlio/options/option_table.h>
 
 #include <algorithm>
@@ -16,23 +16,14 @@ namespace fastlio
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
-/** Numbers, booleans, lists and null keep their type; the rest is text. */
-Json valueOf(const OptionText& option)
-{
-  if (option.is_text) return option.text;
-  const Json value = Json::parse(option.text, nullptr, false);
-  return value.is_discarded() ? Json(option.text) : value;
-}
-
 Json parametersJson(const std::vector<OptionText>& options)
 {
   Json json = Json::object();
   for (const OptionText& option : options)
   {
     const std::string group(groupOf(option.key));
-    (group.empty() ? json : json[group])[std::string(nameOf(option.key))] = valueOf(option);
+    (group.empty() ? json : json[group])[std::string(nameOf(option.key))] =
+        option.is_text ? Json(option.text) : jsonValue(option.text);
   }
   return json;
 }
@@ -99,11 +90,6 @@ Json troublesJson(const RunStatistics& statistics)
   return json;
 }
 
-Json vectorJson(const Vec3& v)
-{
-  return {v.x(), v.y(), v.z()};
-}
-
 Json openDirectionsJson(const OpenDirections& open)
 {
   if (open.scans == 0) return {{"scans", 0}};
@@ -142,6 +128,59 @@ Json calibrationJson(const RunSummary& run)
     // Not a part of the state before the map can tell it: as uncertain as given.
     json["time_offset_sigma_s"] = variance > 0.0 ? std::sqrt(variance) : p.time_offset_std;
   }
+  return json;
+}
+
+Json healthJson(const RunHealth& health)
+{
+  Json causes = Json::object();
+  for (const auto& [cause, count] : health.causes())
+    causes[toString(cause)] = count;
+  Json first = nullptr;
+  if (const auto& trouble = health.firstTrouble())
+    first = {
+        {"second", trouble->second},
+        {"scan", trouble->scan},
+        {"stamp", secondsText(trouble->stamp_ns)},
+        {"value", trouble->health.value},
+        {"cause", toString(trouble->health.cause)},
+        {"reason", trouble->health.reason}};
+  Json untrusted = Json::array();
+  for (const UntrustedStretch& stretch : health.untrusted())
+    untrusted.push_back(
+        {{"from_s", stretch.begin_s},
+         {"to_s", stretch.end_s},
+         {"from", secondsText(stretch.begin_ns)},
+         {"to", secondsText(stretch.end_ns)},
+         {"scans", stretch.scans},
+         {"cause", toString(stretch.cause)},
+         {"reason", stretch.reason}});
+  return {{"scans", health.scans()}, {"troubled", health.troubled()}, {"mean", health.mean()},
+          {"worst", health.worst()}, {"first_trouble", first},        {"causes", causes},
+          {"untrusted", untrusted}};
+}
+
+Json imuJson(const ImuReport& imu)
+{
+  return {
+      {"accel_unit", toString(imu.accel_unit)},
+      {"gyro_unit", toString(imu.gyro_unit)},
+      {"rate_hz", imu.rate},
+      {"jitter", imu.jitter},
+      {"gaps", imu.gaps},
+      {"missing", imu.missing},
+      {"longest_gap_s", imu.longest_gap},
+      {"spikes", imu.spikes},
+      {"saturated", imu.saturated},
+      {"bad_stamps", imu.bad_stamps},
+      {"clock_steps", imu.clock_steps}};
+}
+
+Json diagnosticsJson(const std::vector<Diagnostic>& diagnostics)
+{
+  Json json = Json::array();
+  for (const Diagnostic& diagnostic : diagnostics)
+    json.push_back({{"stamp", secondsText(diagnostic.stamp_ns)}, {"text", diagnostic.text}});
   return json;
 }
 
@@ -198,9 +237,7 @@ class SummaryExporter : public Exporter
 
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
-    // Paths and messages may hold bytes that are not UTF-8: replaced instead of failing.
-    const auto text = summaryJson(end.summary).dump(2, ' ', false, Json::error_handler_t::replace);
-    file_.write(text + "\n");
+    file_.write(jsonText(summaryJson(end.summary)));
     return {file_.commit()};
   }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "angles.h"
+#include <fastlio/options/json_text.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/settings_table.h>
 
@@ -11,13 +12,6 @@ namespace fastlio
 {
 namespace
 {
-using Json = nlohmann::ordered_json;
-
-Json json(const Vec3& v)
-{
-  return {v.x(), v.y(), v.z()};
-}
-
 Json json(const Pose& pose)
 {
   const SixNumbers n = numbersFromPose(pose);
@@ -26,22 +20,14 @@ Json json(const Pose& pose)
 
 Json json(const ImuBias& bias)
 {
-  return {{"gyro_rad_s", json(bias.gyro)}, {"accel_m_s2", json(bias.accel)}};
-}
-
-/** Numbers as numbers, lists as arrays, names as strings. */
-Json settingJson(const SettingRow& row, const SimulationSettings& settings)
-{
-  const std::string text = settingText(row, settings);
-  const Json value = Json::parse(text, nullptr, false);
-  return value.is_discarded() ? Json(text) : value;
+  return {{"gyro_rad_s", vectorJson(bias.gyro)}, {"accel_m_s2", vectorJson(bias.accel)}};
 }
 
 Json settingsJson(const SimulationSettings& settings)
 {
   Json all = Json::object();
   for (const auto& row : settingsTable())
-    all[std::string(row.key)] = settingJson(row, settings);
+    all[std::string(row.key)] = jsonValue(settingText(row, settings));
   return all;
 }
 
@@ -75,19 +61,18 @@ Json truthJson(const Simulation& simulation)
 std::string scenarioJson(const Simulation& simulation)
 {
   const SimulationSettings& s = simulation.settings();
-  const Json document{
-      {"scenario", s.scenario},
-      {"start_ns", s.start_ns},
-      {"duration_s", s.duration},
-      {"frames",
-       "world: z up; vehicle = IMU; poses T_world_imu of the IMU, R = Rz(yaw) Ry(pitch) Rx(roll)"},
-      {"settings", settingsJson(s)},
-      {"truth", truthJson(simulation)},
-      {"counts",
-       {{"sweeps", simulation.scanCount()},
-        {"imu_samples", simulation.imu().samples.size()},
-        {"imu_samples_lost", simulation.imu().lost}}}};
-  return document.dump(2) + "\n";
+  return jsonText(
+      {{"scenario", s.scenario},
+       {"start_ns", s.start_ns},
+       {"duration_s", s.duration},
+       {"frames",
+        "world: z up; vehicle = IMU; poses T_world_imu of the IMU, R = Rz(yaw) Ry(pitch) Rx(roll)"},
+       {"settings", settingsJson(s)},
+       {"truth", truthJson(simulation)},
+       {"counts",
+        {{"sweeps", simulation.scanCount()},
+         {"imu_samples", simulation.imu().samples.size()},
+         {"imu_samples_lost", simulation.imu().lost}}}});
 }
 
 }  // namespace fastlio

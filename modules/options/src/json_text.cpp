@@ -1,0 +1,33 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/options/json_text.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fastlio
+{
+std::string jsonText(const Json& document)
+{
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json readJson(std::istream& in)
+{
+  return Json::parse(in, nullptr, false);
+}
+
+Json jsonValue(const std::string& text)
+{
+  std::istringstream in(text);
+  Json value = readJson(in);
+  return value.is_discarded() ? Json(text) : value;
+}
+
+Json vectorJson(const Vec3& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace fastlio
