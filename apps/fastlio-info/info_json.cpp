@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "info_report.h"
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/json_text.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
-#include <fastlio/sensors/conversions.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,15 +14,6 @@ namespace fastlio
 {
 namespace
 {
-Json json(const Pose& T)
-{
-  const auto pose = toMrptPose(T);
-  return {
-      {"position_m", {pose.x(), pose.y(), pose.z()}},
-      {"yaw_pitch_roll_deg",
-       {pose.yaw() * kDegPerRad, pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad}}};
-}
-
 Json json(const ReadProblem& problem)
 {
   return {
@@ -57,7 +47,7 @@ Json json(const SurveyedSensor& sensor)
       {"gaps", stamps.gaps},
       {"out_of_order", stamps.backwards},
       {"duplicates", stamps.duplicates},
-      {"T_vehicle_sensor", json(s.T_vehicle_sensor)}};
+      {"T_vehicle_sensor", poseJson(s.T_vehicle_sensor)}};
 }
 
 Json timesJson(const LidarPlan& plan)

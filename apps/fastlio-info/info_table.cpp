@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "info_report.h"
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
-#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
 
@@ -49,12 +48,12 @@ std::string rhythmText(const StampReport& stamps)
   return text;
 }
 
-std::string poseText(const Pose& T)
+std::string poseLine(const Pose& T)
 {
-  const auto pose = toMrptPose(T);
+  const auto n = sixNumbers(T);
   return format(
-      "x %.3f y %.3f z %.3f m, yaw %.2f pitch %.2f roll %.2f deg", pose.x(), pose.y(), pose.z(),
-      pose.yaw() * kDegPerRad, pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad);
+      "x %.3f y %.3f z %.3f m, yaw %.2f pitch %.2f roll %.2f deg", n[0], n[1], n[2], n[3], n[4],
+      n[5]);
 }
 
 std::string sensorText(const SurveyedSensor& sensor)
@@ -67,7 +66,7 @@ std::string sensorText(const SurveyedSensor& sensor)
   text += line(
       "stamps", secondsText(sensor.stamps.first_ns) + " to " + secondsText(sensor.stamps.last_ns));
   text += line("rhythm", rhythmText(sensor.stamps));
-  return text + line("pose", poseText(s.T_vehicle_sensor));
+  return text + line("pose", poseLine(s.T_vehicle_sensor));
 }
 
 std::string presetText(const PresetMatch& match)

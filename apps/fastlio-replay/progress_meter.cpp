@@ -3,7 +3,7 @@
 
 #include "progress_meter.h"
 
-#include <fastlio/exporters/number_text.h>
+#include <fastlio/options/number_text.h>
 
 #include <mrpt/system/progress.h>
 

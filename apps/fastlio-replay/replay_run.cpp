@@ -5,11 +5,11 @@
 
 #include "interruption.h"
 #include "run_counts.h"
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 
 #include <mrpt/core/format.h>
 #include <mrpt/system/CTicTac.h>

@@ -4,7 +4,7 @@
 #include "run_report.h"
 
 #include "run_counts.h"
-#include <fastlio/exporters/number_text.h>
+#include <fastlio/options/number_text.h>
 
 #include <algorithm>
 

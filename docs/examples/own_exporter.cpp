@@ -1,10 +1,10 @@
 // mrpt_fastlio: an output of your own: a row of exporterKinds() with a class behind it.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/made_folders.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/survey/sensor_selection.h>

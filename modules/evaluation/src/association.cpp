@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "text_numbers.h"
 #include <fastlio/evaluation/association.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +77,8 @@ double coverageOf(const std::vector<StampedPose>& used, const std::vector<Stampe
 
 std::string rangeOf(const Trajectory& t, std::int64_t offset_ns)
 {
-  return "'" + t.source + "' covers " + formatSeconds(t.poses.front().stamp_ns + offset_ns) +
-         " to " + formatSeconds(t.poses.back().stamp_ns + offset_ns) + " s";
+  return "'" + t.source + "' covers " + secondsText(t.poses.front().stamp_ns + offset_ns) + " to " +
+         secondsText(t.poses.back().stamp_ns + offset_ns) + " s";
 }
 
 void requireOverlap(

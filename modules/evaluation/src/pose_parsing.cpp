@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pose_parsing.h"
+#include <fastlio/options/number_text.h>
 
 #include <Eigen/Geometry>
 
@@ -32,8 +33,8 @@ void appendPose(Trajectory& trajectory, const StampedPose& pose, const TextPlace
 {
   if (!trajectory.poses.empty() && pose.stamp_ns <= trajectory.poses.back().stamp_ns)
     failAt(
-        place, "time " + formatSeconds(pose.stamp_ns) + " s is not newer than the one before it, " +
-                   formatSeconds(trajectory.poses.back().stamp_ns) +
+        place, "time " + secondsText(pose.stamp_ns) + " s is not newer than the one before it, " +
+                   secondsText(trajectory.poses.back().stamp_ns) +
                    " s; sort the poses by time and remove repeated ones");
   trajectory.poses.push_back(pose);
 }

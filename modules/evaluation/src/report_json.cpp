@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "text_numbers.h"
 #include "units.h"
 #include <fastlio/evaluation/report.h>
 #include <fastlio/options/json_text.h>
+#include <fastlio/options/number_text.h>
 
 #include <nlohmann/json.hpp>
 
@@ -136,7 +136,7 @@ std::string toJson(const EvaluationReport& report, const std::vector<GateResult>
       {{"estimate", report.estimate_source},
        {"reference", report.reference_source},
        {"association", associationJson(report.association)},
-       {"begin_s", formatSeconds(begin_ns)},
+       {"begin_s", secondsText(begin_ns)},
        {"duration_s", report.duration},
        {"path_length_m", report.drift.path_length},
        {"alignment", alignmentJson(report)},

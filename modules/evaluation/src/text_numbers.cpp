@@ -5,14 +5,13 @@
 
 #include <fastlio/files/bounded_line.h>
 #include <fastlio/files/input_file.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
@@ -141,14 +140,11 @@ std::vector<std::string_view> splitAtCommas(std::string_view text)
 
 double parseNumber(std::string_view text, const TextPlace& place)
 {
-  const std::string_view digits = !text.empty() && text.front() == '+' ? text.substr(1) : text;
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size())
-    failAt(place, "expected a number, saw " + quoted(text));
-  if (!std::isfinite(value))
+  const auto value = parsed<double>(text);
+  if (!value) failAt(place, "expected a number, saw " + quoted(text));
+  if (!std::isfinite(*value))
     failAt(place, "expected a finite number, saw " + quoted(text) + "; remove or repair the line");
-  return value;
+  return *value;
 }
 
 std::int64_t parseNanoseconds(std::string_view text, const TextPlace& place)
@@ -164,19 +160,6 @@ std::int64_t parseSeconds(std::string_view text, const TextPlace& place)
 {
   const bool scientific = text.find_first_of("eE") != std::string_view::npos;
   return scientific ? parseScientificSeconds(text, place) : parseDecimalSeconds(text, place);
-}
-
-std::string formatSeconds(std::int64_t stamp_ns)
-{
-  const auto magnitude = stamp_ns < 0 ? 0 - static_cast<std::uint64_t>(stamp_ns)
-                                      : static_cast<std::uint64_t>(stamp_ns);
-  constexpr auto kNs = static_cast<std::uint64_t>(kNsPerSecondExact);
-  std::array<char, 40> text{};
-  std::snprintf(
-      text.data(), text.size(), "%s%llu.%09llu", stamp_ns < 0 ? "-" : "",
-      static_cast<unsigned long long>(magnitude / kNs),
-      static_cast<unsigned long long>(magnitude % kNs));
-  return text.data();
 }
 
 }  // namespace fastlio

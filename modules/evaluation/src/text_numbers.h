@@ -49,7 +49,4 @@ struct DataLine
  * double. */
 [[nodiscard]] std::int64_t parseSeconds(std::string_view text, const TextPlace& place);
 
-/** Nanoseconds as decimal seconds with 9 decimals. */
-[[nodiscard]] std::string formatSeconds(std::int64_t stamp_ns);
-
 }  // namespace fastlio

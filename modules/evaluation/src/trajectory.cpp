@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "text_numbers.h"
 #include <fastlio/evaluation/trajectory.h>
+#include <fastlio/options/number_text.h>
 
 #include <Eigen/LU>
 
@@ -22,7 +22,7 @@ std::string complaint(const Trajectory& t, std::size_t i)
   if (t.hasCovariances() && !t.covariances[i].allFinite())
     return "has a covariance that is not finite";
   if (i > 0 && t.poses[i].stamp_ns <= t.poses[i - 1].stamp_ns)
-    return "is not newer than the one before it (" + formatSeconds(t.poses[i - 1].stamp_ns) + " s)";
+    return "is not newer than the one before it (" + secondsText(t.poses[i - 1].stamp_ns) + " s)";
   return {};
 }
 
@@ -42,7 +42,7 @@ void requireValid(const Trajectory& trajectory)
     if (!problem.empty())
       throw std::invalid_argument(
           "trajectory '" + trajectory.source + "': pose " + std::to_string(i) + " at " +
-          formatSeconds(trajectory.poses[i].stamp_ns) + " s " + problem);
+          secondsText(trajectory.poses[i].stamp_ns) + " s " + problem);
   }
 }
 

@@ -33,7 +33,7 @@ class CovarianceExporter : public Exporter
     if (!hasPose(result.status)) return;
     const PoseEstimate estimate = poseEstimateOf(result.filter, T_imu_body_);
     file_.write(
-        std::to_string(result.stamp_ns) + "," + poseText(estimate.T_world_body, ',') +
+        std::to_string(result.stamp_ns) + "," + poseColumns(estimate.T_world_body, ',') +
         covarianceText(estimate.covariance) + "\n");
   }
 

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 
 #include <Eigen/Geometry>
 
@@ -52,7 +52,8 @@ class ImuRateExporter : public Exporter
   {
     const PoseEstimate estimate =
         poseEstimateOf(state.x.pose(), state.pose_covariance, T_imu_body_);
-    std::string row = std::to_string(state.stamp_ns) + "," + poseText(estimate.T_world_body, ',');
+    std::string row =
+        std::to_string(state.stamp_ns) + "," + poseColumns(estimate.T_world_body, ',');
     const Vec3 velocity = bodyVelocity(state, T_imu_body_.p);
     for (const double v : {velocity.x(), velocity.y(), velocity.z()})
       row += "," + fixedText(v, kVelocityDecimals);

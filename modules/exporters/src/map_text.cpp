@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "point_bytes.h"
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 
 namespace fastlio
 {

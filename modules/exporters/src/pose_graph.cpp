@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/exporters/mrpt_poses.h>
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <Eigen/Cholesky>
@@ -86,12 +86,12 @@ std::string mrptEdge(std::size_t from, const RelativePose& edge)
 
 std::string g2oVertex(std::size_t id, const Pose& pose)
 {
-  return "VERTEX_SE3:QUAT " + std::to_string(id) + " " + poseText(pose, ' ') + "\n";
+  return "VERTEX_SE3:QUAT " + std::to_string(id) + " " + poseColumns(pose, ' ') + "\n";
 }
 
 std::string g2oEdge(std::size_t from, const RelativePose& edge)
 {
-  return "EDGE_SE3:QUAT " + ids(from) + " " + poseText(edge.T_a_b, ' ') +
+  return "EDGE_SE3:QUAT " + ids(from) + " " + poseColumns(edge.T_a_b, ' ') +
          upperTriangle(information(quaternionCovariance(edge))) + "\n";
 }
 

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/pose_output.h>
+#include <fastlio/options/number_text.h>
 
 #include <Eigen/Geometry>
 
@@ -49,7 +49,7 @@ std::string covarianceText(const Matrix6& covariance)
   return text;
 }
 
-std::string poseText(const Pose& pose, char separator)
+std::string poseColumns(const Pose& pose, char separator)
 {
   Eigen::Quaterniond q(pose.R);
   q.normalize();

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 
 #include <cmath>
 
@@ -24,7 +24,7 @@ constexpr const char* kStatesHeader =
 std::string stateRow(const ScanResult& result)
 {
   const NavState& x = result.filter.x;
-  std::string row = std::to_string(result.stamp_ns) + "," + poseText(x.pose(), ',');
+  std::string row = std::to_string(result.stamp_ns) + "," + poseColumns(x.pose(), ',');
   for (const Vec3& v : {x.v, x.gyro_bias, x.accel_bias, x.g})
     for (int i = 0; i < 3; ++i)
       row += "," + roundTripText(v[i]);

@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/options/json_text.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/options/option_table.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 
 namespace fastlio
 {
@@ -20,7 +20,7 @@ class TumExporter : public Exporter
   {
     if (!hasPose(result.status)) return;
     const Pose T_world_body = result.filter.x.pose() * T_imu_body_;
-    file_.write(secondsText(result.stamp_ns) + " " + poseText(T_world_body, ' ') + "\n");
+    file_.write(secondsText(result.stamp_ns) + " " + poseColumns(T_world_body, ' ') + "\n");
   }
 
   std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {file_.commit()}; }

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/number_text.h>
 
 namespace fastlio
 {

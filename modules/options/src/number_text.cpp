@@ -12,18 +12,40 @@ namespace fastlio
 {
 namespace
 {
-std::array<double, 6> sixNumbers(const Pose& pose)
+std::string notFiniteText(double value)
 {
-  const Mat3& R = pose.R;
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
-  // At a pitch of +-90 deg only yaw -+ roll is defined: choose roll = 0.
-  const bool upright = std::hypot(R(2, 1), R(2, 2)) > 1e-9;
-  const double yaw = upright ? std::atan2(R(1, 0), R(0, 0)) : std::atan2(-R(0, 1), R(1, 1));
-  const double roll = upright ? std::atan2(R(2, 1), R(2, 2)) : 0.0;
-  return {pose.p.x(),       pose.p.y(),         pose.p.z(),
-          yaw * kDegPerRad, pitch * kDegPerRad, roll * kDegPerRad};
+  if (std::isnan(value)) return "nan";
+  return value > 0 ? "inf" : "-inf";
 }
 }  // namespace
+
+std::string secondsText(std::int64_t stamp_ns)
+{
+  constexpr std::uint64_t kNsPerSecondExact = 1'000'000'000U;
+  const bool negative = stamp_ns < 0;
+  const auto bits = static_cast<std::uint64_t>(stamp_ns);
+  const std::uint64_t magnitude = negative ? 0U - bits : bits;
+  const std::string fraction = std::to_string(magnitude % kNsPerSecondExact);
+  return (negative ? "-" : "") + std::to_string(magnitude / kNsPerSecondExact) + "." +
+         std::string(9 - fraction.size(), '0') + fraction;
+}
+
+std::string fixedText(double value, int decimals)
+{
+  if (!std::isfinite(value)) return notFiniteText(value);
+  std::array<char, 400> text{};  // 309 digits of the largest double, the point and decimals
+  const auto end = std::to_chars(
+      text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
+}
+
+std::string roundTripText(double value)
+{
+  if (!std::isfinite(value)) return notFiniteText(value);
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
 
 std::string shortestText(double value)
 {
@@ -68,6 +90,18 @@ Pose poseFromSixNumbers(const std::array<double, 6>& numbers)
                   AngleAxisd(numbers[5] / kDegPerRad, Vec3::UnitX()))
                      .toRotationMatrix();
   return {R, {numbers[0], numbers[1], numbers[2]}};
+}
+
+std::array<double, 6> sixNumbers(const Pose& pose)
+{
+  const Mat3& R = pose.R;
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(2, 1), R(2, 2)));
+  // At a pitch of +-90 deg only yaw -+ roll is defined: choose roll = 0.
+  const bool upright = std::hypot(R(2, 1), R(2, 2)) > 1e-9;
+  const double yaw = upright ? std::atan2(R(1, 0), R(0, 0)) : std::atan2(-R(0, 1), R(1, 1));
+  const double roll = upright ? std::atan2(R(2, 1), R(2, 2)) : 0.0;
+  return {pose.p.x(),       pose.p.y(),         pose.p.z(),
+          yaw * kDegPerRad, pitch * kDegPerRad, roll * kDegPerRad};
 }
 
 std::string poseText(const Pose& pose, int digits)

@@ -1,7 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "angles.h"
 #include <fastlio/options/json_text.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/settings_table.h>
@@ -12,13 +11,7 @@ namespace fastlio
 {
 namespace
 {
-Json json(const Pose& pose)
-{
-  const SixNumbers n = numbersFromPose(pose);
-  return {{"position_m", {n[0], n[1], n[2]}}, {"yaw_pitch_roll_deg", {n[3], n[4], n[5]}}};
-}
-
-Json json(const ImuBias& bias)
+Json biasJson(const ImuBias& bias)
 {
   return {{"gyro_rad_s", vectorJson(bias.gyro)}, {"accel_m_s2", vectorJson(bias.accel)}};
 }
@@ -46,14 +39,14 @@ Json truthJson(const Simulation& simulation)
   const auto& bias = simulation.imu().true_bias;
   Json truth{
       {"gravity_world_m_s2", {0.0, 0.0, -s.gravity}},
-      {"T_imu_lidar", json(s.lidar.T_imu_lidar)},
+      {"T_imu_lidar", poseJson(s.lidar.T_imu_lidar)},
       {"lidar_clock_minus_imu_clock_s", s.lidar.time_offset},
-      {"start_pose", json(simulation.motion().pose(0.0))},
-      {"end_pose", json(simulation.motion().pose(s.duration))},
+      {"start_pose", poseJson(simulation.motion().pose(0.0))},
+      {"end_pose", poseJson(simulation.motion().pose(s.duration))},
       {"path_length_m", pathLength(simulation)}};
   if (bias.empty()) return truth;
-  truth["initial_bias"] = json(bias.front());
-  truth["final_bias"] = json(bias.back());
+  truth["initial_bias"] = biasJson(bias.front());
+  truth["final_bias"] = biasJson(bias.back());
   return truth;
 }
 }  // namespace

@@ -45,6 +45,6 @@ struct PoseEstimate
 
 /** "x,y,z,qx,qy,qz,qw" with the given separator: position with 6 decimals [m], unit quaternion with
  * 9 decimals and qw >= 0. */
-[[nodiscard]] std::string poseText(const Pose& pose, char separator);
+[[nodiscard]] std::string poseColumns(const Pose& pose, char separator);
 
 }  // namespace fastlio

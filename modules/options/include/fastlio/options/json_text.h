@@ -5,7 +5,7 @@
  * <nlohmann/json.hpp> in their sources; parser and serialiser are compiled here only. */
 #pragma once
 
-#include <fastlio/math/so3.h>
+#include <fastlio/math/pose.h>
 
 #include <istream>
 #include <nlohmann/json_fwd.hpp>
@@ -26,5 +26,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json jsonValue(const std::string& text);
 
 [[nodiscard]] Json vectorJson(const Vec3& v);
+
+/** "position_m" and "yaw_pitch_roll_deg"; R = Rz(yaw) Ry(pitch) Rx(roll). */
+[[nodiscard]] Json poseJson(const Pose& pose);
 
 }  // namespace fastlio

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/number_text.h>
+#include <fastlio/options/number_text.h>
 
 #include <gtest/gtest.h>
 
