@@ -6,6 +6,7 @@
 
 #include "temporary_folder.h"
 #include <fastlio/exporters/output_map.h>
+#include <fastlio/exporters/run_summary.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <gtest/gtest.h>
@@ -88,6 +89,27 @@ inline ScanResult madeUpResult(std::int64_t stamp_ns, ScanStatus status = ScanSt
   result.statistics.converged = true;
   result.milliseconds.total = 4.5;
   return result;
+}
+
+// Of resultAt().
+constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
+constexpr std::int64_t kPeriod = 100'000'000;
+
+/** The scan with that index, counted from 0. \param x where it was made [m] \param ms it took */
+inline ScanResult resultAt(int index, ScanStatus status, double x, double ms)
+{
+  ScanResult result = madeUpResult(kStart + (index + 1) * kPeriod, status);
+  result.filter.x.p = {x, 0.0, 0.0};
+  result.milliseconds.total = ms;
+  return result;
+}
+
+/** A run of one good scan. */
+inline RunSummary goodRun()
+{
+  RunSummary run;
+  run.statistics.add(resultAt(0, ScanStatus::Tracking, 0, 1));
+  return run;
 }
 
 }  // namespace fastlio::testing
