@@ -1,15 +1,14 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "run_record.h"
 #include <fastlio/exporters/output_map.h>
 #include <fastlio/exporters/run_folder.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/options/json_text.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 namespace fastlio
@@ -18,35 +17,15 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLargestRecord = 100'000'000;  // [byte]: a longer one is none of ours
-
 std::string pathIn(const RunFolderPlan& plan, const std::string& name)
 {
   return (fs::path(plan.directory) / name).string();
 }
 
-/** The record of the run before; null when there is none, or when it is something else. */
-Json earlierRecord(const RunFolderPlan& plan)
+/** The files that the run before has written; nothing when there was none. */
+std::optional<std::vector<OutputFile>> earlierFiles(const RunFolderPlan& plan)
 {
-  const std::string path = pathIn(plan, plan.record);
-  std::error_code error;
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestRecord) return {};
-  std::ifstream in(path, std::ios::binary);
-  Json record = readJson(in);
-  const bool ours = record.is_object() && record.contains(plan.record_key);
-  return ours ? record : Json();
-}
-
-/** The "outputs" of a record. */
-std::vector<OutputFile> listedFiles(const Json& record)
-{
-  std::vector<OutputFile> files;
-  if (!record.is_object() || !record.contains("outputs")) return files;
-  for (const auto& file : record["outputs"])
-    if (file.is_object() && file.value("path", Json()).is_string() &&
-        file.value("bytes", Json()).is_number_unsigned())
-      files.push_back({file["path"], file["bytes"]});
-  return files;
+  return outputsOfRecord(pathIn(plan, plan.record), plan.record_key);
 }
 
 bool isAnyOf(const std::string& path, const std::vector<std::string>& others)
@@ -59,7 +38,7 @@ bool isAnyOf(const std::string& path, const std::vector<std::string>& others)
 /** \exception std::runtime_error names the first file that no run has written */
 void requireNothingForeign(const RunFolderPlan& plan)
 {
-  if (!earlierRecord(plan).is_null()) return;
+  if (earlierFiles(plan)) return;
   for (const std::string& name : plan.files)
   {
     std::error_code error;
@@ -117,7 +96,7 @@ RunFolder::RunFolder(RunFolderPlan plan)
     : plan_(std::move(plan)), made_(plan_.directory), lock_(plan_.directory)
 {
   if (!plan_.overwrite && !lock_.tookOver()) requireNothingForeign(plan_);
-  earlier_ = listedFiles(earlierRecord(plan_));
+  earlier_ = earlierFiles(plan_).value_or(std::vector<OutputFile>{});
 }
 
 void RunFolder::removeLeftovers(const std::vector<std::string>& kept) const

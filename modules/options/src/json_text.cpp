@@ -5,7 +5,6 @@
 #include <fastlio/options/number_text.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace fastlio
 {
@@ -14,15 +13,9 @@ std::string jsonText(const Json& document)
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json readJson(std::istream& in)
-{
-  return Json::parse(in, nullptr, false);
-}
-
 Json jsonValue(const std::string& text)
 {
-  std::istringstream in(text);
-  Json value = readJson(in);
+  Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() ? Json(text) : value;
 }
 

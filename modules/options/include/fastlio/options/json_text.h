@@ -7,7 +7,6 @@
 
 #include <fastlio/math/pose.h>
 
-#include <istream>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -18,9 +17,6 @@ using Json = nlohmann::ordered_json;
 /** The document as a file holds it. Paths and messages may hold bytes that are not UTF-8: replaced
  * instead of failing. */
 [[nodiscard]] std::string jsonText(const Json& document);
-
-/** The document of a whole stream; discarded (is_discarded()) when it is none. */
-[[nodiscard]] Json readJson(std::istream& in);
 
 /** Numbers, booleans, lists and null in \a text keep their type; the rest is text. */
 [[nodiscard]] Json jsonValue(const std::string& text);
