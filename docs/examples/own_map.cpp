@@ -6,6 +6,8 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/simulation/simulation.h>
 
+#include <mrpt/maps/CSimplePointsMap.h>
+
 #include <array>
 #include <cmath>
 #include <cstdlib>

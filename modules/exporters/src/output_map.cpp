@@ -3,6 +3,8 @@
 
 #include <fastlio/exporters/output_map.h>
 #include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/odometry/scan_result.h>
 
 #include <algorithm>
 #include <cerrno>

@@ -4,6 +4,7 @@
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/exporters/run_statistics.h>
 #include <fastlio/math/time.h>
+#include <fastlio/odometry/degeneracy.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,8 @@
 #include "voxel_plane_map_impl.h"
 #include <fastlio/map/voxel_plane_map.h>
 
+#include <mrpt/maps/CSimplePointsMap.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>

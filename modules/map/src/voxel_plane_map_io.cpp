@@ -4,6 +4,8 @@
 #include "voxel_plane_map_impl.h"
 #include <fastlio/map/voxel_plane_map.h>
 
+#include <mrpt/serialization/CArchive.h>
+
 #include <stdexcept>
 #include <utility>
 

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/imu_rate.h>
 
 namespace fastlio

@@ -5,6 +5,7 @@
 
 #include "odometry_runs.h"
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/odometry/saved_map.h>
 
 #include <gtest/gtest.h>
 

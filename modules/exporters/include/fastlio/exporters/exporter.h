@@ -16,6 +16,8 @@
 
 namespace fastlio
 {
+class SurfaceMap;
+
 /** What is known when the last scan is done. */
 struct RunEnd
 {

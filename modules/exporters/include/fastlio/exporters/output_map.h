@@ -5,9 +5,6 @@
  * as the disk. */
 #pragma once
 
-#include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/scan_result.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,6 +17,8 @@
 namespace fastlio
 {
 class CIncrementalPointsMap;
+struct RegisteredFields;
+struct WorldPoints;
 
 /** Points in the world frame, counted from the map's origin, and what was measured with them, as
  * columns of equal length. */

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/exporters/run_health.h>
+#include <fastlio/filter/update.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <array>

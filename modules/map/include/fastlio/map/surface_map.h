@@ -7,12 +7,15 @@
 
 #include <fastlio/math/so3.h>
 
-#include <mrpt/maps/CSimplePointsMap.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
+
+namespace mrpt::maps
+{
+class CSimplePointsMap;
+}  // namespace mrpt::maps
 
 namespace fastlio
 {
@@ -70,7 +73,7 @@ class SurfaceMap
   [[nodiscard]] virtual std::size_t pointCount() const = 0;
 
   /** The points as an MRPT map: a copy, safe to keep. */
-  [[nodiscard]] virtual mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const = 0;
+  [[nodiscard]] virtual std::shared_ptr<mrpt::maps::CSimplePointsMap> toPointsMap() const = 0;
 };
 
 }  // namespace fastlio

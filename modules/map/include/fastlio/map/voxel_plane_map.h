@@ -8,11 +8,14 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/parallel/workers.h>
 
-#include <mrpt/serialization/CArchive.h>
-
 #include <cstddef>
 #include <memory>
 #include <vector>
+
+namespace mrpt::serialization
+{
+class CArchive;
+}  // namespace mrpt::serialization
 
 namespace fastlio
 {
@@ -58,7 +61,7 @@ class VoxelPlaneMap : public SurfaceMap
   /** Number of finest voxels with points. */
   [[nodiscard]] std::size_t pointCount() const override;
   /** The mean point of each finest voxel. */
-  [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr toPointsMap() const override;
+  [[nodiscard]] std::shared_ptr<mrpt::maps::CSimplePointsMap> toPointsMap() const override;
 
   /** The options that it was made with. */
   [[nodiscard]] const VoxelPlaneOptions& options() const;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
-#include <fastlio/imu/imu_buffer.h>
 
 #include <cstdint>
 #include <optional>
@@ -14,6 +13,8 @@
 
 namespace fastlio
 {
+class ImuBuffer;
+
 /** The state at an inertial sample, propagated (eq. 4-8) from the latest scan before it: causal,
  * nothing measured later takes part. */
 struct ImuRateState

@@ -11,7 +11,6 @@
 #include <fastlio/lidar/scan.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/saved_map.h>
 #include <fastlio/odometry/scan_result.h>
 
 #include <memory>
@@ -21,6 +20,7 @@
 namespace fastlio
 {
 class SurfaceMap;
+struct SavedMap;
 struct WorldPoints;
 
 /** Counts of everything that was dropped before it reached the filter. */

@@ -8,7 +8,6 @@
 #include <fastlio/filter/update.h>
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/odometry_options.h>
 
 #include <cstddef>
 #include <vector>

@@ -5,14 +5,14 @@
 #pragma once
 
 #include <fastlio/map/surface_map.h>
-#include <fastlio/map/voxel_plane_map.h>
 #include <fastlio/math/pose.h>
-#include <fastlio/parallel/workers.h>
 
 #include <memory>
 
 namespace fastlio
 {
+class VoxelPlaneMap;
+
 /** A map and about where the platform is in it. Its z axis points up. */
 struct SavedMap
 {

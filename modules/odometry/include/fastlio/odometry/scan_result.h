@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
-#include <fastlio/odometry/degeneracy.h>
+#include <fastlio/odometry/scan_constraints.h>
 
 #include <array>
 #include <cstdint>
