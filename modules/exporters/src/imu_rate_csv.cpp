@@ -37,8 +37,6 @@ class ImuRateExporter : public Exporter
     file_.write(imuRateHeader(frame.name));
   }
 
-  void onScan(const ScanResult& /*result*/) override {}
-
   void onImuRate(const std::vector<ImuRateState>& states) override
   {
     for (const ImuRateState& state : states)

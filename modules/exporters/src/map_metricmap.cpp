@@ -41,7 +41,6 @@ class MetricMapExporter : public Exporter
  public:
   explicit MetricMapExporter(const std::string& path) : file_(path) {}
 
-  void onScan(const ScanResult& /*result*/) override {}
   [[nodiscard]] bool needsMap() const override { return true; }
 
   /** As CSimplePointsMap serialises itself, without ever having all points in memory: their number,

@@ -18,8 +18,6 @@ class PlanesExporter : public Exporter
  public:
   explicit PlanesExporter(const std::string& path) : file_(path) {}
 
-  void onScan(const ScanResult& /*result*/) override {}
-
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
     const auto* planes = dynamic_cast<const VoxelPlaneMap*>(end.surfaces);

@@ -1,15 +1,17 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "point_bytes.h"
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/math/time.h>
+
+#include <algorithm>
+#include <cstring>
 
 namespace fastlio
 {
 namespace
 {
-using Header = std::string (*)(const OutputMap& map);
-
 std::string pcdHeader(const OutputMap& map)
 {
   const std::string n = std::to_string(map.size());
@@ -35,36 +37,71 @@ std::string plyHeader(const OutputMap& map)
          "property double time\nend_header\n";
 }
 
-/** A header, then the points: both formats have the same binary rows. */
-class PointFileExporter : public Exporter
+constexpr std::size_t kPointsPerWrite = 4096;
+
+/** Appends the bytes of a number, least significant first on every machine. */
+template <typename Bits, typename Number>
+void appendLittleEndian(std::string& bytes, Number value)
 {
- public:
-  PointFileExporter(const std::string& path, Header header) : file_(path), header_(header) {}
+  static_assert(sizeof(Bits) == sizeof(Number));
+  Bits bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  for (std::size_t i = 0; i < sizeof bits; ++i)
+    bytes.push_back(static_cast<char>((bits >> (8 * i)) & 0xFFU));
+}
 
-  void onScan(const ScanResult& /*result*/) override {}
-  [[nodiscard]] bool needsMap() const override { return true; }
+/** In double precision where the map has an origin: those are coordinates of the earth. */
+void appendPosition(std::string& bytes, const OutputPoints& p, std::size_t i, const Vec3& origin)
+{
+  if (origin.isZero())
+    for (const float number : {p.x[i], p.y[i], p.z[i]})
+      appendLittleEndian<std::uint32_t>(bytes, number);
+  else
+    for (const double number :
+         {static_cast<double>(p.x[i]) + origin.x(), static_cast<double>(p.y[i]) + origin.y(),
+          static_cast<double>(p.z[i]) + origin.z()})
+      appendLittleEndian<std::uint64_t>(bytes, number);
+}
 
-  std::vector<OutputFile> finish(const RunEnd& end) override
+void writeTile(const OutputPoints& p, const Vec3& origin, AtomicFile& file)
+{
+  std::string bytes;
+  for (std::size_t first = 0; first < p.size(); first += kPointsPerWrite)
   {
-    file_.write(header_(end.map));
-    writePoints(end.map, file_);
-    return {file_.commit()};
+    bytes.clear();
+    for (std::size_t i = first; i < std::min(first + kPointsPerWrite, p.size()); ++i)
+    {
+      appendPosition(bytes, p, i, origin);
+      appendLittleEndian<std::uint32_t>(bytes, p.intensity[i]);
+      appendLittleEndian<std::uint64_t>(bytes, toSeconds(p.stamp_ns[i]));
+    }
+    file.write(bytes);
   }
+}
 
- private:
-  AtomicFile file_;
-  Header header_;
-};
+/** A header, then the points: both formats have the same binary rows of x, y, z, intensity as float
+ * (see appendPosition()) and time as double, little-endian. */
+std::unique_ptr<Exporter> pointFile(
+    const std::string& path, std::string (*header)(const OutputMap& map))
+{
+  return mapFile(
+      path,
+      [header](const OutputMap& map, AtomicFile& file)
+      {
+        file.write(header(map));
+        map.forEachTile([&](const OutputPoints& tile) { writeTile(tile, map.origin(), file); });
+      });
+}
 }  // namespace
 
 std::unique_ptr<Exporter> makePcdMapExporter(const std::string& path)
 {
-  return std::make_unique<PointFileExporter>(path, pcdHeader);
+  return pointFile(path, pcdHeader);
 }
 
 std::unique_ptr<Exporter> makePlyMapExporter(const std::string& path)
 {
-  return std::make_unique<PointFileExporter>(path, plyHeader);
+  return pointFile(path, plyHeader);
 }
 
 }  // namespace fastlio

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "point_bytes.h"
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
 
@@ -25,31 +25,17 @@ void writeTextTile(const OutputPoints& p, const Vec3& origin, AtomicFile& file)
   }
   file.write(lines);
 }
-
-class TextMapExporter : public Exporter
-{
- public:
-  explicit TextMapExporter(const std::string& path) : file_(path) {}
-
-  void onScan(const ScanResult& /*result*/) override {}
-  [[nodiscard]] bool needsMap() const override { return true; }
-
-  std::vector<OutputFile> finish(const RunEnd& end) override
-  {
-    file_.write("# x y z [m, world] intensity time [s]\n");
-    end.map.forEachTile([&](const OutputPoints& tile)
-                        { writeTextTile(tile, end.map.origin(), file_); });
-    return {file_.commit()};
-  }
-
- private:
-  AtomicFile file_;
-};
 }  // namespace
 
 std::unique_ptr<Exporter> makeTextMapExporter(const std::string& path)
 {
-  return std::make_unique<TextMapExporter>(path);
+  return mapFile(
+      path,
+      [](const OutputMap& map, AtomicFile& file)
+      {
+        file.write("# x y z [m, world] intensity time [s]\n");
+        map.forEachTile([&](const OutputPoints& tile) { writeTextTile(tile, map.origin(), file); });
+      });
 }
 
 }  // namespace fastlio

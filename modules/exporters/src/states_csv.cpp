@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
 
@@ -23,6 +24,7 @@ constexpr const char* kStatesHeader =
 
 std::string stateRow(const ScanResult& result)
 {
+  if (!hasPose(result.status)) return {};
   const NavState& x = result.filter.x;
   std::string row = std::to_string(result.stamp_ns) + "," + poseColumns(x.pose(), ',');
   for (const Vec3& v : {x.v, x.gyro_bias, x.accel_bias, x.g})
@@ -32,27 +34,11 @@ std::string stateRow(const ScanResult& result)
     row += "," + roundTripText(std::sqrt(std::max(0.0, result.filter.P(i, i))));
   return row + "\n";
 }
-
-class StatesExporter : public Exporter
-{
- public:
-  explicit StatesExporter(const std::string& path) : file_(path) { file_.write(kStatesHeader); }
-
-  void onScan(const ScanResult& result) override
-  {
-    if (hasPose(result.status)) file_.write(stateRow(result));
-  }
-
-  std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {file_.commit()}; }
-
- private:
-  AtomicFile file_;
-};
 }  // namespace
 
 std::unique_ptr<Exporter> makeStatesExporter(const std::string& path)
 {
-  return std::make_unique<StatesExporter>(path);
+  return rowPerScan(path, kStatesHeader, stateRow);
 }
 
 }  // namespace fastlio

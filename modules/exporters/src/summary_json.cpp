@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/options/json_text.h>
@@ -227,28 +228,13 @@ Json summaryJson(const RunSummary& run)
       {"output_problems", run.output_problems},
       {"parameters", parametersJson(run.options)}};
 }
-
-class SummaryExporter : public Exporter
-{
- public:
-  explicit SummaryExporter(const std::string& path) : file_(path) {}
-
-  void onScan(const ScanResult& /*result*/) override {}
-
-  std::vector<OutputFile> finish(const RunEnd& end) override
-  {
-    file_.write(jsonText(summaryJson(end.summary)));
-    return {file_.commit()};
-  }
-
- private:
-  AtomicFile file_;
-};
 }  // namespace
 
 std::unique_ptr<Exporter> makeSummaryExporter(const std::string& path)
 {
-  return std::make_unique<SummaryExporter>(path);
+  return writtenAtEnd(
+      path,
+      [](const RunEnd& end, AtomicFile& file) { file.write(jsonText(summaryJson(end.summary))); });
 }
 
 }  // namespace fastlio

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
 
@@ -48,30 +49,18 @@ std::string milliseconds(const StageTimings& t)
   return text;
 }
 
-class TimingExporter : public Exporter
+std::string timingRow(const ScanResult& result)
 {
- public:
-  explicit TimingExporter(const std::string& path) : file_(path) { file_.write(kTimingHeader); }
-
-  void onScan(const ScanResult& result) override
-  {
-    file_.write(
-        std::to_string(result.stamp_ns) + "," + machineName(result.status) +
-        counts(result.statistics) + measures(result.statistics) +
-        milliseconds(result.milliseconds) + "," + fixedText(result.health.value, 3) + "," +
-        toString(result.health.cause) + "\n");
-  }
-
-  std::vector<OutputFile> finish(const RunEnd& /*end*/) override { return {file_.commit()}; }
-
- private:
-  AtomicFile file_;
-};
+  return std::to_string(result.stamp_ns) + "," + machineName(result.status) +
+         counts(result.statistics) + measures(result.statistics) +
+         milliseconds(result.milliseconds) + "," + fixedText(result.health.value, 3) + "," +
+         toString(result.health.cause) + "\n";
+}
 }  // namespace
 
 std::unique_ptr<Exporter> makeTimingExporter(const std::string& path)
 {
-  return std::make_unique<TimingExporter>(path);
+  return rowPerScan(path, kTimingHeader, timingRow);
 }
 
 }  // namespace fastlio

@@ -39,7 +39,7 @@ class Exporter
 
   /** Takes one scan's result, in time order.
    * \exception std::runtime_error the file cannot be written */
-  virtual void onScan(const ScanResult& result) = 0;
+  virtual void onScan(const ScanResult& /*result*/) {}
 
   /** Takes the states between the scan before and the one that onScan() gets next, in time order;
    * for files at the rate of the inertial sensor.
