@@ -8,7 +8,6 @@
 #include "info_report.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 
 #include <iostream>
@@ -58,10 +57,7 @@ void requireHarmlessOutput(const InfoArguments& arguments)
 
 int run(const InfoArguments& arguments)
 {
-  if (const auto twice = sameFileTwice(arguments.input_files))
-    throw std::runtime_error(
-        "'" + arguments.input_files[twice->second] +
-        "' is given twice; give each part of a recording once");
+  requireGivenOnce(arguments.input_files);
   requireHarmlessOutput(arguments);
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);

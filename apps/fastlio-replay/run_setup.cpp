@@ -7,6 +7,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/input_file.h>
+#include <fastlio/files/same_file.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
@@ -123,10 +124,6 @@ void requireReadable(const std::vector<std::string>& files)
       throw SetupError(
           ExitStatus::InputUnusable,
           "input file '" + file + "' " + *problem + " (--input-rawlog takes a rawlog file)");
-  if (const auto twice = sameFileTwice(files))
-    throw SetupError(
-        ExitStatus::Usage, "input file '" + files[twice->second] + "' is given twice, first as '" +
-                               files[twice->first] + "'; give each part of a recording once");
 }
 
 /** Runs what may throw std::invalid_argument for a parameter, others for the input. */
@@ -210,6 +207,7 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);
+  checked([&] { requireGivenOnce(arguments.input_files); });
   const SensorOptions& sensors = setup.config.sensors;
   const SensorPatterns patterns = patternsOf(sensors);
   setup.selection = checked(

@@ -37,16 +37,4 @@ std::optional<std::string> inputFileProblem(const std::string& path)
   return std::nullopt;
 }
 
-std::optional<std::pair<std::size_t, std::size_t>> sameFileTwice(
-    const std::vector<std::string>& paths)
-{
-  for (std::size_t i = 1; i < paths.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-    {
-      std::error_code error;
-      if (fs::equivalent(paths[k], paths[i], error)) return std::pair{k, i};
-    }
-  return std::nullopt;
-}
-
 }  // namespace fastlio

@@ -57,6 +57,16 @@ bool isBelow(const std::string& path, const std::string& folder)
   return !inner.empty() && *inner.begin() != "..";
 }
 
+void requireGivenOnce(const std::vector<std::string>& inputs)
+{
+  for (std::size_t i = 1; i < inputs.size(); ++i)
+    for (std::size_t first = 0; first < i; ++first)
+      if (isSameFile(inputs[first], inputs[i]))
+        throw std::invalid_argument(
+            "input file '" + inputs[i] + "' is given twice, first as '" + inputs[first] +
+            "'; give each part of a recording once");
+}
+
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs)
 {
   for (std::size_t i = 0; i < outputs.size(); ++i)

@@ -39,21 +39,5 @@ TEST(InputFile, OnlyRegularFilesAreRead)
   expectProblem(folder.file(std::string(5000, 'a')), "cannot be read");
 }
 
-TEST(InputFile, TheSameFileIsFoundUnderItsNames)
-{
-  const TemporaryFolder folder;
-  for (const char* name : {"a", "b"})
-    std::ofstream(folder.file(name)) << "x";
-  std::filesystem::create_symlink(folder.file("a"), folder.file("link"));
-  EXPECT_FALSE(sameFileTwice({folder.file("a"), folder.file("b")}));
-  EXPECT_FALSE(sameFileTwice({folder.file("gone"), folder.file("gone too")}));
-  EXPECT_EQ(
-      sameFileTwice({folder.file("b"), folder.file("a"), folder.file("link")}),
-      (std::pair<std::size_t, std::size_t>{1, 2}));
-  EXPECT_EQ(
-      sameFileTwice({folder.file("a"), folder.path() + "/./a"}),
-      (std::pair<std::size_t, std::size_t>{0, 1}));
-}
-
 }  // namespace
 }  // namespace fastlio

@@ -75,5 +75,19 @@ TEST(SameFile, TheMessageNamesBoth)
   EXPECT_NE(messageOf({}, {other, other}).find("are the same file"), std::string::npos);
 }
 
+TEST(SameFile, PartsOfARecordingAreGivenOnce)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "b"})
+    std::ofstream(folder.file(name)) << "x";
+  fs::create_symlink(folder.file("a"), folder.file("link"));
+  requireGivenOnce({folder.file("a"), folder.file("b"), folder.file("gone")});
+  const std::string again = folder.path() + "/./a";
+  for (const std::string& other : {folder.file("link"), again})
+    EXPECT_THROW(
+        requireGivenOnce({folder.file("b"), folder.file("a"), other}), std::invalid_argument)
+        << other;
+}
+
 }  // namespace
 }  // namespace fastlio

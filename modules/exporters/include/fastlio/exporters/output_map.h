@@ -5,6 +5,8 @@
  * as the disk. */
 #pragma once
 
+#include <fastlio/math/so3.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -4,11 +4,8 @@
 /** \file input_file.h Whether a path is a file that can be read as often as needed. */
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace fastlio
 {
@@ -16,9 +13,5 @@ namespace fastlio
  * socket, or may not be read. Goes on behind its name: "'x' is a folder". Nothing is opened that
  * could block, and nothing is read. */
 [[nodiscard]] std::optional<std::string> inputFileProblem(const std::string& path);
-
-/** A pair of \a paths that are the same file, by whatever names. */
-[[nodiscard]] std::optional<std::pair<std::size_t, std::size_t>> sameFileTwice(
-    const std::vector<std::string>& paths);
 
 }  // namespace fastlio

@@ -27,6 +27,10 @@ struct FileUse
 /** Whether the path leads to something below the folder. */
 [[nodiscard]] bool isBelow(const std::string& path, const std::string& folder);
 
+/** \exception std::invalid_argument two of the \a inputs, parts of one recording, are the same file;
+ * the message names both */
+void requireGivenOnce(const std::vector<std::string>& inputs);
+
 /** \exception std::invalid_argument an output is the same file as an input or as another output;
  * the message names both */
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs);
