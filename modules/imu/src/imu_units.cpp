@@ -3,6 +3,7 @@
 
 #include <fastlio/imu/imu_units.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace fastlio
 {
@@ -39,10 +41,7 @@ double medianNorm(const std::vector<ImuSample>& samples)
   std::vector<double> norms;
   for (const ImuSample& sample : samples)
     norms.push_back(sample.accel.norm());
-  if (norms.empty()) return 0.0;
-  const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
-  std::nth_element(norms.begin(), middle, norms.end());
-  return *middle;
+  return median(std::move(norms));
 }
 
 double angleBetween(const Vec3& a, const Vec3& b)

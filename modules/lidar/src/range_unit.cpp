@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/range_unit.h>
+#include <fastlio/math/statistics.h>
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace fastlio
@@ -38,11 +39,10 @@ std::optional<double> RangeUnit::bringToMetres(PointColumns& points)
   {
     std::vector<double> ranges = rangesOf(points);
     if (ranges.size() < kFewestUnitPoints) return std::nullopt;
-    const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
-    std::nth_element(ranges.begin(), middle, ranges.end());
+    const double middle = median(std::move(ranges));
     decided_ = true;
-    millimetres_ = *middle > kLargestMedian;
-    if (millimetres_) found = *middle;
+    millimetres_ = middle > kLargestMedian;
+    if (millimetres_) found = middle;
   }
   if (!millimetres_) return found;
   for (auto* column : {&points.x, &points.y, &points.z})
