@@ -43,21 +43,6 @@ AngleFunctions angleFunctions(double x)
   return {s / t, (1.0 - std::cos(t)) / x, (t - s) / (x * t)};
 }
 
-/** (1 - alpha(t)) / t^2 with alpha(t) = (t/2) cot(t/2), given x = t^2; the series is that of the
- * cotangent, |B_2n| x^(n-1) / (2n)!. */
-double inverseJacobianFactor(double x)
-{
-  if (x < kSeriesBelow)
-  {
-    return 1.0 / 12 +
-           x * (1.0 / 720 +
-                x * (1.0 / 30240 +
-                     x * (1.0 / 1209600 + x * (1.0 / 47900160 + x * 691.0 / 1307674368000.0))));
-  }
-  const double half = 0.5 * std::sqrt(x);
-  return (1.0 - half * std::cos(half) / std::sin(half)) / x;
-}
-
 /** I + a [u]x + b [u]x^2, the form that all of SO(3)'s functions of u share. */
 Mat3 polynomialOfSkew(const Vec3& u, double a, double b)
 {
@@ -104,11 +89,6 @@ Mat3 leftJacobianSO3(const Vec3& u)
 {
   const AngleFunctions f = angleFunctions(u.squaredNorm());
   return polynomialOfSkew(u, f.cosc, f.sincc);
-}
-
-Mat3 leftJacobianInverseSO3(const Vec3& u)
-{
-  return polynomialOfSkew(u, -0.5, inverseJacobianFactor(u.squaredNorm()));
 }
 
 Mat3 normalizeRotation(const Mat3& R)

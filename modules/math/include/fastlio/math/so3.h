@@ -27,10 +27,6 @@ using Mat3 = Eigen::Matrix3d;
 /** Left Jacobian A(u) of SO(3); its transpose is the right Jacobian. A(0) = I. */
 [[nodiscard]] Mat3 leftJacobianSO3(const Vec3& u);
 
-/** Inverse of the left Jacobian: I - [u]x/2 + (1 - alpha(|u|)) [u]x^2/|u|^2,
- * alpha(m) = (m/2) cot(m/2). */
-[[nodiscard]] Mat3 leftJacobianInverseSO3(const Vec3& u);
-
 /** The rotation matrix nearest to a matrix that drifted off SO(3) by rounding. */
 [[nodiscard]] Mat3 normalizeRotation(const Mat3& R);
 
