@@ -52,23 +52,23 @@ Rows exportRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.tile_size, 1.0, 1e4};
        },
-       "the map that is saved is kept in pieces of this size"},
+       "edge of the tiles of the saved map"},
       {"output.map_memory", "million",
        [](auto& o) -> OptionValue {
          return RealValue{&o.map_memory, 0.01, 1e4};
        },
-       "so many points of the map that is saved stay in memory; beyond it, the pieces that were "
-       "not added to for longest go to files in the output folder"},
+       "number of points of the saved map that stay in memory; beyond it, the least recently used "
+       "tiles go to files in the output folder"},
       {"output.keyframe_distance", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.keyframe_distance, 0.01, 1e4};
        },
-       "key frames (simplemap, pose graph): the next one after so much travel"},
+       "keyframes (simplemap, pose graph): largest distance from one to the next"},
       {"output.keyframe_angle", "deg",
        [](auto& o) -> OptionValue {
          return RealValue{&o.keyframe_angle, 0.1, 180.0, kRadPerDeg};
        },
-       "key frames: or after so much rotation"},
+       "keyframes: largest rotation from one to the next"},
   };
 }
 

@@ -10,11 +10,10 @@ namespace fastlio
 namespace
 {
 constexpr const char* kTimingHeader =
-    "# What became of every scan and how long it took. stamp_ns: the scan's end. residual_rms in "
-    "m;\n"
+    "# Status, counts and times of every scan. stamp_ns: the scan's end. residual_rms in m;\n"
     "# normalized_innovation: mean z^2/r, about 1 when the noise model is true;\n"
     "# information_min: smallest eigenvalue of H^T R^-1 H (weakest direction of the pose).\n"
-    "# health: 1 is well, below 0.5 beyond a limit of the group health, 0 lost.\n"
+    "# health: 1 is well, below 0.5 a measure exceeds its limit, 0 lost.\n"
     "stamp_ns,status,points_in,dropped_invalid,dropped_near,dropped_far,"
     "points_downsampled,points_effective,imu_samples,map_points,iterations,converged,at_rest,"
     "residual_"

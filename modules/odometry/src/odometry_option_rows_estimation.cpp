@@ -13,14 +13,15 @@ OdometryOptionRows scanRows()
        [](auto& o) -> OptionValue {
          return IntegerValue{&o.downsampling.target_points, 0, 10000000};
        },
-       "about so many points of a scan are used, evenly spread over the surfaces; fewer: faster, "
-       "less accurate; 0: all",
+       "target number of points per scan, evenly spread over the surfaces; fewer: faster, less "
+       "accurate; 0: all",
        OptionTier::Main},
       {"downsampling.wide_points", "",
        [](auto& o) -> OptionValue {
          return IntegerValue{&o.downsampling.wide_points, 0, 10000000};
        },
-       "but about so many at most; not more than target_points: all scans use target_points"},
+       "largest number of points per scan; not more than target_points: every scan uses "
+       "target_points"},
       {"features.mode", "",
        [](auto& o) -> OptionValue {
          return choice(&o.features.mode, {"none", "planar", "planar_and_edge"});
@@ -39,7 +40,7 @@ OdometryOptionRows scanRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.features.half_width, 0.01, 10.0};
        },
-       "neighbours reach so far to each side; larger: less noise, small structures are lost; "
+       "extent of the neighbours to each side; larger: less noise, small structures are lost; "
        "should be 10 times the noise of a range or more"},
       {"features.max_beam_gap", "deg",
        [](auto& o) -> OptionValue {
@@ -67,7 +68,7 @@ OdometryOptionRows measurementRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.measurement.max_unaided_time, 0.0, 1e6};
        },
-       "after so long without a scan that matches the map, the pose is reported as diverged"},
+       "after this time without a scan that matches the map, the status is diverged"},
       {"map.type", "",
        [](auto& o) -> OptionValue {
          return choice(&o.map.type, {"planes", "knn"});
@@ -96,7 +97,7 @@ OdometryOptionRows measurementRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.map.output_spacing, 0.01, 100.0};
        },
-       "least distance between the points of the map that is saved; smaller: denser and larger "
+       "least distance between the points of the saved map; smaller: denser and larger "
        "files"},
       {"map.min_spacing", "m",
        [](auto& o) -> OptionValue {
@@ -125,7 +126,7 @@ OdometryOptionRows behaviourRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.rest.duration, 0.2, 600.0};
        },
-       "the platform is at rest when it has been quiet for so long"},
+       "the platform is at rest when it has been quiet for this time"},
       {"rest.max_speed", "m/s",
        [](auto& o) -> OptionValue {
          return RealValue{&o.rest.max_speed, 1e-4, 1.0};

@@ -69,7 +69,7 @@ OdometryOptionRows startRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.initialization.motion_duration, 0.1, 60.0};
        },
-       "start in motion: time of the first scans that are looked at; longer: better gravity "
+       "start in motion: length of the first scans that are used; longer: better gravity "
        "direction, later start"},
       {"initialization.motion_gyro_bias_std", "deg/s",
        [](auto& o) -> OptionValue {
@@ -109,12 +109,12 @@ OdometryOptionRows imuRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.imu.noise.gyro_bias_walk, 0.0, 10.0};
        },
-       "how fast the gyro bias wanders", OptionTier::Main},
+       "random walk of the gyro bias", OptionTier::Main},
       {"imu.accel_bias_walk", "m/s^3/sqrt(Hz)",
        [](auto& o) -> OptionValue {
          return RealValue{&o.imu.noise.accel_bias_walk, 0.0, 100.0};
        },
-       "how fast the accelerometer bias wanders", OptionTier::Main},
+       "random walk of the accelerometer bias", OptionTier::Main},
   };
 }
 
