@@ -118,6 +118,7 @@ std::vector<Seed> externalSeeds()
       {"archive", "own.bin\n" + archiveOf(points)},
       {"kitti", "./own.bin\n" + numbers({1, 2, 3, 0.5F, 4, 5, 6, 0.25F})},
       {"text", "near.bin\n1 2 3\n4 5 6\n"},
+      {"flat", "near.bin\n1 2\n4 5\n"},
       {"outside", "../log.rawlog\nx"},
       {"device", "/dev/zero\nx"}};
 }

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@ struct FuzzTarget
 {
   const char* name;  //!< of the folder in tests/fuzz/corpus
   void (*run)(const std::uint8_t* data, std::size_t size);
+
+  /** Names the tests: an address in a name would change from run to run. */
+  friend std::ostream& operator<<(std::ostream& out, const FuzzTarget& target)
+  {
+    return out << target.name;
+  }
 };
 
 /** The bytes are a rawlog: read, converted, and given to the odometry. */

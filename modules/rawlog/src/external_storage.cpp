@@ -11,6 +11,9 @@
 #include <fastlio/options/printable.h>
 
 #include <mrpt/io/lazy_load_path.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/math/CMatrixDynamic.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <algorithm>
@@ -95,6 +98,30 @@ mrpt::maps::CPointsMap::Ptr archivedPoints(const std::string& path)
   return points;
 }
 
+/** The rows "x y z", "x y z intensity" or "x y z r g b" of a text. MRPT's own reader takes rows of two
+ * numbers for places, and reads beyond their end. */
+mrpt::maps::CPointsMap::Ptr textPoints(const std::string& path)
+{
+  mrpt::math::CMatrixFloat rows;
+  rows.loadFromTextFile(path);
+  const auto columns = rows.cols();
+  if (columns != 3 && columns != 4 && columns != 6)
+    throw std::runtime_error(
+        "holds rows of " + std::to_string(columns) +
+        " numbers; a row is x y z, x y z intensity, or x y z r g b");
+  mrpt::maps::CPointsMap::Ptr points = mrpt::maps::CSimplePointsMap::Create();
+  if (columns == 4) points = mrpt::maps::CPointsMapXYZI::Create();
+  points->resize(static_cast<std::size_t>(rows.rows()));
+  std::vector<float> fields(columns == 4 ? 4 : 3);
+  for (Eigen::Index row = 0; row < rows.rows(); ++row)
+  {
+    for (std::size_t field = 0; field < fields.size(); ++field)
+      fields[field] = rows(row, static_cast<Eigen::Index>(field));
+    points->setPointAllFieldsFast(static_cast<std::size_t>(row), fields);
+  }
+  return points;
+}
+
 /** MRPT tells whether a cloud is in a file, and not in which format. */
 struct FormatOf : CObservationPointCloud
 {
@@ -114,7 +141,10 @@ void loadCloud(const CObservationPointCloud& cloud, const std::string& path)
     return;
   }
   requireBoundedSize(path);
-  cloud.load();
+  if (FormatOf::of(cloud) == CObservationPointCloud::ExternalStorageFormat::PlainTextFile)
+    const_cast<CObservationPointCloud&>(cloud).pointcloud = textPoints(path);
+  else
+    cloud.load();
 }
 
 External externalOf(const mrpt::obs::CObservation& observation)

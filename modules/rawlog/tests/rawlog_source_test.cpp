@@ -224,10 +224,13 @@ TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
   write(
       file("scan.bin"),
       {reinterpret_cast<const char*>(kitti.data()), kitti.size() * sizeof(float)});
-  write(file("scan.txt"), "1 2 3\n4 5 6\n");
+  write(file("places.txt"), "1 2 3\n4 5 6\n");
+  write(file("bright.txt"), "1 2 3 0.5\n4 5 6 0.25\n");
   std::vector<Object> objects;
   for (const auto& [name, format] :
-       {std::pair{"scan.bin", Format::KittiBinFile}, {"scan.txt", Format::PlainTextFile}})
+       {std::pair{"scan.bin", Format::KittiBinFile},
+        {"bright.txt", Format::PlainTextFile},
+        {"places.txt", Format::PlainTextFile}})
   {
     auto cloud = mrpt::obs::CObservationPointCloud::Create();
     cloud->timestamp = fastlio::toMrptTime(kStart);
@@ -235,7 +238,7 @@ TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
     objects.push_back(cloud);
   }
   RawlogSource source({fileOf(serialize(objects))});
-  for (const bool bright : {true, false})
+  for (const bool bright : {true, true, false})
   {
     const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(source.next());
     ASSERT_TRUE(read && read->pointcloud) << source.problems().front().message;
@@ -248,6 +251,21 @@ TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
     }
     EXPECT_TRUE(columns.time.empty());
   }
+}
+
+TEST_F(RawlogSourceTest, ExternalTextsOfTwoNumbersPerRowAreNoPlaces)
+{
+  std::filesystem::create_directory(folder_.path() / "log_Images");
+  write((folder_.path() / "log_Images" / "flat.txt").string(), "1 2\n3 4\n");
+  auto cloud = mrpt::obs::CObservationPointCloud::Create();
+  cloud->timestamp = fastlio::toMrptTime(kStart);
+  cloud->setAsExternalStorage(
+      "flat.txt", mrpt::obs::CObservationPointCloud::ExternalStorageFormat::PlainTextFile);
+  RawlogSource source({fileOf(serialize({cloud}))});
+  EXPECT_EQ(source.next(), nullptr);
+  ASSERT_EQ(source.problems().size(), 1U);
+  EXPECT_NE(source.problems()[0].message.find("rows of 2 numbers"), std::string::npos)
+      << source.problems()[0].message;
 }
 
 TEST_F(RawlogSourceTest, ProgressReachesTheSizeOfTheFiles)
