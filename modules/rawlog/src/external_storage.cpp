@@ -98,8 +98,8 @@ mrpt::maps::CPointsMap::Ptr archivedPoints(const std::string& path)
   return points;
 }
 
-/** The rows "x y z", "x y z intensity" or "x y z r g b" of a text. MRPT's own reader takes rows of two
- * numbers for places, and reads beyond their end. */
+/** The rows "x y z", "x y z intensity" or "x y z r g b" of a text. MRPT's own reader takes rows
+ * of two numbers for places, and reads beyond their end. */
 mrpt::maps::CPointsMap::Ptr textPoints(const std::string& path)
 {
   mrpt::math::CMatrixFloat rows;
