@@ -42,6 +42,7 @@ std::vector<FileUse> outputsOf(
     const ReplayArguments& arguments, const std::vector<std::string>& names)
 {
   std::vector<FileUse> outputs;
+  outputs.reserve(names.size() + 1);
   for (const std::string& name : names)
     outputs.push_back({(fs::path(arguments.output_directory) / name).string(), "--output-dir"});
   if (!arguments.output_tum_path.empty())

@@ -21,8 +21,6 @@ namespace fastlio
 {
 namespace
 {
-namespace fs = std::filesystem;
-
 constexpr double kLargestPoseNumber = 1e7;  // beyond the coordinates of any grid, UTM for instance
 
 std::string joined(const std::vector<std::string>& names)

@@ -43,7 +43,7 @@ Inputs inputsOfScenario(const std::string& scenario, double duration)
   {
     inputs.data.emplace_back(sample);
     if (scan == simulation.scanCount() || sample.stamp_ns < spanOf(next).end_ns) continue;
-    inputs.data.emplace_back(std::move(next));
+    inputs.data.emplace_back(std::exchange(next, LidarScan{}));
     if (++scan < simulation.scanCount()) next = simulation.scan(scan);
   }
   return inputs;

@@ -15,6 +15,7 @@ namespace
 void decodeVlp16(benchmark::State& state)
 {
   std::vector<fastlio::testing::Packet> packets;
+  packets.reserve(76);
   for (int i = 0; i < 76; ++i)
     packets.push_back(fastlio::testing::makePacket(
         static_cast<std::uint16_t>(i * 12 * 39 % 36000), 39, static_cast<std::uint32_t>(1327 * i),

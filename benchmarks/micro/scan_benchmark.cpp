@@ -30,6 +30,7 @@ void downsample(benchmark::State& state)
 std::vector<MotionKnot> turningKnots()
 {
   std::vector<ImuSample> samples;
+  samples.reserve(20);
   for (int i = 0; i < 20; ++i)
     samples.push_back({i * 5'000'000LL, {0.1, -0.2, 2.0}, {0.0, 0.0, 9.81}});
   std::vector<MotionKnot> knots;

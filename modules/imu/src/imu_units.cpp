@@ -39,6 +39,7 @@ constexpr double kImpossibleSpinTime = 0.5;  // [s]
 double medianNorm(const std::vector<ImuSample>& samples)
 {
   std::vector<double> norms;
+  norms.reserve(samples.size());
   for (const ImuSample& sample : samples)
     norms.push_back(sample.accel.norm());
   return median(std::move(norms));

@@ -20,8 +20,8 @@ void SamplingPeriod::add(double interval, double gap_periods)
   if (count_ % kEnough == 0)
   {
     std::array<double, kLatest> sorted = latest_;
-    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kLatest));
-    const auto middle = sorted.begin() + (end - sorted.begin()) / 2;
+    auto* const end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kLatest));
+    auto* const middle = sorted.begin() + (end - sorted.begin()) / 2;
     std::nth_element(sorted.begin(), middle, end);
     median_ = *middle;
   }

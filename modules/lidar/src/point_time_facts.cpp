@@ -21,6 +21,7 @@ template <typename Get>
 double medianOf(const std::vector<PointTimeSample>& samples, Get get)
 {
   std::vector<double> values;
+  values.reserve(samples.size());
   for (const PointTimeSample& sample : samples)
     values.push_back(get(sample));
   return median(std::move(values));

@@ -93,6 +93,7 @@ void CVoxelPlanesMap::loadFromFile(const std::string& path)
 
 void CVoxelPlanesMap::saveMetricMapRepresentationToFile(const std::string& prefix) const
 {
+  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the file holds points only
   if (!mrpt::maps::CSimplePointsMap(points()).saveToPlyFile(prefix + ".ply", true))
     throw std::runtime_error("'" + prefix + ".ply' cannot be written; check the folder");
   saveToFile(prefix + ".metricmap");

@@ -133,7 +133,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   const Spread spread = spreadOf(products_, mean, n);
   const Eigen::Vector3f normal = spread.eigenvectors.col(0).cast<float>();
   const Eigen::Vector3f beams(beams_[0], beams_[1], beams_[2]);
-  const double incidence = static_cast<double>(std::abs(normal.dot(beams)) / count_);
+  const auto incidence = static_cast<double>(std::abs(normal.dot(beams)) / count_);
   // One laser line on a bent surface spans a plane of its own, which contains the beams.
   if (incidence < static_cast<double>(rules.min_incidence)) return;
   // Noise lies along the beams: little of it is left across a plane seen at a grazing angle. Three

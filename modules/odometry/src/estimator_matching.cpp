@@ -40,7 +40,7 @@ MapSearchResult Estimator::matchWithMap(
  * wrong pose would agree with it ever after, so a match that does not convince is no match. */
 MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPrediction& predicted)
 {
-  Tracking& tracking = std::get<Tracking>(mode_);
+  auto& tracking = std::get<Tracking>(mode_);
   const bool map_can_tell = options_.recovery.enabled && !map_.isYoung();
   if (map_can_tell && needsPoseSearch(predicted.state, predicted.blind_s))
     tracking.searching = true;

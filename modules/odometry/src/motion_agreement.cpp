@@ -53,7 +53,7 @@ Mat3 attitudeOfScan(
 
 double medianOf(std::array<double, MotionAgreement::kWindow> values)
 {
-  const auto middle = values.begin() + values.size() / 2;
+  auto* const middle = values.begin() + values.size() / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -105,7 +105,7 @@ std::optional<MountingError> MotionAgreement::mountingError() const
   if (!(inertial_squares > n * kLeastTurn * kLeastTurn) || !(scan_squares > 0.0))
     return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3 strengths = svd.singularValues();
+  const Vec3& strengths = svd.singularValues();
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   const Vec3 signs(1.0, 1.0, sign);
   const double correlation = strengths.dot(signs) / std::sqrt(inertial_squares * scan_squares);

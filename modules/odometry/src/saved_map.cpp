@@ -55,7 +55,7 @@ Vec3 normalAt(const CIncrementalPointsMap& map, std::size_t i)
     mean += offset;
     scatter += offset * offset.transpose();
   }
-  const double n = static_cast<double>(near.count);
+  const auto n = static_cast<double>(near.count);
   scatter -= mean * mean.transpose() / n;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
   const Eigen::Vector3d extents = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();

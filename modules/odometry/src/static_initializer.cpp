@@ -91,7 +91,7 @@ RestStatistics restStatistics(const std::vector<ImuSample>& samples)
   RestStatistics rest;
   rest.samples = samples.size();
   if (samples.size() < 2) return rest;
-  const double n = static_cast<double>(samples.size());
+  const auto n = static_cast<double>(samples.size());
   // Sums about the first sample, so that the variance does not cancel.
   const ImuSample& first = samples.front();
   Vec3 gyro = Vec3::Zero(), gyro2 = Vec3::Zero(), accel = Vec3::Zero(), accel2 = Vec3::Zero();

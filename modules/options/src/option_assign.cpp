@@ -35,7 +35,7 @@ struct Target
   {
     const Stored before = *member;
     *member = number;
-    const Problem problem = valueProblem(value, unit);
+    Problem problem = valueProblem(value, unit);
     if (problem) *member = before;
     return problem;
   }

@@ -59,7 +59,7 @@ fs::path externalPath(const fs::path& folder, const std::string& name)
     throw std::runtime_error("which is no name of a file");
   std::error_code error;
   const fs::path root = fs::weakly_canonical(fs::absolute(folder), error);
-  const fs::path path = error ? fs::path() : fs::weakly_canonical(root / name, error);
+  fs::path path = error ? fs::path() : fs::weakly_canonical(root / name, error);
   if (error) throw std::runtime_error("which cannot be found: " + error.message());
   if (!liesBelow(path, root))
     throw std::runtime_error(
@@ -113,11 +113,11 @@ mrpt::maps::CPointsMap::Ptr textPoints(const std::string& path)
   if (columns == 4) points = mrpt::maps::CPointsMapXYZI::Create();
   points->resize(static_cast<std::size_t>(rows.rows()));
   std::vector<float> fields(columns == 4 ? 4 : 3);
-  for (Eigen::Index row = 0; row < rows.rows(); ++row)
+  for (std::size_t row = 0; row < points->size(); ++row)
   {
     for (std::size_t field = 0; field < fields.size(); ++field)
-      fields[field] = rows(row, static_cast<Eigen::Index>(field));
-    points->setPointAllFieldsFast(static_cast<std::size_t>(row), fields);
+      fields[field] = rows(row, field);
+    points->setPointAllFieldsFast(row, fields);
   }
   return points;
 }

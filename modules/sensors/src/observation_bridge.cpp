@@ -146,7 +146,7 @@ std::vector<FurtherLidarConversion> allLidars(const BridgeOptions& options, std:
 
 namespace fastlio
 {
-ObservationBridge::ObservationBridge(SensorSelection selection, BridgeOptions options)
+ObservationBridge::ObservationBridge(SensorSelection selection, const BridgeOptions& options)
     : selection_(std::move(selection)),
       lidars_(allLidars(options, 1 + selection_.further_lidars.size())),
       further_min_range_(options.further_min_range),

@@ -161,7 +161,7 @@ void notePoses(
       text("LiDAR", selection.lidar, used.T_vehicle_lidar) + ", " +
       text("IMU", selection.imu, used.T_vehicle_imu) + ".");
   if (given.factory_T_imu_lidar && !by_factory)
-    plan.notes.push_back(
+    plan.notes.emplace_back(
         "input.factory_T_imu_lidar is not used: the recording or the configuration gives the poses "
         "of LiDAR and IMU.");
 }

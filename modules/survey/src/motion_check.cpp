@@ -78,8 +78,8 @@ RatePairs pairsAt(const std::vector<ScanTurn>& turns, const TurnedAngle& angle, 
     const auto turned = angle.between(turn.begin_ns + shift_ns, turn.end_ns + shift_ns);
     const double seconds = toSeconds(turn.end_ns - turn.begin_ns);
     if (!turned || seconds <= 0) continue;
-    pairs.lidar.push_back(turn.rotation / seconds);
-    pairs.imu.push_back(*turned / seconds);
+    pairs.lidar.emplace_back(turn.rotation / seconds);
+    pairs.imu.emplace_back(*turned / seconds);
   }
   return pairs;
 }
@@ -113,7 +113,7 @@ MotionCheck compare(const RatePairs& pairs)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sums, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
   check.R_imu_lidar = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  const Vec3 strengths = svd.singularValues();
+  const Vec3& strengths = svd.singularValues();
   check.correlation = strengths.dot(signs) / std::sqrt(lidar_squares * imu_squares);
   check.scale = std::sqrt(imu_squares / lidar_squares);
   const double rate = std::sqrt(lidar_squares / static_cast<double>(check.turns));

@@ -80,9 +80,9 @@ class PlaneFinder
  private:
   [[nodiscard]] Vec3 point(std::size_t i) const
   {
-    return Vec3(
+    return {
         map_.getPointsBufferRef_x()[i], map_.getPointsBufferRef_y()[i],
-        map_.getPointsBufferRef_z()[i]);
+        map_.getPointsBufferRef_z()[i]};
   }
 
   [[nodiscard]] std::optional<Plane> planeThrough(const std::vector<std::size_t>& indices) const

@@ -71,7 +71,7 @@ using BridgeOutput = std::variant<std::monostate, ImuSample, LidarScan>;
 class ObservationBridge
 {
  public:
-  explicit ObservationBridge(SensorSelection selection, BridgeOptions options = {});
+  explicit ObservationBridge(SensorSelection selection, const BridgeOptions& options = {});
 
   [[nodiscard]] BridgeOutput convert(const mrpt::obs::CObservation& observation);
 
