@@ -84,6 +84,7 @@ void RunStatistics::addOpenDirections(const ScanResult& result)
 void RunStatistics::addPose(const ScanResult& result)
 {
   last_state_ = result.filter;
+  calibration_ = result.statistics.calibration;
   const Vec3& position = result.filter.x.p;
   if (last_position_) path_length_ += (position - *last_position_).norm();
   last_position_ = position;

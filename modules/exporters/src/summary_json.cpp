@@ -132,6 +132,19 @@ Json calibrationJson(const RunSummary& run)
   return json;
 }
 
+/** How wrong the calibration in use is, by the innovations of the whole run. */
+Json calibrationCheckJson(const CalibrationCheck& check)
+{
+  return {
+      {"extrinsic_rotation_error_deg", vectorJson(kDegPerRad * check.rotation)},
+      {"extrinsic_rotation_sigma_deg", vectorJson(kDegPerRad * check.rotation_std)},
+      {"extrinsic_translation_error_m", vectorJson(check.translation)},
+      {"extrinsic_translation_sigma_m", vectorJson(check.translation_std)},
+      {"innovation_scale", check.innovation_scale},
+      {"beam_range_offset_m", check.range_offset},
+      {"beam_elevation_offset_deg", kDegPerRad * check.elevation_offset}};
+}
+
 Json healthJson(const RunHealth& health)
 {
   Json causes = Json::object();
@@ -218,6 +231,7 @@ Json summaryJson(const RunSummary& run)
       {"time", timeJson(run)},
       {"open_directions", openDirectionsJson(run.statistics.openDirections())},
       {"calibration", calibrationJson(run)},
+      {"calibration_check", calibrationCheckJson(run.statistics.calibration())},
       {"health", healthJson(run.statistics.health())},
       {"imu", imuJson(run.imu)},
       {"diagnostics", diagnosticsJson(run.diagnostics)},

@@ -168,6 +168,30 @@ StateMatrix chainTransition(
   return next;
 }
 
+InertialSensitivity chainSensitivity(
+    const InertialSensitivity& sensitivity, const NavState& x, const Vec3& gyro, const Vec3& accel,
+    double dt)
+{
+  using Rows = Eigen::Matrix<double, 3, 18>;
+  const ProcessBlocks F = processBlocks(x, gyro, accel, dt);
+  const Vec3 rate = gyro - x.gyro_bias, force = accel - x.accel_bias;
+  const Rows by_attitude = sensitivity.middleRows<3>(kAttitude);
+  Rows turned = F.attitude_attitude.lazyProduct(by_attitude);
+  Rows gained = F.velocity_attitude.lazyProduct(by_attitude);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    turned.middleCols<3>(3 * axis) -= rate[axis] * F.attitude_gyro_bias;
+    gained.middleCols<3>(3 * axis) -= rate[axis] * F.velocity_gyro_bias;
+    gained.middleCols<3>(9 + 3 * axis) -= force[axis] * F.velocity_accel_bias;
+  }
+  InertialSensitivity next;
+  next.middleRows<3>(kAttitude) = turned;
+  next.middleRows<3>(kPosition) = sensitivity.middleRows<3>(kPosition) +
+                                  dt * sensitivity.middleRows<3>(kVelocity) + (0.5 * dt) * gained;
+  next.middleRows<3>(kVelocity) = sensitivity.middleRows<3>(kVelocity) + gained;
+  return next;
+}
+
 // Eq. 4 (mean, w = 0) and eq. 8 (covariance).
 FilterState propagate(
     const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise)

@@ -34,10 +34,26 @@ void describeMatch(const MatchResult& match, ScanStatistics& statistics)
   statistics.converged = match.update.converged;
   statistics.constraints = match.constraints;
   if (sums.count == 0) return;
-  const double n = static_cast<double>(sums.count);
+  const auto n = static_cast<double>(sums.count);
   statistics.residual_rms = std::sqrt(sums.squares / n);
   statistics.normalized_innovation = sums.weighted_squares / n;
   statistics.information_eigenvalues = eigenvalues(sums.HtRinvH);
+}
+
+CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamErrors& beams)
+{
+  const Vector6 error = calibration.mean.segment<6>(kExtrinsicError);
+  const Vector6 std =
+      calibration.covariance.diagonal().segment<6>(kExtrinsicError).cwiseMax(0.0).cwiseSqrt();
+  CalibrationCheck check;
+  check.rotation = error.head<3>();
+  check.rotation_std = std.head<3>();
+  check.translation = error.tail<3>();
+  check.translation_std = std.tail<3>();
+  check.innovation_scale = calibration.innovation_scale;
+  check.range_offset = beams.rangeOffset();
+  check.elevation_offset = beams.elevationOffset();
+  return check;
 }
 
 ScanOutcome::Place placeOf(const Mode& mode)
@@ -63,6 +79,7 @@ Estimator::Estimator(const OdometryOptions& options)
       matcher_(workers_),
       map_(options, workers_),
       rest_(options.rest),
+      calibration_(options.calibration),
       classifier_(options)
 {
 }
@@ -113,10 +130,13 @@ FilterRun& Estimator::run()
 ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
 {
   const Stopwatch watch;
-  ScanPrediction predicted = predictor_.predict(state_, end_ns, imu, map_.error(), run().trusted);
+  ScanPrediction predicted = predictor_.predict(
+      state_, end_ns, imu,
+      [this](const Prediction& prediction) { return systematicCovariance(prediction); },
+      run().trusted);
   predicted.blind_s = toSeconds(end_ns - state_.stamp_ns);
   considerUnmodelledAcceleration(predicted.state, predicted.blind_s);
-  map_.propagateError(predicted.transition);
+  map_.propagateError(predicted.transition, predicted.by_inertial);
   timings_.propagate = watch.milliseconds();
   return predicted;
 }
@@ -147,14 +167,40 @@ void Estimator::adopt(const MatchResult& match, const Work& work, ScanResult& re
   FilterState& filter = state_.filter;
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
-  map_.considerUpdate(work.deskewed, match, filter);
-  result.filter = filter;
-  result.filter.P += map_.error().addition();
-  result.map_covariance = (result.filter.P - filter.P).topLeftCorner<6, 6>();
+  const PoseByCalibration by_calibration =
+      map_.considerUpdate(work.deskewed, match, filter, beams_);
+  if (match.update.updated && match.constraints.unconstrained == 0)
+    calibration_.add(
+        by_calibration, scanPoseJacobian(filter.x, work.deskewed.compensation),
+        work.predicted.state, match.update);
+  report(result);
 
   preparation_.describe(work.scan, result.statistics);
   describeMatch(match, result.statistics);
   result.statistics.imu_samples = predictor_.inputs().size();
+}
+
+/** The state as it is reported: with what the errors of map and calibration add, and as uncertain
+ * as the innovations show. */
+void Estimator::report(ScanResult& result) const
+{
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  result.filter = state_.filter;
+  result.filter.P *= calibration.innovation_scale;
+  const StateMatrix systematic = calibration.innovation_scale * map_.error().addition() +
+                                 map_.calibrationError().addition(calibration.second_moment);
+  result.filter.P += systematic;
+  result.map_covariance = systematic.topLeftCorner<6, 6>();
+  result.statistics.calibration = checkOf(calibration, beams_);
+}
+
+StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
+{
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  return (calibration.innovation_scale - 1.0) * prediction.state.P +
+         calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
+         map_.calibrationError().additionAfter(
+             prediction.transition, prediction.by_inertial, calibration.second_moment);
 }
 
 /** Learns how well the scan supports the state, and what its status depends on. */
@@ -210,10 +256,7 @@ void Estimator::applyZeroVelocityUpdate(bool matched, ScanResult& result)
   }
   filter = update->posterior;
   map_.propagateError(update->kept);  // the map's error goes through the same correction
-  result.filter = filter;
-  const StateMatrix map_covariance = map_.error().addition();
-  result.filter.P += map_covariance;
-  result.map_covariance = map_covariance.topLeftCorner<6, 6>();
+  report(result);
   result.statistics.at_rest = true;
 }
 
@@ -248,12 +291,12 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   workers_->forEachChunk(points.size(), transform);
   InsertionError error;
   error.own = scanPoseCovariance(filter, compensation);
-  error.inherited = scanPoseCovariance(result.filter, compensation) - error.own;
+  error.inherited = scanPoseCovariance({filter.x, map_.error().addition()}, compensation);
   if (run.motion_window && state_.stamp_ns <= run.motion_window->end_ns)
     error.inherited += run.motion_window->insertion_covariance;
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
-      T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);
+      scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);
   preparation_.fieldsOf(work.scan, registered_.fields);
   timings_.insert = watch.milliseconds();
 }

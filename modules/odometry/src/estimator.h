@@ -4,6 +4,8 @@
 /** \file estimator.h The filter with its map: from prediction to insertion, scan by scan. */
 #pragma once
 
+#include "beam_errors.h"
+#include "calibration_evidence.h"
 #include "carried_pose.h"
 #include "classify.h"
 #include "estimator_mode.h"
@@ -112,6 +114,8 @@ class Estimator
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
       ScanStatistics& statistics);
   void adopt(const MatchResult& match, const Work& work, ScanResult& result);
+  void report(ScanResult& result) const;
+  [[nodiscard]] StateMatrix systematicCovariance(const Prediction& prediction) const;
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);
   void applyZeroVelocityUpdate(bool matched, ScanResult& result);
   void changeMode(ScanStatus status);
@@ -126,6 +130,8 @@ class Estimator
   ScanMatcher matcher_;
   LocalMap map_;
   RestDetector rest_;
+  CalibrationEvidence calibration_;
+  BeamErrors beams_;
   MotionAgreement agreement_;
   ScanClassifier classifier_;
   Mode mode_;

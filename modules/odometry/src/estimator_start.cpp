@@ -86,7 +86,9 @@ void Estimator::skipScan()
 std::optional<ImuRateState> Estimator::stateAtNewestSample(const ImuBuffer& imu)
 {
   if (!started() || !run().trusted) return std::nullopt;
-  return predictor_.predictNewest(state_, imu, map_.error());
+  return predictor_.predictNewest(
+      state_, imu,
+      [this](const Prediction& prediction) { return systematicCovariance(prediction); });
 }
 
 std::int64_t Estimator::timeShift() const

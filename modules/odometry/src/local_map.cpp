@@ -54,16 +54,26 @@ LocalMap::LocalMap(
   error_.recordInsertion(0, InsertionError{}, Pose{});
 }
 
-void LocalMap::considerUpdate(
-    const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior)
+void LocalMap::propagateError(const StateMatrix& transition, const InertialSensitivity& by_inertial)
+{
+  error_.propagate(transition);
+  calibration_.propagate(transition, by_inertial);
+}
+
+PoseByCalibration LocalMap::considerUpdate(
+    const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
+    BeamErrors& beams)
 {
   LinearizedUpdate update;
   update.T_world_scan = scanPose(posterior.x, scan.compensation);
   update.by_state = scanPoseJacobian(posterior.x, scan.compensation);
   update.constrained = match.constraints.projection;
   update.gain = match.update.gain;
-  error_.update(
-      update, groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model));
+  const GroupedMeasurements& measurements =
+      groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model);
+  beams.add(update.T_world_scan.R, scan, groups_.points());
+  error_.update(update, measurements, beams.covariance());
+  return calibration_.update(update, measurements);
 }
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
@@ -101,9 +111,11 @@ bool LocalMap::isYoung() const
 
 void LocalMap::insert(
     const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
-    const Pose& T_world_scan, const Vec3& sensor, const Vec3& center)
+    const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
+    const Vec3& center)
 {
   error_.recordInsertion(++insertions_, error, T_world_scan);
+  calibration_.recordInsertion(insertions_, T_world_scan, by_state);
   surfaces_->insert(surfaces, sensor);
   if (!given_) surfaces_->removeOutside(center, radius_);
   world_edges_.resize(scan.edges.size());

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include "beam_errors.h"
+#include "calibration_error.h"
 #include "match_result.h"
 #include <fastlio/map/edge_map.h>
 #include <fastlio/map/surface_map.h>
@@ -44,6 +46,7 @@ class LocalMap
   [[nodiscard]] const SurfaceMap& surfaces() const { return *surfaces_; }
   [[nodiscard]] const EdgeMap& edges() const { return edges_; }
   [[nodiscard]] const MapErrorModel& error() const { return error_; }
+  [[nodiscard]] const CalibrationErrorModel& calibrationError() const { return calibration_; }
   [[nodiscard]] bool empty() const { return surfaces_->pointCount() == 0; }
   /** It consists of so few scans that not much matches it yet. */
   [[nodiscard]] bool isYoung() const;
@@ -52,12 +55,17 @@ class LocalMap
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
   [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
 
-  /** Carries the map's error in the state through a linear change of the state's error. */
-  void propagateError(const StateMatrix& transition) { error_.propagate(transition); }
-  /** Takes in what an update did with the map's errors (Schmidt).
-   * \param posterior of the update */
-  void considerUpdate(
-      const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior);
+  /** Carries the errors of map and calibration in the state through a linear change of the state's
+   * error. */
+  void propagateError(
+      const StateMatrix& transition,
+      const InertialSensitivity& by_inertial = InertialSensitivity::Zero());
+  /** Takes in what an update did with the errors of map and calibration (Schmidt).
+   * \param posterior of the update \param beams learn from the scan's residuals
+   * \return derivative of the innovation by the error of the calibration */
+  PoseByCalibration considerUpdate(
+      const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
+      BeamErrors& beams);
 
   /** The scan matches as scans usually match this map. While the map consists of a few scans, any
    * ratio is usual. */
@@ -73,7 +81,8 @@ class LocalMap
    * \param center position of the body: what is far from it is dropped [m] */
   void insert(
       const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
-      const Pose& T_world_scan, const Vec3& sensor, const Vec3& center);
+      const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
+      const Vec3& center);
 
  private:
   bool update_given_ = true;  // map.update
@@ -81,6 +90,7 @@ class LocalMap
   std::unique_ptr<SurfaceMap> surfaces_;
   EdgeMap edges_;
   MapErrorModel error_;
+  CalibrationErrorModel calibration_;
   PlaneGrouping groups_;
   std::uint32_t insertions_ = 0;
   double usual_inlier_ratio_ = 0.0;

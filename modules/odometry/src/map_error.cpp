@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "insertion_weights.h"
 #include <fastlio/odometry/map_error.h>
 
 #include <Eigen/Cholesky>
@@ -12,31 +13,10 @@ namespace fastlio
 {
 namespace
 {
-// So many insertion covariances are kept; beyond it every second one is dropped, as they change
-// slowly.
-constexpr std::size_t kMaxInsertions = 256;
-
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
 using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
 using AlignedStateBy6 = Eigen::Matrix<double, kStateDim, 6>;
 using Aligned6ByState = Eigen::Matrix<double, 6, kStateDim>;
-
-/** d(phi, rho) / d(dtheta, dp): phi = R dtheta, rho = dp + [p]x phi. */
-AlignedMatrix6 twistJacobian(const Pose& T_world_imu)
-{
-  AlignedMatrix6 L = AlignedMatrix6::Identity();
-  L.topLeftCorner<3, 3>() = T_world_imu.R;
-  L.bottomLeftCorner<3, 3>() = skew(T_world_imu.p) * T_world_imu.R;
-  return L;
-}
-
-AlignedMatrix6 twistJacobianInverse(const Pose& T_world_imu)
-{
-  AlignedMatrix6 L = AlignedMatrix6::Identity();
-  L.topLeftCorner<3, 3>() = T_world_imu.R.transpose();
-  L.bottomLeftCorner<3, 3>() = -skew(T_world_imu.p);
-  return L;
-}
 
 /** C with C C^T = m for a positive semi-definite m. */
 AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
@@ -97,6 +77,22 @@ AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 }
 }  // namespace
 
+Matrix6 twistJacobian(const Pose& T_world_scan)
+{
+  Matrix6 L = Matrix6::Identity();
+  L.topLeftCorner<3, 3>() = T_world_scan.R;
+  L.bottomLeftCorner<3, 3>() = skew(T_world_scan.p) * T_world_scan.R;
+  return L;
+}
+
+Matrix6 twistJacobianInverse(const Pose& T_world_scan)
+{
+  Matrix6 L = Matrix6::Identity();
+  L.topLeftCorner<3, 3>() = T_world_scan.R.transpose();
+  L.bottomLeftCorner<3, 3>() = -skew(T_world_scan.p);
+  return L;
+}
+
 TwistCovariance twistCovariance(const Matrix6& pose_covariance, const Pose& T_world_imu)
 {
   const AlignedMatrix6 L = twistJacobian(T_world_imu);
@@ -111,22 +107,12 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
 
 TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>& groups)
 {
-  double total = 0.0;
-  for (const PlaneGroup& group : groups)
-  {
-    total += group.weight;
-    // The last insertion at or before the plane's own; older ones may have been thinned out.
-    const auto next = std::upper_bound(
-        insertions_.begin(), insertions_.end(), group.created_insertion,
-        [](std::uint32_t scan, const Insertion& f) { return scan < f.scan; });
-    if (next != insertions_.begin()) std::prev(next)->weight += group.weight;
-  }
+  weighInsertions(groups, insertions_);
   TwistCovariance mean = TwistCovariance::Zero();
   TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
-  for (Insertion& insertion : insertions_)
+  for (const Insertion& insertion : insertions_)
   {
-    const double part = total > 0.0 ? insertion.weight / total : 0.0;
-    insertion.weight = 0.0;
+    const double part = insertion.weight;
     remembered *= insertion.memory;
     mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
     remembered += part * insertion.own;
@@ -153,14 +139,15 @@ void MapErrorModel::propagate(const StateMatrix& transition)
   Y_poses_ = product(Phi, Y_poses_);
 }
 
-void MapErrorModel::update(const LinearizedUpdate& update, const GroupedMeasurements& scan)
+void MapErrorModel::update(
+    const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
 {
   if (scan.groups.empty()) return;
   const AlignedMatrix6 L = twistJacobian(update.T_world_scan);
   const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
-      squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
+      squareRoot(L_inverse.transpose() * (planeErrors(scan.groups) + beam_errors) * L_inverse);
   const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(scan.groups));
 
   const AlignedStateBy6 gain = gainOf(update);

@@ -24,6 +24,7 @@ struct DeskewedScan
   BodyPoints surfaces;  //!< to be matched with planes
   BodyPoints edges;     //!< to be matched with lines; may be empty
   CompensatedWith compensation;
+  Pose T_imu_lidar;  //!< where the beams start
 };
 
 /** The posterior of a scan, and the evidence for it. */

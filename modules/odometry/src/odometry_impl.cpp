@@ -12,6 +12,7 @@
 #include <mrpt/core/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace fastlio
@@ -20,6 +21,15 @@ namespace
 {
 // As classify() has it.
 constexpr double kOddMounting = 0.017453292519943295;  // [rad]; 1 deg
+// Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
+constexpr double kOddDeviations = 3.0;
+
+bool isOdd(const Vec3& error, const Vec3& std, double given_std)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(error[axis]) > kOddDeviations * std::max(std[axis], given_std)) return true;
+  return false;
+}
 
 const OdometryOptions& validated(const OdometryOptions& parameters)
 {
@@ -181,6 +191,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
   if (loss) reinitialise(*loss, result.stamp_ns);
   reportMounting(result);
+  reportExtrinsic(result);
   return result;
 }
 
@@ -197,6 +208,31 @@ void Odometry::Impl::reportMounting(const ScanResult& result)
           "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
           "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
           kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
+}
+
+/** Smaller than what reportMounting() sees, and after a longer time. */
+void Odometry::Impl::reportExtrinsic(const ScanResult& result)
+{
+  const CalibrationCheck& check = result.statistics.calibration;
+  const CalibrationOptions& given = options_.calibration;
+  const bool turned = isOdd(check.rotation, check.rotation_std, given.extrinsic_rotation_std);
+  const bool moved =
+      isOdd(check.translation, check.translation_std, given.extrinsic_translation_std);
+  if (extrinsic_reported_ || mounting_reported_ || (!turned && !moved)) return;
+  extrinsic_reported_ = true;
+  const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
+  const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the pose of the LiDAR in the IMU frame seems to be wrong: turned by (%.2f +- %.2f, %.2f "
+          "+- %.2f, %.2f +- %.2f) deg, moved by (%.0f +- %.0f, %.0f +- %.0f, %.0f +- %.0f) mm; the "
+          "covariance counts this, the trajectory does not. Check input.T_vehicle_lidar and "
+          "input.T_vehicle_imu, or set calibration.extrinsic_rotation_std and "
+          "extrinsic_translation_std to what is known of them",
+          rotation.x(), rotation_std.x(), rotation.y(), rotation_std.y(), rotation.z(),
+          rotation_std.z(), translation.x(), translation_std.x(), translation.y(),
+          translation_std.y(), translation.z(), translation_std.z()));
 }
 
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)

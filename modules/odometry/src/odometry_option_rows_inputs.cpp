@@ -205,12 +205,23 @@ OdometryOptionRows calibrationRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.calibration.extrinsic_rotation_std, 0.0, 180.0, kRadPerDeg};
        },
-       "uncertainty of the given rotation of the LiDAR, per axis"},
+       "uncertainty of the given rotation of the LiDAR, per axis; widens the covariance, or is the "
+       "prior of calibration.estimate_extrinsic"},
       {"calibration.extrinsic_translation_std", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.calibration.extrinsic_translation_std, 0.0, 10.0};
        },
-       "uncertainty of the given position of the LiDAR, per axis"},
+       "uncertainty of the given position of the LiDAR, per axis; likewise"},
+      {"calibration.imu_scale_std", "",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.calibration.imu_scale_std, 0.0, 0.2};
+       },
+       "uncertainty of the scale of gyro and accelerometer, as a fraction; widens the covariance"},
+      {"calibration.imu_misalignment_std", "deg",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.calibration.imu_misalignment_std, 0.0, 10.0, kRadPerDeg};
+       },
+       "uncertainty of the directions of their axes; widens the covariance"},
       {"calibration.time_offset_std", "s",
        [](auto& o) -> OptionValue {
          return RealValue{&o.calibration.time_offset_std, 0.0, 1.0};

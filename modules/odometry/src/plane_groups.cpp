@@ -45,7 +45,7 @@ PlaneGrouping::Sums PlaneGrouping::measure(
     const ResidualModel& model, std::size_t first, std::size_t last)
 {
   for (std::size_t i = first; i < last; ++i)
-    rows_[i].weight = 0.0;
+    points_[i].weight = 0.0;
   OuterProductLanes<kLanes> information, shared_noise;
   forMatches<kLanes>(
       body, matches, first, last,
@@ -57,8 +57,9 @@ PlaneGrouping::Sums PlaneGrouping::measure(
         for (std::size_t l = 0; l < filled; ++l)
         {
           if (weight[l] == 0.0) continue;
-          Row& row = rows_[lanes.index[l]];
+          PointMeasurement& row = points_[lanes.index[l]];
           row.weight = weight[l];
+          row.z = m.z[l];
           row.shared = weight[l] * static_cast<double>(matches[lanes.index[l]].shared_variance);
           noise[l] = weight[l] * row.shared;
           for (std::size_t k = 0; k < 6; ++k)
@@ -78,7 +79,7 @@ const GroupedMeasurements& PlaneGrouping::group(
   result_.groups.clear();
   result_.information.setZero();
   result_.shared_noise.setZero();
-  rows_.resize(body.size());
+  points_.resize(body.size());
   chunk_sums_.resize(Workers::chunks(body.size()));
   workers_->forEachChunk(
       body.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
@@ -88,9 +89,9 @@ const GroupedMeasurements& PlaneGrouping::group(
     result_.information += sums.information;
     result_.shared_noise += sums.shared_noise;
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i)
+  for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    const Row& row = rows_[i];
+    const PointMeasurement& row = points_[i];
     if (row.weight == 0.0) continue;
     PlaneGroup& group = groupOf(matches[i]);
     group.g += row.weighted_h;

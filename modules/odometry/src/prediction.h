@@ -13,11 +13,12 @@
 
 namespace fastlio
 {
-/** A propagated state and the product of the Fx on the way to it. */
+/** A propagated state, and how the way to it passes errors on. */
 struct Prediction
 {
   FilterState state;
-  StateMatrix transition = StateMatrix::Identity();
+  StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
+  InertialSensitivity by_inertial = InertialSensitivity::Zero();
 };
 
 /** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
@@ -35,6 +36,7 @@ Prediction propagateThrough(
     const double dt = toSeconds(stop_ns - inputs[i].stamp_ns);
     const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
     p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
+    p.by_inertial = chainSensitivity(p.by_inertial, p.state.x, gyro, accel, dt);
     p.state = propagate(
         p.state, gyro, accel, dt, noiseBetween(noise, inflations, inputs[i].stamp_ns, stop_ns));
     visit(stop_ns, p);

@@ -9,7 +9,7 @@ namespace fastlio
 {
 ScanPrediction ScanPredictor::predict(
     const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
-    const MapErrorModel& map_error, bool trusted)
+    const SystematicCovariance& systematic, bool trusted)
 {
   imu.inputsBetween(from.stamp_ns, end_ns, imu_.hold, inputs_);
   imu_rate_.clear();
@@ -18,8 +18,8 @@ ScanPrediction ScanPredictor::predict(
       [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!imu_rate_wanted_ || !trusted) return;
-        const StateMatrix map_covariance = map_error.additionAfter(prediction.transition);
-        const auto at_sample = imuRateState(stamp_ns, prediction.state, map_covariance, imu);
+        const auto at_sample =
+            imuRateState(stamp_ns, prediction.state, systematic(prediction), imu);
         if (at_sample) imu_rate_.push_back(*at_sample);
       });
   ScanPrediction result;
@@ -28,23 +28,26 @@ ScanPrediction ScanPredictor::predict(
   result.finite = isFinite(propagated.state.x) && propagated.state.P.allFinite();
   result.state = result.finite ? propagated.state : from.filter;
   if (result.finite)
+  {
     result.transition = propagated.transition;
+    result.by_inertial = propagated.by_inertial;
+  }
   else
     imu_rate_.clear();
   return result;
 }
 
 std::optional<ImuRateState> ScanPredictor::predictNewest(
-    const StampedState& from, const ImuBuffer& imu, const MapErrorModel& map_error)
+    const StampedState& from, const ImuBuffer& imu, const SystematicCovariance& systematic)
 {
   const std::int64_t stamp_ns = imu.newestStamp();
   if (stamp_ns <= from.stamp_ns) return std::nullopt;
   imu.inputsBetween(from.stamp_ns, stamp_ns, imu_.hold, inputs_);
-  const auto [s, transition] = propagateThrough(
+  const Prediction p = propagateThrough(
       from.filter, inputs_, stamp_ns, imu_.noise, imu.inflations(),
       [](std::int64_t, const Prediction&) {});
-  if (!isFinite(s.x) || !s.P.allFinite()) return std::nullopt;
-  return imuRateState(stamp_ns, s, map_error.additionAfter(transition), imu);
+  if (!isFinite(p.state.x) || !p.state.P.allFinite()) return std::nullopt;
+  return imuRateState(stamp_ns, p.state, systematic(p), imu);
 }
 
 }  // namespace fastlio

@@ -7,10 +7,10 @@
 #include "prediction.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/odometry_options.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,6 +22,7 @@ struct ScanPrediction
   double blind_s = 0.0;  //!< since the scan before [s]
   FilterState state;
   StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
+  InertialSensitivity by_inertial = InertialSensitivity::Zero();
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it
   double imu_gap_s = 0.0;  //!< longest one on the way
 };
@@ -33,6 +34,9 @@ struct StampedState
   std::int64_t stamp_ns = 0;
 };
 
+/** What systematic errors add to the covariance after a prediction. */
+using SystematicCovariance = std::function<StateMatrix(const Prediction&)>;
+
 /** Propagates a state through inertial samples (eq. 4-8); keeps the storage between scans. */
 class ScanPredictor
 {
@@ -42,15 +46,15 @@ class ScanPredictor
   {
   }
 
-  /** To a scan's end. \param map_error what the map adds to the covariance at inertial rate
+  /** To a scan's end. \param systematic is added to the covariance at inertial rate
    * \param trusted states at inertial rate are to be believed */
   [[nodiscard]] ScanPrediction predict(
       const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
-      const MapErrorModel& map_error, bool trusted);
+      const SystematicCovariance& systematic, bool trusted);
 
   /** To the newest inertial sample; nothing when the state is newer. */
   [[nodiscard]] std::optional<ImuRateState> predictNewest(
-      const StampedState& from, const ImuBuffer& imu, const MapErrorModel& map_error);
+      const StampedState& from, const ImuBuffer& imu, const SystematicCovariance& systematic);
 
   /** The inertial samples of the last prediction, each holding from its stamp on. */
   [[nodiscard]] const std::vector<ImuSample>& inputs() const { return inputs_; }

@@ -89,6 +89,8 @@ class RunStatistics
   [[nodiscard]] const OpenDirections& openDirections() const { return open_; }
   /** The last pose's state and covariance: what has become of the calibration. */
   [[nodiscard]] const std::optional<FilterState>& lastState() const { return last_state_; }
+  /** How wrong the calibration in use seemed at the last pose. */
+  [[nodiscard]] const CalibrationCheck& calibration() const { return calibration_; }
 
   static constexpr std::size_t kMaxTroubles = 20;
 
@@ -101,6 +103,7 @@ class RunStatistics
   std::int64_t begin_ns_ = 0, end_ns_ = 0;
   std::optional<Vec3> last_position_;
   std::optional<FilterState> last_state_;
+  CalibrationCheck calibration_;
   OpenDirections open_;
   RunHealth health_;
   double path_length_ = 0;

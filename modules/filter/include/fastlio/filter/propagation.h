@@ -45,6 +45,18 @@ struct ProcessJacobians
     const StateMatrix& transition, const NavState& x, const Vec3& gyro, const Vec3& accel,
     double dt);
 
+/** Derivative of attitude, position and velocity by the errors of the inertial sensor's matrices,
+ * A_g and A_a by columns: w_m = A_g w + b_w, a_m = A_a a + b_a with A = I + error (scale,
+ * misalignment).
+ */
+using InertialSensitivity = Eigen::Matrix<double, 9, 18, Eigen::DontAlign>;
+
+/** The sensitivity over the steps before, and over one more from x. The filter takes a reading for
+ * true, so what the matrices add to it acts as a bias that the filter does not know. */
+[[nodiscard]] InertialSensitivity chainSensitivity(
+    const InertialSensitivity& sensitivity, const NavState& x, const Vec3& gyro, const Vec3& accel,
+    double dt);
+
 /** One step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block and symmetric
  * to the bit. The discrete noise of a zero-order-hold sample is density^2 / dt per axis.
  * \param gyro w_m [rad/s]

@@ -39,6 +39,10 @@ namespace fastlio
 /** Covariance of a rigid motion (phi, rho) of the map: p -> p + rho + phi x p, world frame. */
 using TwistCovariance = Matrix6;
 
+/** L = d(phi, rho) / d(dtheta, dp): phi = R dtheta, rho = dp + [p]x phi; and its inverse. */
+[[nodiscard]] Matrix6 twistJacobian(const Pose& T_world_scan);
+[[nodiscard]] Matrix6 twistJacobianInverse(const Pose& T_world_scan);
+
 /** The twist covariance that a pose covariance (attitude in the body frame, position in the world
  * frame) means at that pose, and back. */
 [[nodiscard]] TwistCovariance twistCovariance(
@@ -68,8 +72,12 @@ class MapErrorModel
   /** Carries the error over the way from scan to scan. \param transition product of the Fx */
   void propagate(const StateMatrix& transition);
 
-  /** Takes in an update of the filter with the measurements \a scan. */
-  void update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
+  /** Takes in an update of the filter with the measurements \a scan.
+   * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the
+   * scan pose's coordinates; they persist as the planes' own do */
+  void update(
+      const LinearizedUpdate& update, const GroupedMeasurements& scan,
+      const Matrix6& beam_errors = Matrix6::Zero());
 
   /** What is to be added to the filter's own covariance: the map's error, less the part of it that
    * the filter has counted as noise of the points. */

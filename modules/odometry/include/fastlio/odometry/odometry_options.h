@@ -44,8 +44,10 @@ struct InitializationOptions
 struct CalibrationOptions
 {
   bool estimate_extrinsic = false;
-  double extrinsic_rotation_std = 0.017453292519943295;  //!< of the given one [rad] (YAML: deg)
-  double extrinsic_translation_std = 0.05;               //!< of the given one [m]
+  double extrinsic_rotation_std = 0.0052359877559829881;  //!< of the given one [rad] (YAML: deg)
+  double extrinsic_translation_std = 0.01;                //!< of the given one [m]
+  double imu_scale_std = 0.005;                           //!< of gyro and accelerometer
+  double imu_misalignment_std = 0.0034906585039886592;    //!< of their axes [rad] (YAML: deg)
   bool estimate_time_offset = true;
   double time_offset_std = 0.003;  //!< of the given lidar.time_offset [s]
 };

@@ -27,6 +27,15 @@ struct PlaneGroup
   bool seen_before = false;             //!< the scan before had points on it, too
 };
 
+/** A point's measurement; weight 0: it is not consistent. */
+struct PointMeasurement
+{
+  Vector6 weighted_h;   //!< w h
+  double weight = 0.0;  //!< w
+  double shared = 0.0;  //!< w s
+  double z = 0.0;       //!< residual [m]
+};
+
 /** A scan's measurements by plane. */
 struct GroupedMeasurements
 {
@@ -49,19 +58,14 @@ class PlaneGrouping
       const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
       const ResidualModel& model);
 
+  /** The measurements of the last call, by point. */
+  [[nodiscard]] const std::vector<PointMeasurement>& points() const { return points_; }
+
  private:
   /** Plane number to group; valid where the epoch is the current one. */
   struct Entry
   {
     std::uint32_t epoch = 0, group = 0;
-  };
-
-  /** A point's measurement; weight 0: it is not consistent. */
-  struct Row
-  {
-    Vector6 weighted_h;   //!< w h
-    double weight = 0.0;  //!< w
-    double shared = 0.0;  //!< w s
   };
 
   /** Sums over a chunk of points. */
@@ -79,7 +83,7 @@ class PlaneGrouping
 
   std::shared_ptr<const Workers> workers_;
   GroupedMeasurements result_;
-  std::vector<Row> rows_;
+  std::vector<PointMeasurement> points_;
   std::vector<Sums> chunk_sums_;
   std::vector<Entry> table_;
   std::uint32_t epoch_ = 1;

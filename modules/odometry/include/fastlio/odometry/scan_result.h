@@ -70,6 +70,20 @@ struct MountingError
   double angle = 0.0;                    //!< of R_true_given [rad]
 };
 
+/** How wrong the calibration in use seems to be, by the innovations of all scans so far. */
+struct CalibrationCheck
+{
+  /** Of the extrinsic: R_in_use = Exp(rotation) R_true, per axis of the IMU [rad]; and of the
+   * position of the LiDAR in the IMU frame [m]. */
+  Vec3 rotation = Vec3::Zero(), rotation_std = Vec3::Zero();
+  Vec3 translation = Vec3::Zero(), translation_std = Vec3::Zero();
+  /** Mean square of the innovations over what their covariance explains; at least 1. */
+  double innovation_scale = 1.0;
+  /** Root mean square of what the beams of one elevation have in common; 0 while not known. */
+  double range_offset = 0.0;      //!< [m]
+  double elevation_offset = 0.0;  //!< [rad]
+};
+
 /** Counts and measures of one scan. */
 struct ScanStatistics
 {
@@ -90,6 +104,7 @@ struct ScanStatistics
   double motion_innovation = 0.0;  //!< of the last scans: corrections of the predicted pose over
                                    //!< what is expected of them; 0: too few scans
   std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
+  CalibrationCheck calibration;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
 };
@@ -110,8 +125,8 @@ struct ScanResult
   ScanStatus status = ScanStatus::Initializing;
   std::string message;  //!< why, when the status is not Tracking
   FilterState filter;   //!< state and covariance, IMU body in the world frame
-  /** The part of filter.P's pose block that comes from the map's errors: nearly the same for
-   * scans that follow each other, so it tells little about the motion between them. */
+  /** The part of filter.P's pose block that comes from the errors of map and calibration: nearly
+   * the same for scans that follow each other, so it tells little about the motion between them. */
   Matrix6 map_covariance = Matrix6::Zero();
   ScanStatistics statistics;
   ScanHealth health;

@@ -1,0 +1,91 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "beam_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it has no direction
+// From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
+constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
+constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
+}  // namespace
+
+void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
+{
+  information += point.weight * derivative * derivative;
+  weighted += point.weight * derivative * point.z;
+  in_scan += derivative * point.weighted_h;
+}
+
+void BeamErrors::add(
+    const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points)
+{
+  for (Offsets* offsets : {&range_, &elevation_})
+    for (Offset& offset : *offsets)
+      offset.in_scan.setZero();
+  const Mat3 R_lidar_scan = scan.T_imu_lidar.R.transpose();
+  const Mat3 R_lidar_world = R_lidar_scan * R_world_scan.transpose();
+  const BodyPoints& body = scan.surfaces;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const PointMeasurement& point = points[i];
+    if (point.weight == 0.0) continue;
+    const Vec3 in_body(
+        static_cast<double>(body.x[i]), static_cast<double>(body.y[i]),
+        static_cast<double>(body.z[i]));
+    const Vec3 beam = R_lidar_scan * (in_body - scan.T_imu_lidar.p);
+    const double range = beam.norm();
+    const Vec3 direction = beam / range;
+    const double cosine = std::hypot(direction.x(), direction.y());
+    if (!(cosine > kLeastCosine)) continue;
+    const double elevation = std::atan2(direction.z(), cosine);
+    const auto bin = std::min(
+        kBins - 1,
+        static_cast<std::size_t>(std::max(0.0, std::round(elevation / kBin + 0.5 * kBins))));
+    const Vec3 upward(
+        -direction.z() * direction.x() / cosine, -direction.z() * direction.y() / cosine, cosine);
+    const Vec3 normal = R_lidar_world * Vec3(point.weighted_h.tail<3>() / point.weight);
+    range_[bin].add(point, normal.dot(direction));
+    elevation_[bin].add(point, range * normal.dot(upward));
+  }
+}
+
+double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
+{
+  double squares = 0.0, known = 0.0;
+  for (const Offset& offset : offsets)
+  {
+    if (offset.information < least_information) continue;
+    squares += std::pow(offset.weighted / offset.information, 2);
+    known += 1.0;
+  }
+  return known > 0.0 ? squares / known : 0.0;
+}
+
+double BeamErrors::rangeOffset() const
+{
+  return std::sqrt(meanSquare(range_, kLeastRangeInformation));
+}
+
+double BeamErrors::elevationOffset() const
+{
+  return std::sqrt(meanSquare(elevation_, kLeastElevationInformation));
+}
+
+Matrix6 BeamErrors::covariance() const
+{
+  Matrix6 by_range = Matrix6::Zero(), by_elevation = Matrix6::Zero();
+  for (const Offset& offset : range_)
+    by_range += offset.in_scan * offset.in_scan.transpose();
+  for (const Offset& offset : elevation_)
+    by_elevation += offset.in_scan * offset.in_scan.transpose();
+  return std::pow(rangeOffset(), 2) * by_range + std::pow(elevationOffset(), 2) * by_elevation;
+}
+
+}  // namespace fastlio

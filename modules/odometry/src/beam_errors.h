@@ -1,0 +1,53 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file beam_errors.h Errors that all points of a laser share: its range is off by a constant, or
+ * its elevation. Thousands of points do not average them out, and nor do hundreds of planes. */
+#pragma once
+
+#include "match_result.h"
+#include <fastlio/odometry/plane_groups.h>
+
+#include <array>
+#include <vector>
+
+namespace fastlio
+{
+/** Learns how large such errors are from the residuals that the beams of one elevation leave on
+ * average, and says what they do to a scan. Points do not name their laser, but its elevation does.
+ */
+class BeamErrors
+{
+ public:
+  /** A scan was matched. \param R_world_scan attitude of the scan pose
+   * \param points its measurements, as those of \a scan.surfaces */
+  void add(
+      const Mat3& R_world_scan, const DeskewedScan& scan,
+      const std::vector<PointMeasurement>& points);
+
+  /** Covariance of sum w h b over the last scan, b by offsets of range and elevation. */
+  [[nodiscard]] Matrix6 covariance() const;
+  /** Root mean square of the offsets; 0 while none is known. */
+  [[nodiscard]] double rangeOffset() const;      //!< [m]
+  [[nodiscard]] double elevationOffset() const;  //!< [rad]
+
+ private:
+  /** An offset of the beams of one elevation. */
+  struct Offset
+  {
+    double information = 0.0, weighted = 0.0;  // of all scans
+    Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last scan
+
+    void add(const PointMeasurement& point, double derivative);
+  };
+  // The lasers of a VLP-16 are 2 deg apart. Denser LiDARs have several in a bin, whose mean counts.
+  static constexpr double kBin = 0.034906585039886591;  // [rad]
+  static constexpr std::size_t kBins = 90;
+  using Offsets = std::array<Offset, kBins>;
+
+  [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
+
+  Offsets range_, elevation_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,78 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "calibration_error.h"
+
+#include "insertion_weights.h"
+
+namespace fastlio
+{
+CalibrationErrorModel::CalibrationErrorModel()
+{
+  insertions_.reserve(kMaxInsertions);
+}
+
+void CalibrationErrorModel::propagate(
+    const StateMatrix& transition, const InertialSensitivity& by_inertial)
+{
+  S_ = product(transition, S_);
+  S_.block<9, 18>(0, kGyroMatrixError) += by_inertial;
+}
+
+PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state) const
+{
+  PoseByCalibration of_scan = product(by_state, S_);
+  of_scan.middleCols<6>(kExtrinsicError) += by_state.middleCols<6>(kExtrinsicRotation);
+  return of_scan;
+}
+
+PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& groups)
+{
+  weighInsertions(groups, insertions_);
+  PoseByCalibration mean = PoseByCalibration::Zero();
+  for (const Insertion& insertion : insertions_)
+    if (insertion.weight > 0.0) mean += insertion.weight * insertion.twist;
+  return mean;
+}
+
+PoseByCalibration CalibrationErrorModel::update(
+    const LinearizedUpdate& update, const GroupedMeasurements& scan)
+{
+  if (scan.groups.empty()) return PoseByCalibration::Zero();
+  const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  const PoseByCalibration innovation =
+      ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
+  const Matrix6 information =
+      update.constrained.transpose() * scan.information * update.constrained;
+  S_ -= product(update.gain, PoseByCalibration(product(information, innovation)));
+  return innovation;
+}
+
+void CalibrationErrorModel::recordInsertion(
+    std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state)
+{
+  if (insertions_.size() >= kMaxInsertions)
+  {
+    for (std::size_t i = 0; 2 * i < insertions_.size(); ++i)
+      insertions_[i] = insertions_[2 * i];
+    insertions_.resize((insertions_.size() + 1) / 2);
+  }
+  insertions_.push_back({scan, 0.0, product(twistJacobian(T_world_scan), ofScan(by_state))});
+}
+
+StateMatrix CalibrationErrorModel::addition(const CalibrationErrorMatrix& moment) const
+{
+  return productByTransposed(product(S_, moment), S_);
+}
+
+StateMatrix CalibrationErrorModel::additionAfter(
+    const StateMatrix& transition, const InertialSensitivity& by_inertial,
+    const CalibrationErrorMatrix& moment) const
+{
+  CalibrationErrorModel then;
+  then.S_ = S_;
+  then.propagate(transition, by_inertial);
+  return then.addition(moment);
+}
+
+}  // namespace fastlio

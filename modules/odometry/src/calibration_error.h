@@ -1,0 +1,80 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file calibration_error.h The part of the state's error that comes from the calibration in use.
+ *
+ * The filter takes the extrinsic and the matrices of the inertial sensor for true. Their error
+ * theta is constant, and it does not average out: it is *considered* (Schmidt). With S = de /
+ * dtheta, the steps of the filter make of it
+ *
+ *     S <- Phi S + Psi                                       on the way from scan to scan,
+ *     C  = B S + B_c - L^-1 V,   S <- S - G Lambda C         in an update with the gain G,
+ *
+ * where B_c moves the scan with the extrinsic, and V says how the planes in view lie wrong, as a
+ * rigid motion of the world: the map is made of scans that had the same error. C is how far the
+ * innovation of the scan depends on theta, so the innovations tell theta (CalibrationEvidence). */
+#pragma once
+
+#include <fastlio/filter/propagation.h>
+#include <fastlio/odometry/map_error.h>
+#include <fastlio/odometry/plane_groups.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** First index of each block of theta, in use = true [+] theta: rotation and translation as in
+ * StateBlock, matrices of gyro and accelerometer by columns. */
+enum CalibrationErrorBlock : int
+{
+  kExtrinsicError = 0,
+  kGyroMatrixError = 6,
+  kAccelMatrixError = 15
+};
+constexpr int kCalibrationErrorDim = 24;
+
+using CalibrationErrorVector = Eigen::Matrix<double, kCalibrationErrorDim, 1, Eigen::DontAlign>;
+using CalibrationErrorMatrix =
+    Eigen::Matrix<double, kCalibrationErrorDim, kCalibrationErrorDim, Eigen::DontAlign>;
+/** Derivative of a pose by theta. */
+using PoseByCalibration = Eigen::Matrix<double, 6, kCalibrationErrorDim, Eigen::DontAlign>;
+
+/** Tracks how the state's error depends on theta. */
+class CalibrationErrorModel
+{
+ public:
+  CalibrationErrorModel();
+
+  /** From scan to scan. \param transition product of the Fx */
+  void propagate(const StateMatrix& transition, const InertialSensitivity& by_inertial);
+  /** Takes in an update of the filter with the measurements \a scan. \return C */
+  PoseByCalibration update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
+  /** Remembers how the planes that insertion number \a scan makes depend on theta. */
+  void recordInsertion(
+      std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state);
+
+  /** S M S^T for the second moment M of theta. */
+  [[nodiscard]] StateMatrix addition(const CalibrationErrorMatrix& moment) const;
+  /** The same, some way after the last scan. */
+  [[nodiscard]] StateMatrix additionAfter(
+      const StateMatrix& transition, const InertialSensitivity& by_inertial,
+      const CalibrationErrorMatrix& moment) const;
+
+ private:
+  struct Insertion
+  {
+    std::uint32_t scan = 0;
+    double weight = 0.0;  // of a scan on its planes
+    PoseByCalibration twist = PoseByCalibration::Zero();
+  };
+  using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
+
+  [[nodiscard]] PoseByCalibration ofScan(const ScanPoseJacobian& by_state) const;
+  [[nodiscard]] PoseByCalibration ofMap(const std::vector<PlaneGroup>& groups);
+
+  Sensitivity S_ = Sensitivity::Zero();
+  std::vector<Insertion> insertions_;  // ascending by scan
+};
+
+}  // namespace fastlio
