@@ -90,7 +90,7 @@ LocalHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
   LocalHit hit;
   if (discriminant < 0.0) return hit;
   const double leave = -b + std::sqrt(discriminant);
-  for (double t = std::max(-b - std::sqrt(discriminant), kLeaf); t < leave; t += kLeaf)
+  for (double t = std::max(-b - std::sqrt(discriminant), 0.0) + 0.5 * kLeaf; t < leave; t += kLeaf)
     if (holdsLeaf(o + t * d, kLeaf, kLeaf / kFreePath))
     {
       keepNearer(hit, t, -d);
