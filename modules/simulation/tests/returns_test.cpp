@@ -53,7 +53,8 @@ PacketCount countPackets(const Simulation& simulation)
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
   {
     const FiredSweep fired = simulation.fire(i);
-    count.sent += static_cast<double>(fired.sweep.shots.size() / vlp16::kShotsPerPacket);
+    const std::size_t sent = fired.sweep.shots.size() / vlp16::kShotsPerPacket;
+    count.sent += static_cast<double>(sent);
     count.arrived +=
         static_cast<double>(toVelodyneScan(fired, simulation.settings())->scan_packets.size());
   }
