@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include <fastlio/simulation/realistic.h>
 #include <fastlio/simulation/scenario.h>
 #include <fastlio/simulation/settings_table.h>
 
@@ -18,7 +19,7 @@ constexpr const char* kFooter = R"(Files in the output directory:
   recording.rawlog  IMU (label 'imu') and LiDAR (label 'lidar'), in the order of their stamps
   ground_truth.tum  true pose of the IMU at 200 Hz
   config.yaml       parameters for fastlio-replay that match the simulated sensors
-  scenario.json     all settings, true biases, gravity and mounting
+  scenario.json     all settings, true biases, errors of the sensors, gravity and mounting
 
 Exit status:
   0  written
@@ -111,6 +112,11 @@ void addOptions(CLI::App& app, SimCommand& command)
       "--list-settings", command.list_settings,
       "List the settings with their values for the scenario");
   app.add_flag("-q,--quiet", command.quiet, "Print errors only");
+  app.add_flag(
+         "--realistic", command.realistic,
+         "Sensors with the errors that datasheets admit, drawn from the seed; scenario.json tells "
+         "them, config.yaml does not")
+      ->group("Settings");
   for (const auto& shorthand : kShorthands)
     addShorthand(app, command, shorthand);
   addSet(app, command);
@@ -119,6 +125,7 @@ void addOptions(CLI::App& app, SimCommand& command)
 SimulationSettings settingsOf(const SimCommand& command)
 {
   SimulationSettings settings = defaultSettings(command.scenario);
+  if (command.realistic) settings = realistic(settings);
   for (const auto& [key, value] : command.overrides)
     settings = withSetting(settings, key, value);
   requireValid(settings);

@@ -22,6 +22,7 @@ struct SimCommand
   std::vector<std::pair<std::string, std::string>> overrides;  //!< key and value, in order
   bool list_scenarios = false;
   bool list_settings = false;
+  bool realistic = false;  //!< realistic() before the overrides
   bool quiet = false;
   bool overwrite = false;
 };
@@ -29,7 +30,7 @@ struct SimCommand
 /** Declares the options on an application, bound to a command that must outlive it. */
 void addOptions(CLI::App& app, SimCommand& command);
 
-/** The scenario's defaults with the overrides.
+/** The scenario's defaults, realistic if asked for, with the overrides.
  * \exception std::invalid_argument an unknown name or an unusable value; says what is allowed */
 [[nodiscard]] SimulationSettings settingsOf(const SimCommand& command);
 

@@ -68,6 +68,7 @@ TEST_F(FastlioSim, TellsWhatItCanDo)
   const ProcessResult settings = run({"uav", "--list-settings"});
   EXPECT_EQ(settings.exit_status, 0);
   EXPECT_TRUE(mentions(settings, "lidar.kind = livox"));
+  EXPECT_TRUE(mentions(settings, "imu.bits = 0"));
 }
 
 TEST_F(FastlioSim, WritesAllFilesAndNamesThem)
@@ -98,6 +99,22 @@ TEST_F(FastlioSim, SettingsAreChangedByOptionsAndBySet)
   EXPECT_EQ(settings["lidar.kind"], "os64");
   EXPECT_EQ(settings["lidar.columns"], 128);
   EXPECT_EQ(settings["imu.gyro_bias"][2], -0.1);
+}
+
+TEST_F(FastlioSim, RealisticSensorsHaveErrorsThatOnlyTheScenarioTells)
+{
+  const ProcessResult result = run(
+      {"campus", "--realistic", "--duration", "2", "--stride", "20", "--set",
+       "lidar.false_returns=0", "-q", "-o", path("out")});
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  const auto scenario = truthOf("out");
+  const auto& truth = scenario["truth"];
+  EXPECT_EQ(scenario["settings"]["imu.bits"], 16);
+  EXPECT_EQ(scenario["settings"]["lidar.false_returns"], 0.0);
+  EXPECT_EQ(truth["lidar_clock_minus_imu_clock_s"], 0.004);
+  EXPECT_NE(truth["imu_errors"]["gyro_matrix"][0][0], 1.0);
+  // What is told is lidar.pose, what is true is not.
+  EXPECT_NE(truth["T_imu_lidar"]["position_m"][0], scenario["settings"]["lidar.pose"][0]);
 }
 
 TEST_F(FastlioSim, WrongNamesGetTheNearestOne)

@@ -43,6 +43,12 @@ Reading meanReading(const Motion& motion, double gravity, double t, double perio
   return mean;
 }
 
+/** What a sensor with such errors reads. */
+Reading distorted(const ImuErrors& errors, const Reading& r)
+{
+  return {errors.gyro * r.gyro + errors.g_sensitivity * r.accel, errors.accel * r.accel};
+}
+
 /** Three harmonics per axis with random phases: a disturbance of the readings only, since the
  * travel at motor frequencies is some micrometres. */
 class Vibration
@@ -144,9 +150,10 @@ class NoiseModel
   RandomStream gyro_white_, accel_white_, gyro_walk_, accel_walk_;
 };
 
-Vec3 saturated(const Vec3& v, double limit)
+/** Limited and rounded as the converter does. */
+Vec3 converted(const Vec3& v, double limit, int bits)
 {
-  return v.cwiseMax(-limit).cwiseMin(limit);
+  return quantized(v.cwiseMax(-limit).cwiseMin(limit), limit, bits);
 }
 
 std::int64_t roundedToTick(double ns)
@@ -159,19 +166,22 @@ ImuRecording simulateImu(const Motion& motion, const SimulationSettings& setting
 {
   const ImuSettings& imu = settings.imu;
   const double period = 1.0 / imu.rate;
+  const int bits = imu.errors.bits;
   const Vibration vibration(settings);
   Losses losses(settings);
   NoiseModel noise(settings);
   RandomStream jitter(settings.seed, NoiseSource::StampJitter);
 
   ImuRecording recording;
+  recording.errors = drawImuErrors(settings);
   const auto count = static_cast<std::size_t>(std::floor(settings.duration * imu.rate + 1e-6)) + 1;
   for (std::size_t i = 0; i < count; ++i, noise.walk())
   {
     const std::int64_t elapsed_ns = roundedToTick(static_cast<double>(i) * period * kNsPerSecond);
     const double t = static_cast<double>(elapsed_ns) / kNsPerSecond;
-    const Reading ideal = imu.average ? meanReading(motion, settings.gravity, t, period)
-                                      : idealReading(motion, settings.gravity, t);
+    const Reading ideal = distorted(
+        recording.errors, imu.average ? meanReading(motion, settings.gravity, t, period)
+                                      : idealReading(motion, settings.gravity, t));
     const Reading shake = vibration.at(t), white = noise.white();
     const ImuBias bias = noise.bias();
     // Limited, so that stamps stay in order.
@@ -184,8 +194,8 @@ ImuRecording simulateImu(const Motion& motion, const SimulationSettings& setting
     }
     recording.samples.push_back(
         {settings.start_ns + elapsed_ns + roundedToTick(late * kNsPerSecond),
-         saturated(ideal.gyro + shake.gyro + white.gyro + bias.gyro, imu.gyro_limit),
-         saturated(ideal.accel + shake.accel + white.accel + bias.accel, imu.accel_limit)});
+         converted(ideal.gyro + shake.gyro + white.gyro + bias.gyro, imu.gyro_limit, bits),
+         converted(ideal.accel + shake.accel + white.accel + bias.accel, imu.accel_limit, bits)});
     recording.true_bias.push_back(bias);
   }
   return recording;

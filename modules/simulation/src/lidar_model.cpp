@@ -120,6 +120,8 @@ class SpinningModel : public LidarModel
 class RosetteModel : public LidarModel
 {
  public:
+  static constexpr std::size_t kLasers = 6;
+
   RosetteModel(const LidarSettings& settings, std::int64_t first_shot_ns)
       : settings_(settings), zero_ns_(first_shot_ns)
   {
@@ -141,7 +143,6 @@ class RosetteModel : public LidarModel
   }
 
  private:
-  static constexpr std::size_t kLasers = 6;
   static constexpr double kLaserSpacing = 0.2 * kRadPerDeg;
   static constexpr double kDeflection = 17.5 * kRadPerDeg;  // of each prism
   static constexpr double kFirstPrism = 77.313 * kTwoPi;    // [rad/s]
@@ -195,6 +196,35 @@ std::uint16_t vlp16::ringOf(std::size_t laser)
 {
   // Lasers alternate between the lower and the upper half, both from below.
   return static_cast<std::uint16_t>(laser % 2 == 0 ? laser / 2 : kLasers / 2 + laser / 2);
+}
+
+std::size_t lineCount(const LidarSettings& settings)
+{
+  switch (settings.kind)
+  {
+    case LidarKind::Vlp16:
+      return vlp16::kLasers;
+    case LidarKind::Os64:
+      return static_cast<std::size_t>(settings.lines);
+    case LidarKind::Livox:
+      return RosetteModel::kLasers;
+  }
+  throw std::invalid_argument("LiDAR model: unknown kind.");
+}
+
+std::size_t shotsPerPacket(const LidarSettings& settings)
+{
+  constexpr std::size_t kColumnsPerPacket = 16, kRosetteShots = 96;
+  switch (settings.kind)
+  {
+    case LidarKind::Vlp16:
+      return vlp16::kShotsPerPacket;
+    case LidarKind::Os64:
+      return kColumnsPerPacket * lineCount(settings);
+    case LidarKind::Livox:
+      return kRosetteShots;
+  }
+  throw std::invalid_argument("LiDAR model: unknown kind.");
 }
 
 std::unique_ptr<const LidarModel> makeLidarModel(

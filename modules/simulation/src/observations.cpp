@@ -29,7 +29,7 @@ constexpr double kMaxRawRange = 65535.0;
 
 std::int64_t deliveredStamp(const FiredSweep& fired, const SimulationSettings& settings)
 {
-  return fired.sweep.stamp_ns + toNanoseconds(settings.lidar.time_offset);
+  return fired.sweep.stamp_ns + toNanoseconds(clockOffset(settings.lidar));
 }
 
 /** Little-endian bytes of a data packet, in order. */
@@ -93,6 +93,16 @@ RawPacket encodePacket(const FiredSweep& fired, std::size_t first, std::int64_t 
   return bytes.packet();
 }
 
+/** The number of the first shot of each packet that arrives. */
+std::vector<std::size_t> arrivedPackets(const FiredSweep& fired)
+{
+  std::vector<std::size_t> first_shots;
+  for (std::size_t i = 0; i * vlp16::kShotsPerPacket < fired.sweep.shots.size(); ++i)
+    if (fired.packet_lost.empty() || !fired.packet_lost[i])
+      first_shots.push_back(i * vlp16::kShotsPerPacket);
+  return first_shots;
+}
+
 CObservationPointCloud::Ptr toPointCloud(
     const FiredSweep& fired, const SimulationSettings& settings)
 {
@@ -125,8 +135,11 @@ CObservationVelodyneScan::Ptr toVelodyneScan(
 {
   auto observation = CObservationVelodyneScan::Create();
   const std::int64_t stamp_ns = deliveredStamp(fired, settings);
+  const auto packets = arrivedPackets(fired);
   observation->sensorLabel = kLidarLabel;
-  observation->timestamp = toMrptTime(stamp_ns);
+  // Drivers take the time of the first packet that arrives.
+  const std::int64_t waited_ns = packets.empty() ? 0 : fired.sweep.shots[packets.front()].offset_ns;
+  observation->timestamp = toMrptTime(stamp_ns + waited_ns);
   observation->originalReceivedTimestamp = observation->timestamp;
   observation->has_satellite_timestamp = true;
   observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
@@ -134,8 +147,8 @@ CObservationVelodyneScan::Ptr toVelodyneScan(
   // Noise may carry a return beyond the range of surfaces.
   observation->maxRange = settings.lidar.max_range + 10.0 * settings.lidar.range_noise;
   observation->calibration = defaultVelodyneCalibration("VLP16");
-  for (std::size_t i = 0; i < fired.sweep.shots.size(); i += vlp16::kShotsPerPacket)
-    observation->scan_packets.push_back(encodePacket(fired, i, stamp_ns));
+  for (const std::size_t first : packets)
+    observation->scan_packets.push_back(encodePacket(fired, first, stamp_ns));
   return observation;
 }
 

@@ -4,7 +4,9 @@
 #include <fastlio/simulation/primitive.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace fastlio
@@ -66,6 +68,37 @@ LocalHit hitSphere(const Vec3& o, const Vec3& d, double radius)
   return hit;
 }
 
+/** Whether there is a leaf in a cell: a fixed number per cell, since trees stand still. */
+bool holdsLeaf(const Vec3& p, double cell, double share)
+{
+  constexpr std::array<std::uint64_t, 3> kPrimes{73856093U, 19349663U, 83492791U};
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double index = std::floor(p[static_cast<Eigen::Index>(i)] / cell);
+    hash ^= static_cast<std::uint64_t>(static_cast<std::int64_t>(index)) * kPrimes[i];
+  }
+  hash = (hash ^ (hash >> 31U)) * 0x9E3779B97F4A7C15U;
+  return static_cast<double>(hash >> 40U) < share * 16777216.0;
+}
+
+LocalHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
+{
+  constexpr double kLeaf = 0.1, kFreePath = 0.6;  // [m]
+  const double b = o.dot(d);
+  const double discriminant = b * b - o.squaredNorm() + radius * radius;
+  LocalHit hit;
+  if (discriminant < 0.0) return hit;
+  const double leave = -b + std::sqrt(discriminant);
+  for (double t = std::max(-b - std::sqrt(discriminant), 0.0) + 0.5 * kLeaf; t < leave; t += kLeaf)
+    if (holdsLeaf(o + t * d, kLeaf, kLeaf / kFreePath))
+    {
+      keepNearer(hit, t, -d);
+      return hit;
+    }
+  return hit;
+}
+
 LocalHit hitCylinder(const Vec3& o, const Vec3& d, const Vec3& size)
 {
   LocalHit hit;
@@ -102,6 +135,8 @@ LocalHit hitShape(const Primitive& primitive, const Vec3& o, const Vec3& d)
       return hitCylinder(o, d, primitive.size);
     case Primitive::Shape::Sphere:
       return hitSphere(o, d, primitive.size.x());
+    case Primitive::Shape::Foliage:
+      return hitFoliage(o, d, primitive.size.x());
   }
   return {};
 }
@@ -118,6 +153,7 @@ Vec3 localHalfExtents(const Primitive& primitive)
     case Primitive::Shape::Cylinder:
       return {s.x(), s.x(), s.z()};
     case Primitive::Shape::Sphere:
+    case Primitive::Shape::Foliage:
       return Vec3::Constant(s.x());
   }
   return s;
@@ -132,7 +168,9 @@ std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)
   const LocalHit hit = hitShape(primitive, o, d);
   if (!(hit.t < kNoHit)) return std::nullopt;
   const Vec3 towards = hit.normal.dot(d) > 0.0 ? Vec3(-hit.normal) : hit.normal;
-  return RayHit{hit.t, R * towards, primitive.reflectivity};
+  const bool flat =
+      primitive.shape == Primitive::Shape::Rectangle || primitive.shape == Primitive::Shape::Box;
+  return RayHit{hit.t, R * towards, primitive.reflectivity, flat};
 }
 
 void Bounds::include(const Bounds& other)

@@ -25,7 +25,15 @@ enum class NoiseSource : std::uint32_t
   ImuDropout,
   Vibration,
   Range,
-  RangeDropout
+  RangeDropout,
+  ImuErrors,
+  LaserRange,
+  LaserElevation,
+  Mounting,
+  CarrierVibration,
+  FalseReturn,
+  PacketLoss,
+  Outage
 };
 
 /** A sequence that depends on seed, source and index only. */

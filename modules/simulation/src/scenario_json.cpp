@@ -24,6 +24,28 @@ Json settingsJson(const SimulationSettings& settings)
   return all;
 }
 
+Json matrixJson(const Mat3& m)
+{
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    rows.push_back(vectorJson(m.row(i)));
+  return rows;
+}
+
+Json imuErrorsJson(const ImuErrors& errors)
+{
+  return {
+      {"gyro_matrix", matrixJson(errors.gyro)},
+      {"accel_matrix", matrixJson(errors.accel)},
+      {"g_sensitivity_rad_s_per_m_s2", matrixJson(errors.g_sensitivity)}};
+}
+
+Json lasersJson(const LidarErrors& errors)
+{
+  return {
+      {"range_offset_m", errors.range_offset}, {"elevation_offset_rad", errors.elevation_offset}};
+}
+
 double pathLength(const Simulation& simulation)
 {
   constexpr double kStep = 0.01;
@@ -39,8 +61,10 @@ Json truthJson(const Simulation& simulation)
   const auto& bias = simulation.imu().true_bias;
   Json truth{
       {"gravity_world_m_s2", {0.0, 0.0, -s.gravity}},
-      {"T_imu_lidar", poseJson(s.lidar.T_imu_lidar)},
-      {"lidar_clock_minus_imu_clock_s", s.lidar.time_offset},
+      {"T_imu_lidar", poseJson(simulation.lidarErrors().T_imu_lidar)},
+      {"lidar_clock_minus_imu_clock_s", clockOffset(s.lidar)},
+      {"imu_errors", imuErrorsJson(simulation.imu().errors)},
+      {"laser_lines", lasersJson(simulation.lidarErrors())},
       {"start_pose", poseJson(simulation.motion().pose(0.0))},
       {"end_pose", poseJson(simulation.motion().pose(s.duration))},
       {"path_length_m", pathLength(simulation)}};

@@ -30,4 +30,8 @@ struct Scene
 [[nodiscard]] Scene openAreaScene();
 [[nodiscard]] Scene crowdScene();
 
+// Hardly any planes (scenes_curved.cpp).
+[[nodiscard]] Scene parkScene();
+[[nodiscard]] Scene rotundaScene();
+
 }  // namespace fastlio

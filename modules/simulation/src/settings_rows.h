@@ -13,4 +13,7 @@ namespace fastlio
 // Defined in settings_rows_cloud.cpp.
 [[nodiscard]] OptionTable<SimulationSettings> cloudRows();
 
+// Defined in settings_rows_imperfections.cpp: all that realistic() turns on.
+[[nodiscard]] OptionTable<SimulationSettings> imperfectionRows();
+
 }  // namespace fastlio

@@ -20,7 +20,7 @@ Rows generalRows()
        },
        "length of the recording; 0: the scenario's own"},
       {"seed", "", [](S& s) -> OptionValue { return SeedValue{&s.seed}; },
-       "of all noise; world and path do not depend on it"},
+       "of noise, errors and vibration; world and path do not depend on it"},
       {"start_time", "s", [](S& s) -> OptionValue { return EpochValue{&s.start_ns}; },
        "stamp of the first IMU sample, seconds since 1970"},
       {"gravity", "m/s^2",
@@ -226,7 +226,8 @@ Rows makeTable()
 {
   Rows table;
   for (const Rows& rows :
-       {generalRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(), imuFaultRows()})
+       {generalRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(), imuFaultRows(),
+        imperfectionRows()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }

@@ -1,15 +1,17 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "carrier_vibration.h"
+#include "caster.h"
 #include "random_stream.h"
 #include "scenario_table.h"
 #include <fastlio/math/time.h>
+#include <fastlio/simulation/packet_loss.h>
 #include <fastlio/simulation/settings_table.h>
 #include <fastlio/simulation/simulation.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace fastlio
 {
@@ -54,41 +56,29 @@ std::int64_t nanoseconds(double seconds)
   return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
 }
 
-/** Noise-free echoes of a sweep; shots of a column that fire together share the pose. */
-struct Caster
+/** Dust or rain in the way: a weak return from somewhere before the surface, mostly near. */
+void addFalseReturns(std::vector<Echo>& echoes, const SimulationSettings& s, std::size_t index)
 {
-  const Motion& motion;
-  const World& world;
-  const LidarSettings& lidar;
-  double sweep_time;  // [s] since the start
-
-  void cast(const Sweep& sweep, std::vector<Echo>& out) const
+  if (s.lidar.beam.false_returns == 0.0) return;
+  constexpr double kReach = 10.0;  // farther drops return too little light [m]
+  constexpr float kIntensity = 4.0F;
+  RandomStream random(s.seed, NoiseSource::FalseReturn, index);
+  for (auto& echo : echoes)
   {
-    std::int64_t posed_at = std::numeric_limits<std::int64_t>::min();
-    Pose T_world_lidar;
-    double t = 0.0;
-    for (std::size_t i = 0; i < sweep.shots.size(); ++i)
-    {
-      const Shot& shot = sweep.shots[i];
-      if (shot.column % static_cast<std::uint32_t>(lidar.stride) != 0) continue;
-      if (shot.offset_ns != posed_at)
-      {
-        posed_at = shot.offset_ns;
-        t = sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond;
-        T_world_lidar = motion.pose(t) * lidar.T_imu_lidar;
-      }
-      out[i] = echo({T_world_lidar.p, T_world_lidar.R * shot.direction}, t);
-    }
+    // Both are drawn for every shot, so that a setting does not change the other shots' numbers.
+    const bool is_false = random.uniform() < s.lidar.beam.false_returns;
+    const double depth = random.uniform();
+    const double reach = echo.range > 0.0 ? std::min(echo.range, kReach) : kReach;
+    if (!is_false || reach <= s.lidar.min_range) continue;
+    echo = {s.lidar.min_range + depth * depth * (reach - s.lidar.min_range), kIntensity};
   }
+}
 
-  [[nodiscard]] Echo echo(const Ray& ray, double t) const
-  {
-    const auto hit = world.cast(ray, t, lidar.max_range);
-    if (!hit || hit->range < lidar.min_range) return {};
-    const double facing = -hit->normal.dot(ray.direction);
-    return {hit->range, static_cast<float>(255.0 * hit->reflectivity * facing)};
-  }
-};
+void losePackets(FiredSweep& fired, std::size_t shots_per_packet)
+{
+  for (std::size_t i = 0; i < fired.echoes.size() && !fired.packet_lost.empty(); ++i)
+    if (fired.packet_lost[i / shots_per_packet]) fired.echoes[i] = {};
+}
 
 void addRangeNoise(std::vector<Echo>& echoes, const SimulationSettings& s, std::size_t index)
 {
@@ -118,6 +108,7 @@ struct Simulation::Parts
     const ScenarioRow& row = findScenario(settings.scenario);
     Scene scene = row.scene();
     const MotionTiming timing = timingFor(settings, row, scene.path);
+    addVibration(scene.path, settings);
     return {
         completed(settings, row, timing), Motion(std::move(scene.path), timing),
         World(std::move(scene.world))};
@@ -132,6 +123,7 @@ Simulation::Simulation(Parts parts)
       world_(std::move(parts.world)),
       imu_(simulateImu(motion_, settings_)),
       lidar_(makeLidarModel(settings_.lidar, settings_.start_ns + kFirstShotNs)),
+      lidar_errors_(drawLidarErrors(settings_)),
       scan_count_(completeSweeps(*lidar_, settings_.start_ns + nanoseconds(settings_.duration)))
 {
 }
@@ -140,10 +132,12 @@ FiredSweep Simulation::fire(std::size_t index) const
 {
   FiredSweep fired;
   fired.sweep = lidar_->sweep(index);
-  fired.echoes.resize(fired.sweep.shots.size());
-  const Caster caster{motion_, world_, settings_.lidar, secondsSinceStart(fired.sweep.stamp_ns)};
-  caster.cast(fired.sweep, fired.echoes);
+  fired.packet_lost = PacketLoss(settings_).lostOf(fired.sweep, index);
+  const Caster caster(*this);
+  fired.echoes = caster.cast(fired.sweep);
+  addFalseReturns(fired.echoes, settings_, index);
   addRangeNoise(fired.echoes, settings_, index);
+  losePackets(fired, shotsPerPacket(settings_.lidar));
   return fired;
 }
 
@@ -151,7 +145,7 @@ LidarScan Simulation::scan(std::size_t index) const
 {
   const FiredSweep fired = fire(index);
   LidarScan scan;
-  scan.stamp_ns = fired.sweep.stamp_ns + nanoseconds(settings_.lidar.time_offset);
+  scan.stamp_ns = fired.sweep.stamp_ns + nanoseconds(clockOffset(settings_.lidar));
   scan.points = pointsOf(fired);
   scan.T_imu_lidar = settings_.lidar.T_imu_lidar;
   scan.dropped_invalid = fired.sweep.shots.size() - scan.points.size();

@@ -155,8 +155,8 @@ TEST_P(EveryWorld, PointsAtTheTruePoseOfTheirTimeLieOnSurfaces)
 INSTANTIATE_TEST_SUITE_P(
     Catalog, EveryWorld,
     ::testing::Values(
-        "campus", "office", "uav", "car", "shake", "spin", "stairs", "tunnel", "open_area",
-        "crowd"),
+        "campus", "office", "uav", "car", "shake", "spin", "stairs", "tunnel", "open_area", "crowd",
+        "park", "rotunda"),
     [](const auto& test) { return std::string(test.param); });
 
 /** Echoes of one setting, at rest. */

@@ -46,6 +46,8 @@ double surfaceDistance(const Primitive& primitive, const Vec3& point)
       return cylinderDistance(q, primitive.size);
     case Primitive::Shape::Sphere:
       return std::abs(q.norm() - primitive.size.x());
+    case Primitive::Shape::Foliage:
+      return std::max(q.norm() - primitive.size.x(), 0.0);  // leaves are anywhere in it
   }
   return 0.0;
 }

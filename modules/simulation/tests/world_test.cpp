@@ -106,6 +106,39 @@ TEST(Primitive, BoundsHoldTheSurface)
   }
 }
 
+/** Share of rays through the middle of a crown of leaves that end within a depth of its border. */
+double caughtWithin(const Primitive& crown, double depth)
+{
+  Dice dice;
+  constexpr int kRays = 4000;
+  int caught = 0;
+  for (int i = 0; i < kRays; ++i)
+  {
+    const Vec3 aside = 0.2 * dice.direction();
+    const Vec3 origin = crown.T_world_local.p + 9.0 * dice.direction();
+    const Vec3 target = crown.T_world_local.p + aside;
+    const auto hit = intersect(crown, {origin, (target - origin).normalized()});
+    if (!hit) continue;
+    const Vec3 at = origin + hit->range * (target - origin).normalized();
+    EXPECT_LE((at - crown.T_world_local.p).norm(), crown.size.x() + 1e-9);
+    caught += (at - crown.T_world_local.p).norm() > crown.size.x() - depth ? 1 : 0;
+  }
+  return static_cast<double>(caught) / kRays;
+}
+
+TEST(Primitive, FoliageCatchesLightAtRandomDepths)
+{
+  const Primitive crown{
+      Primitive::Shape::Foliage, {Mat3::Identity(), {3.0, -2.0, 4.0}}, Vec3::Constant(2.0), 0.3};
+  // One of six steps of 0.1 m ends at a leaf.
+  EXPECT_NEAR(caughtWithin(crown, 0.3), 1.0 - std::pow(5.0 / 6.0, 3), 0.06);
+  EXPECT_NEAR(caughtWithin(crown, 1.0), 1.0 - std::pow(5.0 / 6.0, 10), 0.04);
+  // Trees stand still: the same ray ends at the same leaf.
+  const Ray ray{Vec3::Zero(), Vec3(3.0, -2.0, 4.2).normalized()};
+  ASSERT_TRUE(intersect(crown, ray));
+  EXPECT_EQ(intersect(crown, ray)->range, intersect(crown, ray)->range);
+}
+
 TEST(World, HierarchyFindsWhatTestingEveryBodyFinds)
 {
   Dice dice;

@@ -42,6 +42,13 @@ class LidarModel
   [[nodiscard]] virtual std::int64_t stampOf(std::size_t index) const = 0;
 };
 
+/** Laser lines of the sensor: one more than the highest Shot::ring. */
+[[nodiscard]] std::size_t lineCount(const LidarSettings& settings);
+
+/** Shots that the sensor sends in one packet: 384 of a VLP-16, 16 columns of a spinning sensor, 96
+ * of a rosette. */
+[[nodiscard]] std::size_t shotsPerPacket(const LidarSettings& settings);
+
 /** \param first_shot_ns time of the very first shot [ns]
  * \exception std::invalid_argument a rate, number of lines or columns that is not positive, or
  * fewer than one packet (VLP-16) or shot (Livox) per sweep */

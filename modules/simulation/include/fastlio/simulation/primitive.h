@@ -23,6 +23,7 @@ struct RayHit
   double range = 0.0;           //!< distance along the ray [m]
   Vec3 normal = Vec3::UnitZ();  //!< unit normal of the surface, towards the ray's origin
   double reflectivity = 0.0;    //!< fraction of light that is scattered back, 0..1
+  bool flat = false;            //!< on a flat face of a body, where a pane can be
 };
 
 /** A body in its own frame, placed in the frame that contains it. */
@@ -33,7 +34,8 @@ struct Primitive
     Rectangle,  //!< in the plane z = 0, |x| <= size.x, |y| <= size.y; seen from both sides
     Box,        //!< |x|, |y|, |z| <= size; seen from inside too (rooms, tunnels)
     Cylinder,   //!< around z: radius size.x, |z| <= size.z, with lids
-    Sphere      //!< radius size.x
+    Sphere,     //!< radius size.x
+    Foliage     //!< a sphere of radius size.x that leaves fill: rays end at random depths
   };
 
   Shape shape = Shape::Box;

@@ -47,6 +47,30 @@ enum class CloudTimeReference
   Absolute  //!< times count from 1970; the stamp is that of the first shot
 };
 
+/** Errors of laser beams, of their returns and of packets; all off. Docs: simulation.md. */
+struct BeamSettings
+{
+  double laser_range_std = 0.0;        //!< scatter of the range offset over laser lines [m]
+  double laser_elevation_std = 0.0;    //!< scatter of the elevation offset over lines [rad]
+  double incidence_bias = 0.0;         //!< of a range at 80 deg of incidence, 0 at 0 deg [m]
+  double dark_bias = 0.0;              //!< of a range to a surface of reflectivity 0 [m]
+  double bright_bias = 0.0;            //!< of a range to a surface of reflectivity 1 [m]
+  double divergence_horizontal = 0.0;  //!< full width of the beam [rad]
+  double divergence_vertical = 0.0;    //!< full width of the beam [rad]
+  double false_returns = 0.0;          //!< fraction of shots that dust or rain sends back
+  double packet_loss = 0.0;            //!< fraction of packets that are lost, one by one
+  double outage_interval = 0.0;        //!< one outage per so much time; 0: none [s]
+  double outage_length = 0.05;         //!< packets of this time are lost then [s]
+};
+
+/** What is not as the recording says: config.yaml and sensorPose do not know of it. */
+struct UntoldSettings
+{
+  double clock_error = 0.0;   //!< added to the LiDAR's stamps beside time_offset [s]
+  double rotation_std = 0.0;  //!< of the mounting, per axis [rad]
+  double position_std = 0.0;  //!< of the mounting, per axis [m]
+};
+
 /** The LiDAR. */
 struct LidarSettings
 {
@@ -63,10 +87,23 @@ struct LidarSettings
   double range_noise = 0.02;    //!< standard deviation of a range [m]
   double dropout = 0.01;        //!< fraction of returns that are lost
   double time_offset = 0.0;     //!< added to the true stamps (LiDAR clock minus IMU clock) [s]
-  Pose T_imu_lidar;             //!< mounting
+  Pose T_imu_lidar;             //!< mounting, as the recording says
   LidarCloud cloud = LidarCloud::Native;
   CloudTimeUnit time_unit = CloudTimeUnit::Seconds;
   CloudTimeReference time_reference = CloudTimeReference::Start;
+  BeamSettings beam;
+  UntoldSettings untold;
+};
+
+/** Errors of the inertial sensor that stay as they are during a recording; all off. */
+struct ImuErrorSettings
+{
+  double gyro_scale_std = 0.0;          //!< of each axis' scale
+  double accel_scale_std = 0.0;         //!< of each axis' scale
+  double gyro_misalignment_std = 0.0;   //!< of each axis towards each other one [rad]
+  double accel_misalignment_std = 0.0;  //!< of each axis towards each other one [rad]
+  double g_sensitivity_std = 0.0;       //!< each entry [rad/s per m/s^2]
+  int bits = 0;  //!< resolution: the range -limit..limit in so many bits; 0: exact
 };
 
 /** The inertial sensor. */
@@ -88,6 +125,23 @@ struct ImuSettings
   double vibration_accel = 0.0;            //!< amplitude [m/s^2]
   double vibration_frequency = 83.0;       //!< of the fundamental [Hz]
   bool average = false;  //!< samples are means over the period that they end; else instantaneous
+  ImuErrorSettings errors;
+};
+
+/** What carries the sensors, and what stands close to them; all off. */
+struct CarrierSettings
+{
+  double vibration_accel = 0.0;  //!< 20 to 200 Hz, root mean square per axis [m/s^2]
+  double vibration_gyro = 0.0;   //!< 20 to 200 Hz, root mean square per axis [rad/s]
+  bool body = false;             //!< a person stands behind the sensors and moves with them
+  int crowd = 0;                 //!< people at arm's length, who walk along
+};
+
+/** Surfaces that are not matt; off. */
+struct SurfaceSettings
+{
+  double glass = 0.0;    //!< share of flat, upright surfaces that light passes
+  double mirrors = 0.0;  //!< share of flat, upright surfaces that reflect like a mirror
 };
 
 /** A simulated recording. Defaults per scenario: defaultSettings(). */
@@ -95,7 +149,7 @@ struct SimulationSettings
 {
   std::string scenario = "office";
   double duration = 0.0;   //!< [s]; 0: as long as the scenario's path takes
-  std::uint64_t seed = 1;  //!< of all noise; world and path do not depend on it
+  std::uint64_t seed = 1;  //!< of noise, errors and vibration; world and path do not depend on it
   std::int64_t start_ns = 1'700'000'000'000'000'000;  //!< stamp of the first IMU sample [ns]
   double gravity = 9.81;                              //!< [m/s^2]
   double rest = 2.5;                                  //!< time at rest at the start [s]
@@ -103,6 +157,8 @@ struct SimulationSettings
   double path_start = 0.0;  //!< where on the scenario's path to start: time of its motion [s]
   LidarSettings lidar;
   ImuSettings imu;
+  CarrierSettings carrier;
+  SurfaceSettings surface;
 };
 
 }  // namespace fastlio

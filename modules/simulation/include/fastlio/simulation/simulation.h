@@ -16,6 +16,7 @@
 
 #include <fastlio/lidar/scan.h>
 #include <fastlio/simulation/imu_model.h>
+#include <fastlio/simulation/lidar_errors.h>
 #include <fastlio/simulation/lidar_model.h>
 #include <fastlio/simulation/scenario.h>
 #include <fastlio/simulation/world.h>
@@ -36,6 +37,7 @@ struct FiredSweep
 {
   Sweep sweep;
   std::vector<Echo> echoes;
+  std::vector<bool> packet_lost;  //!< per packet (shotsPerPacket()); empty: none is lost
 };
 
 /** A simulated recording. All members are const and may be called from several threads at once;
@@ -52,6 +54,7 @@ class Simulation
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const ImuRecording& imu() const { return imu_; }
+  [[nodiscard]] const LidarErrors& lidarErrors() const { return lidar_errors_; }
 
   /** Number of complete sweeps. */
   [[nodiscard]] std::size_t scanCount() const { return scan_count_; }
@@ -59,7 +62,8 @@ class Simulation
   /** Fires sweep number index: every shot from the exact pose at its own time, true stamps. */
   [[nodiscard]] FiredSweep fire(std::size_t index) const;
 
-  /** The same as points, with the stamp that the LiDAR delivers (LidarSettings::time_offset). */
+  /** The same as points, with the stamp that the LiDAR delivers (clockOffset()) and the mounting
+   * that the recording tells. */
   [[nodiscard]] LidarScan scan(std::size_t index) const;
 
   /** The true state of motion at a stamp of the IMU's clock. */
@@ -77,6 +81,7 @@ class Simulation
   World world_;
   ImuRecording imu_;
   std::unique_ptr<const LidarModel> lidar_;
+  LidarErrors lidar_errors_;
   std::size_t scan_count_ = 0;
 };
 

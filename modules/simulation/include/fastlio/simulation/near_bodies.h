@@ -1,0 +1,27 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file near_bodies.h People close to the sensors. */
+#pragma once
+
+#include <fastlio/simulation/primitive.h>
+#include <fastlio/simulation/settings.h>
+
+#include <vector>
+
+namespace fastlio
+{
+/** The person who carries the sensors, and people who walk along with them. */
+class NearBodies
+{
+ public:
+  explicit NearBodies(const CarrierSettings& settings);
+
+  /** People at t [s]: the carrier moves with the IMU, the others with its position only. */
+  [[nodiscard]] std::vector<Primitive> at(double t, const Pose& T_world_imu) const;
+
+ private:
+  CarrierSettings settings_;
+};
+
+}  // namespace fastlio

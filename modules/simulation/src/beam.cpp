@@ -1,0 +1,93 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/simulation/beam.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+namespace fastlio
+{
+namespace
+{
+struct Part
+{
+  Return back;
+  double light = 0.0;
+};
+
+/** The parts of a beam that came back, the nearest first. */
+struct Parts
+{
+  std::array<Part, 5> part;
+  std::size_t count = 0;
+
+  void add(const std::optional<Return>& back)
+  {
+    if (!back || back->range <= 0.0) return;
+    const double light = back->reflectivity * back->facing / (back->range * back->range);
+    std::size_t place = count++;
+    for (; place > 0 && part[place - 1].back.range > back->range; --place)
+      part[place] = part[place - 1];
+    part[place] = {*back, light};
+  }
+};
+
+/** Mean of the parts first..last, by light. */
+Part merged(const Parts& parts, std::size_t first, std::size_t last)
+{
+  Part sum{{0.0, 0.0, 0.0}, 0.0};
+  for (std::size_t i = first; i < last; ++i)
+  {
+    const auto& [back, light] = parts.part[i];
+    sum.light += light;
+    sum.back.range += light * back.range;
+    sum.back.facing += light * back.facing;
+    sum.back.reflectivity += light * back.reflectivity;
+  }
+  sum.back.range /= sum.light;
+  sum.back.facing /= sum.light;
+  sum.back.reflectivity /= sum.light;
+  return sum;
+}
+
+std::optional<Return> strongest(const Parts& parts)
+{
+  std::optional<Part> best;
+  for (std::size_t first = 0, last = 0; first < parts.count; first = last)
+  {
+    const double reach = parts.part[first].back.range + Beam::kPulseLength;
+    while (last < parts.count && parts.part[last].back.range < reach)
+      ++last;
+    const Part group = merged(parts, first, last);
+    if (group.light > 0.0 && (!best || group.light > best->light)) best = group;
+  }
+  if (!best) return std::nullopt;
+  return best->back;
+}
+}  // namespace
+
+Beam::Beam(const BeamSettings& settings)
+    : half_width_(0.5 * settings.divergence_horizontal),
+      half_height_(0.5 * settings.divergence_vertical)
+{
+}
+
+std::optional<Return> Beam::receive(const Ray& ray, const Vec3& up, const Look& look) const
+{
+  if (half_width_ == 0.0 && half_height_ == 0.0) return look(ray);
+  // Five rays of equal light: the middle, and the middle of each quarter, a little farther out.
+  constexpr double kOuter = 0.6;
+  const Vec3 aside = half_width_ * kOuter * up.cross(ray.direction).normalized();
+  const Vec3 upward =
+      half_height_ * kOuter * ray.direction.cross(up.cross(ray.direction)).normalized();
+  Parts parts;
+  parts.add(look(ray));
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      parts.add(look({ray.origin, (ray.direction + x * aside + y * upward).normalized()}));
+  return strongest(parts);
+}
+
+}  // namespace fastlio

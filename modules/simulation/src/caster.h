@@ -1,0 +1,43 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file caster.h The noise-free echoes of a sweep (internal). */
+#pragma once
+
+#include <fastlio/simulation/beam.h>
+#include <fastlio/simulation/near_bodies.h>
+#include <fastlio/simulation/panes.h>
+#include <fastlio/simulation/simulation.h>
+
+namespace fastlio
+{
+/** Fires shots from the true pose at their time into the world and at the people around, with all
+ * that is wrong with the beams but noise. */
+class Caster
+{
+ public:
+  explicit Caster(const Simulation& simulation);
+
+  [[nodiscard]] std::vector<Echo> cast(const Sweep& sweep) const;
+
+ private:
+  /** Where the sensor is at the time of a shot, and who is near. */
+  struct Instant
+  {
+    double t = 0.0;  // [s] since the start
+    Pose T_world_lidar;
+    std::vector<Primitive> people;
+  };
+
+  [[nodiscard]] Instant instantOf(double t) const;
+  [[nodiscard]] Echo echo(const Shot& shot, const Instant& at) const;
+  [[nodiscard]] std::optional<RayHit> firstHit(
+      const Ray& ray, const Instant& at, double max_range) const;
+
+  const Simulation* simulation_;
+  Beam beam_;
+  Panes panes_;
+  NearBodies near_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "random_stream.h"
+#include <fastlio/simulation/lidar_errors.h>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kCos80 = 0.17364817766693036;
+
+Pose drawMounting(const SimulationSettings& s)
+{
+  const UntoldSettings& untold = s.lidar.untold;
+  const Pose& said = s.lidar.T_imu_lidar;
+  if (untold.rotation_std == 0.0 && untold.position_std == 0.0) return said;
+  RandomStream random(s.seed, NoiseSource::Mounting);
+  const Vec3 turned = untold.rotation_std * random.normal3();
+  const Vec3 moved = untold.position_std * random.normal3();
+  return {said.R * expSO3(turned), said.p + moved};
+}
+
+std::vector<double> drawOffsets(
+    std::uint64_t seed, NoiseSource source, std::size_t count, double deviation)
+{
+  RandomStream random(seed, source);
+  std::vector<double> offsets;
+  for (std::size_t i = 0; i < count; ++i)
+    offsets.push_back(deviation * random.normal());
+  return offsets;
+}
+}  // namespace
+
+LidarErrors drawLidarErrors(const SimulationSettings& settings)
+{
+  const BeamSettings& beam = settings.lidar.beam;
+  const std::size_t lines = lineCount(settings.lidar);
+  return {
+      drawMounting(settings),
+      drawOffsets(settings.seed, NoiseSource::LaserRange, lines, beam.laser_range_std),
+      drawOffsets(settings.seed, NoiseSource::LaserElevation, lines, beam.laser_elevation_std)};
+}
+
+Vec3 trueDirection(const Shot& shot, const LidarErrors& errors)
+{
+  const double offset = errors.elevation_offset[shot.ring];
+  if (offset == 0.0) return shot.direction;
+  const Vec3& d = shot.direction;
+  const double level = std::hypot(d.x(), d.y());
+  const double elevation = std::atan2(d.z(), level) + offset;
+  const double stretch = std::cos(elevation) / level;
+  return {stretch * d.x(), stretch * d.y(), std::sin(elevation)};
+}
+
+double rangeBias(const BeamSettings& settings, const Return& back)
+{
+  return settings.incidence_bias * (1.0 - back.facing) / (1.0 - kCos80) + settings.dark_bias +
+         back.reflectivity * (settings.bright_bias - settings.dark_bias);
+}
+
+double clockOffset(const LidarSettings& settings)
+{
+  return settings.time_offset + settings.untold.clock_error;
+}
+
+}  // namespace fastlio
