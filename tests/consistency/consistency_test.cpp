@@ -11,6 +11,7 @@
 #include "simulated_run.h"
 #include <fastlio/math/time.h>
 #include <fastlio/odometry/static_initializer.h>
+#include <fastlio/simulation/realistic.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -90,6 +91,10 @@ OdometryOptions parametersOf(const SimulationSettings& settings)
 {
   OdometryOptions parameters = matchingParameters(settings);
   parameters.initialization.gravity = InitializationOptions{}.gravity;
+  // The simulated sensors are as they are told to be.
+  CalibrationOptions& calibration = parameters.calibration;
+  calibration.extrinsic_rotation_std = calibration.extrinsic_translation_std = 0.0;
+  calibration.imu_scale_std = calibration.imu_misalignment_std = 0.0;
   parameters.threads = 1;
   return parameters;
 }
@@ -213,5 +218,61 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
   const NeesSummary p = summarizeNees(position, 3), a = summarizeNees(attitude, 3);
   EXPECT_GT(std::max(p.mean, a.mean), p.mean_upper);
 }
+
+/** Sensors with what their datasheets admit, of which the odometry is told nothing. */
+class RealisticConsistency : public ::testing::TestWithParam<ConsistencyCase>
+{
+};
+
+constexpr ConsistencyCase kRealisticCases[] = {
+    {"OfficeVlp16", "office", LidarKind::Vlp16, 2},
+    {"CampusVlp16", "campus", LidarKind::Vlp16, 2},
+    {"ParkVlp16", "park", LidarKind::Vlp16, 2},
+    {"CampusOs64", "campus", LidarKind::Os64, 4},
+};
+
+/** Mean NEES of a pose; 6 when the covariance is true. Overconfidence is the worse mistake, so the
+ * covariance may be 2.4 times too large and 1.4 times too small, in standard deviations. Before the
+ * errors of the calibration were considered, the means were beyond 100. */
+constexpr double kRealisticLower = 1.0, kRealisticUpper = 12.0;
+constexpr double kRealisticInstants[] = {10.0, 20.0};
+
+TEST_P(RealisticConsistency, IsKeptWithDefaultParameters)
+{
+  const ConsistencyCase& c = GetParam();
+  std::vector<double> nees[std::size(kRealisticInstants)];
+  for (std::uint64_t seed = 1; seed <= repeats(std::uint64_t{10}); ++seed)
+  {
+    SimulationSettings settings = defaultSettings(c.scenario);
+    settings.lidar.kind = c.lidar;
+    settings.lidar.stride = c.stride;
+    settings.duration = kRealisticInstants[1];
+    settings.seed = seed;
+    settings = realistic(settings);
+    OdometryOptions parameters = matchingParameters(settings);
+    parameters.threads = 1;
+    const SimulatedRun run = runOdometry(Simulation(settings), parameters);
+    for (std::size_t i = 0; i < std::size(kRealisticInstants); ++i)
+    {
+      const JudgedScan& scan = estimateAt(run, settings.start_ns, kRealisticInstants[i]);
+      const Vector6 e = stateError(run, scan).head<6>();
+      const Matrix6 P = scan.result.filter.P.topLeftCorner<6, 6>();
+      nees[i].push_back(e.dot(solveSymmetric(P, e)));
+    }
+  }
+  for (std::size_t i = 0; i < std::size(kRealisticInstants); ++i)
+  {
+    const NeesSummary summary = summarizeNees(nees[i], 6);
+    std::printf(
+        "%-13s %4.0f s  NEES of the pose %5.2f\n", c.name, kRealisticInstants[i], summary.mean);
+    if (fewRepeats()) continue;
+    EXPECT_GE(summary.mean, kRealisticLower) << "the covariance is too large";
+    EXPECT_LE(summary.mean, kRealisticUpper) << "the covariance is too small";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenario, RealisticConsistency, ::testing::ValuesIn(kRealisticCases),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace fastlio::testing

@@ -4,8 +4,10 @@
 #include "random_problems.h"
 #include <fastlio/filter/propagation.h>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -225,6 +227,52 @@ TEST(Propagation, aStepBackInTimeIsRefused)
   {
     EXPECT_THROW(
         (void)propagate(s, Vec3::Zero(), Vec3::Zero(), dt, ImuNoise{}), std::invalid_argument);
+  }
+}
+
+/** Two steps through readings of a sensor whose matrices are I + error, or as if they were I. */
+NavState motionWith(
+    const std::array<Case, 2>& steps, const Mat3& gyro_error, const Mat3& accel_error)
+{
+  NavState x = steps[0].x;
+  for (const Case& step : steps)
+  {
+    const Vec3 rate = (Mat3::Identity() + gyro_error).inverse() * (step.gyro - x.gyro_bias);
+    const Vec3 force = (Mat3::Identity() + accel_error).inverse() * (step.accel - x.accel_bias);
+    x = propagateMean(x, rate + x.gyro_bias, force + x.accel_bias, step.dt);
+  }
+  return x;
+}
+
+TEST(Propagation, sensitivityIsTheDerivativeByTheMatricesOfTheSensor)
+{
+  constexpr double kStep = 1e-5;
+  const std::vector<Case> all = cases(18);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i)
+  {
+    const std::array<Case, 2> steps{all[i], all[i + 1]};
+    const NavState taken_for_true = motionWith(steps, Mat3::Zero(), Mat3::Zero());
+    InertialSensitivity sensitivity = InertialSensitivity::Zero();
+    NavState x = steps[0].x;
+    for (const Case& step : steps)
+    {
+      sensitivity = chainSensitivity(sensitivity, x, step.gyro, step.accel, step.dt);
+      x = propagateMean(x, step.gyro, step.accel, step.dt);
+    }
+    for (int k = 0; k < 18; ++k)
+    {
+      const auto errorWith = [&](double value)
+      {
+        Mat3 error = Mat3::Zero();
+        error(k % 3, k % 9 / 3) = value;
+        const NavState truth =
+            k < 9 ? motionWith(steps, error, Mat3::Zero()) : motionWith(steps, Mat3::Zero(), error);
+        return boxminus(taken_for_true, truth);
+      };
+      const StateVector numeric = (errorWith(kStep) - errorWith(-kStep)) / (2.0 * kStep);
+      const double size = 1.0 + numeric.norm();
+      EXPECT_LT((numeric.head<9>() - sensitivity.col(k)).norm(), 1e-4 * size) << i << ", " << k;
+    }
   }
 }
 }  // namespace

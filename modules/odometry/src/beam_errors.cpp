@@ -45,9 +45,8 @@ void BeamErrors::add(
     const double cosine = std::hypot(direction.x(), direction.y());
     if (!(cosine > kLeastCosine)) continue;
     const double elevation = std::atan2(direction.z(), cosine);
-    const auto bin = std::min(
-        kBins - 1,
-        static_cast<std::size_t>(std::max(0.0, std::round(elevation / kBin + 0.5 * kBins))));
+    const double bin_number = std::max(0.0, std::floor(elevation / kBin + 0.5 * kBins));
+    const auto bin = std::min(kBins - 1, static_cast<std::size_t>(bin_number));
     const Vec3 upward(
         -direction.z() * direction.x() / cosine, -direction.z() * direction.y() / cosine, cosine);
     const Vec3 normal = R_lidar_world * Vec3(point.weighted_h.tail<3>() / point.weight);

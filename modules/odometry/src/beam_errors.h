@@ -40,7 +40,8 @@ class BeamErrors
 
     void add(const PointMeasurement& point, double derivative);
   };
-  // The lasers of a VLP-16 are 2 deg apart. Denser LiDARs have several in a bin, whose mean counts.
+  // The lasers of a VLP-16 are 2 deg apart, at odd degrees: in the middle of a bin. Denser LiDARs
+  // have several in a bin, whose mean counts.
   static constexpr double kBin = 0.034906585039886591;  // [rad]
   static constexpr std::size_t kBins = 90;
   using Offsets = std::array<Offset, kBins>;

@@ -35,17 +35,20 @@ PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& gr
   return mean;
 }
 
-PoseByCalibration CalibrationErrorModel::update(
+UpdateByCalibration CalibrationErrorModel::update(
     const LinearizedUpdate& update, const GroupedMeasurements& scan)
 {
-  if (scan.groups.empty()) return PoseByCalibration::Zero();
+  UpdateByCalibration by_calibration;
+  if (scan.groups.empty()) return by_calibration;
   const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  const PoseByCalibration innovation =
-      ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
+  by_calibration.innovation = ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
   const Matrix6 information =
       update.constrained.transpose() * scan.information * update.constrained;
-  S_ -= product(update.gain, PoseByCalibration(product(information, innovation)));
-  return innovation;
+  const Sensitivity correction =
+      -product(update.gain, PoseByCalibration(product(information, by_calibration.innovation)));
+  by_calibration.correction = correction.topRows<6>();
+  S_ += correction;
+  return by_calibration;
 }
 
 void CalibrationErrorModel::recordInsertion(

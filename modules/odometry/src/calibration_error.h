@@ -24,8 +24,8 @@
 
 namespace fastlio
 {
-/** First index of each block of theta, in use = true [+] theta: rotation and translation as in
- * StateBlock, matrices of gyro and accelerometer by columns. */
+/** First index of each block of theta. Extrinsic: in use = true [+] theta, rotation and translation
+ * as in StateBlock. Gyro and accelerometer: their matrices are I + theta (InertialSensitivity). */
 enum CalibrationErrorBlock : int
 {
   kExtrinsicError = 0,
@@ -40,6 +40,13 @@ using CalibrationErrorMatrix =
 /** Derivative of a pose by theta. */
 using PoseByCalibration = Eigen::Matrix<double, 6, kCalibrationErrorDim, Eigen::DontAlign>;
 
+/** How an update depends on theta. */
+struct UpdateByCalibration
+{
+  PoseByCalibration innovation = PoseByCalibration::Zero();  //!< C
+  PoseByCalibration correction = PoseByCalibration::Zero();  //!< of the body's pose: -G Lambda C
+};
+
 /** Tracks how the state's error depends on theta. */
 class CalibrationErrorModel
 {
@@ -48,8 +55,8 @@ class CalibrationErrorModel
 
   /** From scan to scan. \param transition product of the Fx */
   void propagate(const StateMatrix& transition, const InertialSensitivity& by_inertial);
-  /** Takes in an update of the filter with the measurements \a scan. \return C */
-  PoseByCalibration update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
+  /** Takes in an update of the filter with the measurements \a scan. */
+  UpdateByCalibration update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
   /** Remembers how the planes that insertion number \a scan makes depend on theta. */
   void recordInsertion(
       std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state);

@@ -65,6 +65,12 @@ void CalibrationEvidence::add(
   solve();
 }
 
+Matrix6 CalibrationEvidence::priorCovariance(const PoseByCalibration& pose) const
+{
+  const PoseByCalibration scaled = pose * prior_std_.asDiagonal();
+  return productByTransposed(scaled, scaled);
+}
+
 void CalibrationEvidence::solve()
 {
   // In units of the prior, which may be zero: (I + Lambda)^-1.

@@ -7,8 +7,6 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -19,42 +17,6 @@ namespace
 {
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
-
-Vector6 eigenvalues(const Matrix6& m)
-{
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(m, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
-
-void describeMatch(const MatchResult& match, ScanStatistics& statistics)
-{
-  const InformationSums& sums = match.update.last;
-  statistics.points_effective = sums.count;
-  statistics.iterations = match.update.iterations;
-  statistics.converged = match.update.converged;
-  statistics.constraints = match.constraints;
-  if (sums.count == 0) return;
-  const auto n = static_cast<double>(sums.count);
-  statistics.residual_rms = std::sqrt(sums.squares / n);
-  statistics.normalized_innovation = sums.weighted_squares / n;
-  statistics.information_eigenvalues = eigenvalues(sums.HtRinvH);
-}
-
-CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamErrors& beams)
-{
-  const Vector6 error = calibration.mean.segment<6>(kExtrinsicError);
-  const Vector6 std =
-      calibration.covariance.diagonal().segment<6>(kExtrinsicError).cwiseMax(0.0).cwiseSqrt();
-  CalibrationCheck check;
-  check.rotation = error.head<3>();
-  check.rotation_std = std.head<3>();
-  check.translation = error.tail<3>();
-  check.translation_std = std.tail<3>();
-  check.innovation_scale = calibration.innovation_scale;
-  check.range_offset = beams.rangeOffset();
-  check.elevation_offset = beams.elevationOffset();
-  return check;
-}
 
 ScanOutcome::Place placeOf(const Mode& mode)
 {
@@ -101,11 +63,11 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   const MapSearchResult matched = matchWithMap(deskewed, predicted, span.end_ns);  // eq. 12-20
   const MatchResult& match = matched.match;
 
-  Work work{scan, deskewed, predicted, {}};
+  Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
   work.outcome.search = matched.poses;
   state_.stamp_ns = span.end_ns;
-  compareMotion(matched, work, imu, result.statistics);
   adopt(match, work, result);
+  compareMotion(matched, work, imu, result.statistics);
   noteSupport(match, work, result);
   applyZeroVelocityUpdate(statusOf(work.outcome, options_) == ScanStatus::Tracking, result);
   classifier_.classify(work.outcome, imu.inflations(), result);
@@ -159,48 +121,6 @@ const DeskewedScan& Estimator::deskew(
       preparation_.deskew(scan, end_ns, predicted.state.x, predictor_.inputs());
   timings_.deskew = watch.milliseconds();
   return deskewed;
-}
-
-/** The posterior becomes the state; what the map's errors add to its covariance is reported. */
-void Estimator::adopt(const MatchResult& match, const Work& work, ScanResult& result)
-{
-  FilterState& filter = state_.filter;
-  filter = match.update.posterior;
-  filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
-  const PoseByCalibration by_calibration =
-      map_.considerUpdate(work.deskewed, match, filter, beams_);
-  if (match.update.updated && match.constraints.unconstrained == 0)
-    calibration_.add(
-        by_calibration, scanPoseJacobian(filter.x, work.deskewed.compensation),
-        work.predicted.state, match.update);
-  report(result);
-
-  preparation_.describe(work.scan, result.statistics);
-  describeMatch(match, result.statistics);
-  result.statistics.imu_samples = predictor_.inputs().size();
-}
-
-/** The state as it is reported: with what the errors of map and calibration add, and as uncertain
- * as the innovations show. */
-void Estimator::report(ScanResult& result) const
-{
-  const CalibrationEstimate& calibration = calibration_.estimate();
-  result.filter = state_.filter;
-  result.filter.P *= calibration.innovation_scale;
-  const StateMatrix systematic = calibration.innovation_scale * map_.error().addition() +
-                                 map_.calibrationError().addition(calibration.second_moment);
-  result.filter.P += systematic;
-  result.map_covariance = systematic.topLeftCorner<6, 6>();
-  result.statistics.calibration = checkOf(calibration, beams_);
-}
-
-StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
-{
-  const CalibrationEstimate& calibration = calibration_.estimate();
-  return (calibration.innovation_scale - 1.0) * prediction.state.P +
-         calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
-         map_.calibrationError().additionAfter(
-             prediction.transition, prediction.by_inertial, calibration.second_moment);
 }
 
 /** Learns how well the scan supports the state, and what its status depends on. */

@@ -97,7 +97,9 @@ class Estimator
     const LidarScan& scan;
     const DeskewedScan& deskewed;
     const ScanPrediction& predicted;
+    NavState before;  //!< the state that the prediction began with
     ScanOutcome outcome;
+    Matrix6 explained = Matrix6::Zero();  //!< of the correction, by the calibration's prior
   };
 
   [[nodiscard]] FilterRun& run();
@@ -113,7 +115,7 @@ class Estimator
   void compareMotion(
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
       ScanStatistics& statistics);
-  void adopt(const MatchResult& match, const Work& work, ScanResult& result);
+  void adopt(const MatchResult& match, Work& work, ScanResult& result);
   void report(ScanResult& result) const;
   [[nodiscard]] StateMatrix systematicCovariance(const Prediction& prediction) const;
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);

@@ -79,7 +79,7 @@ void Estimator::compareMotion(
   if (matched.poses || run().motion_window || in_doubt)
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
-    agreement_.add(state_.filter.x, work.predicted.state, match.update.posterior);
+    agreement_.add(work.before, work.predicted.state, match.update.posterior, work.explained);
   statistics.motion_innovation = agreement_.innovation();
   statistics.mounting_error = agreement_.mountingError();
 }

@@ -60,7 +60,7 @@ void LocalMap::propagateError(const StateMatrix& transition, const InertialSensi
   calibration_.propagate(transition, by_inertial);
 }
 
-PoseByCalibration LocalMap::considerUpdate(
+UpdateByCalibration LocalMap::considerUpdate(
     const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
     BeamErrors& beams)
 {

@@ -62,8 +62,8 @@ class LocalMap
       const InertialSensitivity& by_inertial = InertialSensitivity::Zero());
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
    * \param posterior of the update \param beams learn from the scan's residuals
-   * \return derivative of the innovation by the error of the calibration */
-  PoseByCalibration considerUpdate(
+   * \return how the update depends on the error of the calibration */
+  UpdateByCalibration considerUpdate(
       const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
       BeamErrors& beams);
 

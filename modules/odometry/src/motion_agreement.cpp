@@ -29,13 +29,15 @@ constexpr double kLeastCorrelation = 0.95;
 // A second axis of rotation with less of the first one's singular value tells nothing.
 constexpr double kLeastSecondAxis = 0.05;
 
-/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P. */
+/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what the
+ * calibration explains. */
 double normalized(
     const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
-    int block)
+    const Matrix6& by_calibration, int block)
 {
   const Vec3 e = correction.segment<3>(block);
-  const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block);
+  const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block) +
+                 by_calibration.block<3, 3>(block, block);
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
   if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
   return e.dot(ldlt.solve(e).eval()) / 3.0;
@@ -60,11 +62,14 @@ double medianOf(std::array<double, MotionAgreement::kWindow> values)
 }  // namespace
 
 void MotionAgreement::add(
-    const NavState& before, const FilterState& predicted, const FilterState& posterior)
+    const NavState& before, const FilterState& predicted, const FilterState& posterior,
+    const Matrix6& by_calibration)
 {
   const StateVector correction = boxminus(posterior.x, predicted.x);
-  attitude_[corrections_ % kWindow] = normalized(correction, predicted, posterior, kAttitude);
-  position_[corrections_ % kWindow] = normalized(correction, predicted, posterior, kPosition);
+  attitude_[corrections_ % kWindow] =
+      normalized(correction, predicted, posterior, by_calibration, kAttitude);
+  position_[corrections_ % kWindow] =
+      normalized(correction, predicted, posterior, by_calibration, kPosition);
   ++corrections_;
   const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
   if (R_last_scan_)
@@ -105,7 +110,8 @@ std::optional<MountingError> MotionAgreement::mountingError() const
   if (!(inertial_squares > n * kLeastTurn * kLeastTurn) || !(scan_squares > 0.0))
     return std::nullopt;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3& strengths = svd.singularValues();
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
+  const Vec3 strengths = svd.singularValues();
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   const Vec3 signs(1.0, 1.0, sign);
   const double correlation = strengths.dot(signs) / std::sqrt(inertial_squares * scan_squares);

@@ -24,14 +24,18 @@ class MotionAgreement
 
   /** A scan corrected a prediction.
    * \param before state that the prediction began with
-   * \param posterior of the update, before anything else changes it */
-  void add(const NavState& before, const FilterState& predicted, const FilterState& posterior);
+   * \param posterior of the update, before anything else changes it
+   * \param by_calibration covariance of the correction of the pose that the errors of the calibration
+   * explain, as far as the options admit them */
+  void add(
+      const NavState& before, const FilterState& predicted, const FilterState& posterior,
+      const Matrix6& by_calibration);
   /** The next correction says nothing: the run begins, or the pose was searched. */
   void restart();
 
   /** Median over the last scans of e^T S^-1 e / 3 for the correction e of attitude or position,
-   * whichever is larger, with S its covariance; about 1 when the model is true, 0 while too few
-   * scans are known. */
+   * whichever is larger, with S its covariance, that by the calibration included; about 1 when the
+   * model is true, 0 while too few scans are known. */
   [[nodiscard]] double innovation() const;
 
   /** The rotation between the mounting in use and the one that the turns of the last minute show;

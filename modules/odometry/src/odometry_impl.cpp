@@ -22,7 +22,7 @@ namespace
 // As classify() has it.
 constexpr double kOddMounting = 0.017453292519943295;  // [rad]; 1 deg
 // Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
-constexpr double kOddDeviations = 3.0;
+constexpr double kOddDeviations = 5.0;
 
 bool isOdd(const Vec3& error, const Vec3& std, double given_std)
 {

@@ -29,7 +29,7 @@ class TurningPlatform
     for (int i = 0; i < scans; ++i)
     {
       const FilterState predicted = predict(i);
-      agreement.add(before_, predicted, correct());
+      agreement.add(before_, predicted, correct(), Matrix6::Zero());
     }
   }
 
@@ -138,7 +138,7 @@ TEST(MotionAgreement, NoTurnsTellNothing)
   predicted.P.diagonal().setConstant(2e-6);
   posterior.P.diagonal().setConstant(1e-6);
   for (int i = 0; i < 300; ++i)
-    agreement.add(NavState{}, predicted, posterior);
+    agreement.add(NavState{}, predicted, posterior, Matrix6::Zero());
   EXPECT_FALSE(agreement.mountingError().has_value());
   EXPECT_EQ(agreement.innovation(), 0.0);
 }

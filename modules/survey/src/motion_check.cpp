@@ -113,7 +113,8 @@ MotionCheck compare(const RatePairs& pairs)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sums, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
   check.R_imu_lidar = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  const Vec3& strengths = svd.singularValues();
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
+  const Vec3 strengths = svd.singularValues();
   check.correlation = strengths.dot(signs) / std::sqrt(lidar_squares * imu_squares);
   check.scale = std::sqrt(imu_squares / lidar_squares);
   const double rate = std::sqrt(lidar_squares / static_cast<double>(check.turns));

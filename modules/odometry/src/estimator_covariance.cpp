@@ -1,0 +1,96 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What an update does to the state, and how uncertain the state is when it is reported.
+
+#include "estimator.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+Vector6 eigenvalues(const Matrix6& m)
+{
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(m, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+void describeMatch(const MatchResult& match, ScanStatistics& statistics)
+{
+  const InformationSums& sums = match.update.last;
+  statistics.points_effective = sums.count;
+  statistics.iterations = match.update.iterations;
+  statistics.converged = match.update.converged;
+  statistics.constraints = match.constraints;
+  if (sums.count == 0) return;
+  const auto n = static_cast<double>(sums.count);
+  statistics.residual_rms = std::sqrt(sums.squares / n);
+  statistics.normalized_innovation = sums.weighted_squares / n;
+  statistics.information_eigenvalues = eigenvalues(sums.HtRinvH);
+}
+
+CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamErrors& beams)
+{
+  const Vector6 error = calibration.mean.segment<6>(kExtrinsicError);
+  const Vector6 std =
+      calibration.covariance.diagonal().segment<6>(kExtrinsicError).cwiseMax(0.0).cwiseSqrt();
+  CalibrationCheck check;
+  check.rotation = error.head<3>();
+  check.rotation_std = std.head<3>();
+  check.translation = error.tail<3>();
+  check.translation_std = std.tail<3>();
+  check.innovation_scale = calibration.innovation_scale;
+  check.range_offset = beams.rangeOffset();
+  check.elevation_offset = beams.elevationOffset();
+  return check;
+}
+}  // namespace
+
+/** The posterior becomes the state; what the map's errors add to its covariance is reported. */
+void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
+{
+  FilterState& filter = state_.filter;
+  filter = match.update.posterior;
+  filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
+  const UpdateByCalibration by_calibration =
+      map_.considerUpdate(work.deskewed, match, filter, beams_);
+  work.explained = calibration_.priorCovariance(by_calibration.correction);
+  if (match.update.updated && match.constraints.unconstrained == 0)
+    calibration_.add(
+        by_calibration.innovation, scanPoseJacobian(filter.x, work.deskewed.compensation),
+        work.predicted.state, match.update);
+  report(result);
+
+  preparation_.describe(work.scan, result.statistics);
+  describeMatch(match, result.statistics);
+  result.statistics.imu_samples = predictor_.inputs().size();
+}
+
+/** The state as it is reported: with what the errors of map and calibration add, and as uncertain
+ * as the innovations show. */
+void Estimator::report(ScanResult& result) const
+{
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  result.filter = state_.filter;
+  result.filter.P *= calibration.innovation_scale;
+  const StateMatrix systematic = calibration.innovation_scale * map_.error().addition() +
+                                 map_.calibrationError().addition(calibration.second_moment);
+  result.filter.P += systematic;
+  result.map_covariance = systematic.topLeftCorner<6, 6>();
+  result.statistics.calibration = checkOf(calibration, beams_);
+}
+
+StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
+{
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  return (calibration.innovation_scale - 1.0) * prediction.state.P +
+         calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
+         map_.calibrationError().additionAfter(
+             prediction.transition, prediction.by_inertial, calibration.second_moment);
+}
+
+}  // namespace fastlio
