@@ -14,6 +14,8 @@ constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it h
 // From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
 constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
 constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
+// The variance of an offset over that of independent residuals: they share the errors of the map.
+constexpr double kSharedNoise = 4.0;
 }  // namespace
 
 void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
@@ -61,7 +63,8 @@ double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
   for (const Offset& offset : offsets)
   {
     if (offset.information < least_information) continue;
-    squares += std::pow(offset.weighted / offset.information, 2);
+    const double square = std::pow(offset.weighted / offset.information, 2);
+    squares += std::max(0.0, square - kSharedNoise / offset.information);
     known += 1.0;
   }
   return known > 0.0 ? squares / known : 0.0;

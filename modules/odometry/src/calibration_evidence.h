@@ -37,8 +37,8 @@ class CalibrationEvidence
       const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
       const FilterState& predicted, const UpdateResult& update);
 
-  /** Covariance of a pose that depends on theta, before the scans tell more of it. */
-  [[nodiscard]] Matrix6 priorCovariance(const PoseByCalibration& pose) const;
+  /** Covariance of a pose that depends on theta, by the prior of the extrinsic. */
+  [[nodiscard]] Matrix6 byExtrinsicPrior(const PoseByCalibration& pose) const;
   /** What all scans so far tell. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
 

@@ -99,7 +99,7 @@ class Estimator
     const ScanPrediction& predicted;
     NavState before;  //!< the state that the prediction began with
     ScanOutcome outcome;
-    Matrix6 explained = Matrix6::Zero();  //!< of the correction, by the calibration's prior
+    Matrix6 explained = Matrix6::Zero();  //!< of the correction, by the extrinsic's prior
   };
 
   [[nodiscard]] FilterRun& run();

@@ -58,7 +58,7 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
   const UpdateByCalibration by_calibration =
       map_.considerUpdate(work.deskewed, match, filter, beams_);
-  work.explained = calibration_.priorCovariance(by_calibration.correction);
+  work.explained = calibration_.byExtrinsicPrior(by_calibration.correction);
   if (match.update.updated && match.constraints.unconstrained == 0)
     calibration_.add(
         by_calibration.innovation, scanPoseJacobian(filter.x, work.deskewed.compensation),

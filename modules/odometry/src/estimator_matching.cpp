@@ -81,6 +81,7 @@ void Estimator::compareMotion(
   else if (match.update.updated && match.constraints.unconstrained == 0)
     agreement_.add(work.before, work.predicted.state, match.update.posterior, work.explained);
   statistics.motion_innovation = agreement_.innovation();
+  statistics.unexplained_motion_innovation = agreement_.unexplainedInnovation();
   statistics.mounting_error = agreement_.mountingError();
 }
 

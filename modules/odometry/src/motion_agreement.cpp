@@ -30,14 +30,14 @@ constexpr double kLeastCorrelation = 0.95;
 constexpr double kLeastSecondAxis = 0.05;
 
 /** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what the
- * calibration explains. */
+ * extrinsic explains. */
 double normalized(
     const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
-    const Matrix6& by_calibration, int block)
+    const Matrix6& by_extrinsic, int block)
 {
   const Vec3 e = correction.segment<3>(block);
   const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block) +
-                 by_calibration.block<3, 3>(block, block);
+                 by_extrinsic.block<3, 3>(block, block);
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
   if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
   return e.dot(ldlt.solve(e).eval()) / 3.0;
@@ -63,13 +63,17 @@ double medianOf(std::array<double, MotionAgreement::kWindow> values)
 
 void MotionAgreement::add(
     const NavState& before, const FilterState& predicted, const FilterState& posterior,
-    const Matrix6& by_calibration)
+    const Matrix6& by_extrinsic)
 {
   const StateVector correction = boxminus(posterior.x, predicted.x);
-  attitude_[corrections_ % kWindow] =
-      normalized(correction, predicted, posterior, by_calibration, kAttitude);
-  position_[corrections_ % kWindow] =
-      normalized(correction, predicted, posterior, by_calibration, kPosition);
+  const std::size_t slot = corrections_ % kWindow;
+  const Matrix6 nothing = Matrix6::Zero();
+  const auto at = [&](int block, const Matrix6& explained)
+  { return normalized(correction, predicted, posterior, explained, block); };
+  explained_.attitude[slot] = at(kAttitude, by_extrinsic);
+  explained_.position[slot] = at(kPosition, by_extrinsic);
+  unexplained_.attitude[slot] = at(kAttitude, nothing);
+  unexplained_.position[slot] = at(kPosition, nothing);
   ++corrections_;
   const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
   if (R_last_scan_)
@@ -84,9 +88,20 @@ void MotionAgreement::restart()
   R_last_scan_.reset();
 }
 
+double MotionAgreement::largerMedian(const Windows& windows) const
+{
+  if (corrections_ < kWindow) return 0.0;
+  return std::max(medianOf(windows.attitude), medianOf(windows.position));
+}
+
 double MotionAgreement::innovation() const
 {
-  return corrections_ < kWindow ? 0.0 : std::max(medianOf(attitude_), medianOf(position_));
+  return largerMedian(explained_);
+}
+
+double MotionAgreement::unexplainedInnovation() const
+{
+  return largerMedian(unexplained_);
 }
 
 void MotionAgreement::addTurn(const Vec3& inertial, const Vec3& scans)

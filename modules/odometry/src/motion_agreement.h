@@ -25,18 +25,20 @@ class MotionAgreement
   /** A scan corrected a prediction.
    * \param before state that the prediction began with
    * \param posterior of the update, before anything else changes it
-   * \param by_calibration covariance of the correction of the pose that the errors of the calibration
-   * explain, as far as the options admit them */
+   * \param by_extrinsic covariance of the correction of the pose that an error of the extrinsic
+   * explains, as far as the options admit one */
   void add(
       const NavState& before, const FilterState& predicted, const FilterState& posterior,
-      const Matrix6& by_calibration);
+      const Matrix6& by_extrinsic);
   /** The next correction says nothing: the run begins, or the pose was searched. */
   void restart();
 
   /** Median over the last scans of e^T S^-1 e / 3 for the correction e of attitude or position,
-   * whichever is larger, with S its covariance, that by the calibration included; about 1 when the
+   * whichever is larger, with S its covariance, that by the extrinsic included; about 1 when the
    * model is true, 0 while too few scans are known. */
   [[nodiscard]] double innovation() const;
+  /** The same with nothing explained by the extrinsic. */
+  [[nodiscard]] double unexplainedInnovation() const;
 
   /** The rotation between the mounting in use and the one that the turns of the last minute show;
    * nothing while they do not tell. */
@@ -47,7 +49,15 @@ class MotionAgreement
 
   using Window = std::array<double, kWindow>;
 
-  Window attitude_{}, position_{};  // rings of e^T S^-1 e / 3
+  /** Rings of e^T S^-1 e / 3. */
+  struct Windows
+  {
+    Window attitude{}, position{};
+  };
+
+  [[nodiscard]] double largerMedian(const Windows& windows) const;
+
+  Windows explained_, unexplained_;
   std::size_t corrections_ = 0;
   std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
   // Sums over the turns between scans, for Wahba's problem.

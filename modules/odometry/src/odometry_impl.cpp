@@ -21,6 +21,7 @@ namespace
 {
 // As classify() has it.
 constexpr double kOddMounting = 0.017453292519943295;  // [rad]; 1 deg
+constexpr double kOddInnovation = 15.0;
 // Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
 constexpr double kOddDeviations = 5.0;
 
@@ -192,6 +193,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   if (loss) reinitialise(*loss, result.stamp_ns);
   reportMounting(result);
   reportExtrinsic(result);
+  reportMotion(result);
   return result;
 }
 
@@ -208,6 +210,22 @@ void Odometry::Impl::reportMounting(const ScanResult& result)
           "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
           "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
           kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
+}
+
+/** Below what makes a scan one in trouble: real sensors may be as imperfect. */
+void Odometry::Impl::reportMotion(const ScanResult& result)
+{
+  const double innovation = result.statistics.unexplained_motion_innovation;
+  if (motion_reported_ || mounting_reported_ || innovation < kOddInnovation) return;
+  motion_reported_ = true;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "scans and inertial data see different motions, %.0f times as far apart as their noise "
+          "explains; a mounting (T_imu_lidar) or inertial sensor that is slightly off explains a "
+          "part of it, and the covariance counts that. Otherwise: check units, point times, clocks "
+          "and clipped or missing inertial readings",
+          innovation));
 }
 
 /** Smaller than what reportMounting() sees, and after a longer time. */

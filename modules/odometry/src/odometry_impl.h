@@ -54,6 +54,7 @@ class Odometry::Impl
   void report(std::int64_t stamp_ns, std::string text);
   void reportMounting(const ScanResult& result);
   void reportExtrinsic(const ScanResult& result);
+  void reportMotion(const ScanResult& result);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
   [[nodiscard]] bool usable(const ScanSpan& span);
   [[nodiscard]] QueuedScan popScan();
@@ -66,7 +67,7 @@ class Odometry::Impl
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;
-  bool mounting_reported_ = false, extrinsic_reported_ = false;
+  bool mounting_reported_ = false, extrinsic_reported_ = false, motion_reported_ = false;
   std::vector<ImuRateState> imu_rate_in_world_;  // where map_origin_ is not zero
 };
 

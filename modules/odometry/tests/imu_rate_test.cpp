@@ -89,7 +89,12 @@ TEST(ImuRate, ItsStampsAreThoseOfTheSamplesEachOnce)
 
 TEST(ImuRate, EachStateContinuesTheOneBefore)
 {
-  for (const Step& step : stepsOf(imuRateParameters(), room()))
+  // What a wrong calibration does to the pose may become less on the way back.
+  OdometryOptions calibrated = imuRateParameters();
+  calibrated.calibration.extrinsic_rotation_std = 0.0;
+  calibrated.calibration.extrinsic_translation_std = 0.0;
+  calibrated.calibration.imu_scale_std = calibrated.calibration.imu_misalignment_std = 0.0;
+  for (const Step& step : stepsOf(calibrated, room()))
     for (std::size_t i = 1; i < step.before.size(); ++i)
     {
       const ImuRateState &a = step.before[i - 1], &b = step.before[i];

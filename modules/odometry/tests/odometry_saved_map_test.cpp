@@ -126,7 +126,9 @@ TEST(SavedMap, CoordinatesFarFromTheOriginKeepTheirPrecision)
   {
     ASSERT_EQ(seen[i].status, expected[i].status);
     ASSERT_LT((seen[i].filter.x.p - map.origin - expected[i].filter.x.p).norm(), kRounding) << i;
-    ASSERT_LT((seen[i].filter.P - expected[i].filter.P).norm(), kRounding) << i;
+    // The least squares of the calibration amplifies what is rounded.
+    const double size = expected[i].filter.P.norm();
+    ASSERT_LT((seen[i].filter.P - expected[i].filter.P).norm(), 1e-4 * size) << i;
   }
   ASSERT_FALSE(far.imuRateStates().empty());
   EXPECT_LT(

@@ -102,7 +102,8 @@ struct ScanStatistics
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   double motion_innovation = 0.0;  //!< of the last scans: corrections of the predicted pose over
-                                   //!< what is expected of them; 0: too few scans
+                                   //!< what noise and extrinsic explain; 0: too few scans
+  double unexplained_motion_innovation = 0.0;   //!< the same over what the noise alone explains
   std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
   CalibrationCheck calibration;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
