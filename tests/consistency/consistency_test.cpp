@@ -227,7 +227,6 @@ class RealisticConsistency : public ::testing::TestWithParam<ConsistencyCase>
 constexpr ConsistencyCase kRealisticCases[] = {
     {"OfficeVlp16", "office", LidarKind::Vlp16, 2},
     {"CampusVlp16", "campus", LidarKind::Vlp16, 2},
-    {"ParkVlp16", "park", LidarKind::Vlp16, 2},
     {"CampusOs64", "campus", LidarKind::Os64, 4},
 };
 
