@@ -25,6 +25,18 @@ void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
   in_scan += derivative * point.weighted_h;
 }
 
+BeamErrors::BeamErrors()
+{
+  for (std::size_t edge = 0; edge < sine_of_edge_.size(); ++edge)
+    sine_of_edge_[edge] = std::sin(kBin * (static_cast<double>(edge + 1) - 0.5 * kBins));
+}
+
+std::size_t BeamErrors::binOf(double sine) const
+{
+  const auto above = std::upper_bound(sine_of_edge_.begin(), sine_of_edge_.end(), sine);
+  return static_cast<std::size_t>(above - sine_of_edge_.begin());
+}
+
 void BeamErrors::add(
     const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points)
 {
@@ -44,16 +56,15 @@ void BeamErrors::add(
     const Vec3 beam = R_lidar_scan * (in_body - scan.T_imu_lidar.p);
     const double range = beam.norm();
     const Vec3 direction = beam / range;
-    const double cosine = std::hypot(direction.x(), direction.y());
+    const double sine = direction.z();  // of the elevation
+    const double cosine = std::sqrt(1.0 - sine * sine);
     if (!(cosine > kLeastCosine)) continue;
-    const double elevation = std::atan2(direction.z(), cosine);
-    const double bin_number = std::max(0.0, std::floor(elevation / kBin + 0.5 * kBins));
-    const auto bin = std::min(kBins - 1, static_cast<std::size_t>(bin_number));
-    const Vec3 upward(
-        -direction.z() * direction.x() / cosine, -direction.z() * direction.y() / cosine, cosine);
     const Vec3 normal = R_lidar_world * Vec3(point.weighted_h.tail<3>() / point.weight);
-    range_[bin].add(point, normal.dot(direction));
-    elevation_[bin].add(point, range * normal.dot(upward));
+    const double along = normal.dot(direction);
+    const double upward = (normal.z() - sine * along) / cosine;  // across the beam
+    const std::size_t bin = binOf(sine);
+    range_[bin].add(point, along);
+    elevation_[bin].add(point, range * upward);
   }
 }
 

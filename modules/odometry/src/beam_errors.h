@@ -9,6 +9,7 @@
 #include <fastlio/odometry/plane_groups.h>
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace fastlio
@@ -19,6 +20,8 @@ namespace fastlio
 class BeamErrors
 {
  public:
+  BeamErrors();
+
   /** A scan was matched. \param R_world_scan attitude of the scan pose
    * \param points its measurements, as those of \a scan.surfaces */
   void add(
@@ -46,8 +49,10 @@ class BeamErrors
   static constexpr std::size_t kBins = 90;
   using Offsets = std::array<Offset, kBins>;
 
+  [[nodiscard]] std::size_t binOf(double sine) const;
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
 
+  std::array<double, kBins - 1> sine_of_edge_{};  // of the elevation between one bin and the next
   Offsets range_, elevation_;
 };
 

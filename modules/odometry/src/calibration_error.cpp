@@ -54,12 +54,7 @@ UpdateByCalibration CalibrationErrorModel::update(
 void CalibrationErrorModel::recordInsertion(
     std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state)
 {
-  if (insertions_.size() >= kMaxInsertions)
-  {
-    for (std::size_t i = 0; 2 * i < insertions_.size(); ++i)
-      insertions_[i] = insertions_[2 * i];
-    insertions_.resize((insertions_.size() + 1) / 2);
-  }
+  if (insertions_.size() >= kMaxInsertions) keepEverySecond(insertions_);
   insertions_.push_back({scan, 0.0, product(twistJacobian(T_world_scan), ofScan(by_state))});
 }
 

@@ -22,11 +22,6 @@ constexpr double kKnownDegeneracy = 0.6;  // a direction that is left to the ine
 constexpr double kPredicted = 0.25;
 // Position error along a degenerate direction that few users of a trajectory can live with [m].
 constexpr double kMaxDegenerateStd = 0.5;
-// Corrections of the prediction over what its covariance explains. Realistic sensors reach 8; a
-// mounting that is 5 deg wrong 29.
-constexpr double kMaxMotionInnovation = 15.0;
-// An estimate from the motion is good to some tenths of a degree.
-constexpr double kMaxMountingError = 0.017453292519943295;  // [rad]; 1 deg
 // Smallest eigenvalue of H^T R^-1 H: the scan knows each direction to 0.1 m or 0.1 rad.
 constexpr double kMinInformation = 100.0;
 // Fraction of the time that inertial data may be in doubt: longer bridges bend the scan.

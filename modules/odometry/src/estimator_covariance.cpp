@@ -5,20 +5,12 @@
 
 #include "estimator.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <cmath>
 
 namespace fastlio
 {
 namespace
 {
-Vector6 eigenvalues(const Matrix6& m)
-{
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(m, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
-
 void describeMatch(const MatchResult& match, ScanStatistics& statistics)
 {
   const InformationSums& sums = match.update.last;
@@ -30,7 +22,18 @@ void describeMatch(const MatchResult& match, ScanStatistics& statistics)
   const auto n = static_cast<double>(sums.count);
   statistics.residual_rms = std::sqrt(sums.squares / n);
   statistics.normalized_innovation = sums.weighted_squares / n;
-  statistics.information_eigenvalues = eigenvalues(sums.HtRinvH);
+  statistics.information_eigenvalues = symmetricEigenvalues(sums.HtRinvH);
+}
+
+LinearizedUpdate linearized(
+    const CompensatedWith& compensation, const MatchResult& match, const NavState& posterior)
+{
+  LinearizedUpdate update;
+  update.T_world_scan = scanPose(posterior, compensation);
+  update.by_state = scanPoseJacobian(posterior, compensation);
+  update.constrained = match.constraints.projection;
+  update.gain = match.update.gain;
+  return update;
 }
 
 CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamErrors& beams)
@@ -56,13 +59,13 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   FilterState& filter = state_.filter;
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
+  const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
   const UpdateByCalibration by_calibration =
-      map_.considerUpdate(work.deskewed, match, filter, beams_);
+      map_.considerUpdate(work.deskewed, match, update, beams_);
   work.explained = calibration_.byExtrinsicPrior(by_calibration.correction);
   if (match.update.updated && match.constraints.unconstrained == 0)
     calibration_.add(
-        by_calibration.innovation, scanPoseJacobian(filter.x, work.deskewed.compensation),
-        work.predicted.state, match.update);
+        by_calibration.innovation, update.by_state, work.predicted.state, match.update);
   report(result);
 
   preparation_.describe(work.scan, result.statistics);

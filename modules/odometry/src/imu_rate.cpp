@@ -7,14 +7,14 @@
 namespace fastlio
 {
 std::optional<ImuRateState> imuRateState(
-    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_covariance,
+    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& systematic,
     const ImuBuffer& imu)
 {
   const ImuSample* sample = imu.sampleAt(stamp_ns);
   if (sample == nullptr) return std::nullopt;
   return ImuRateState{
       stamp_ns, propagated.x, sample->gyro - propagated.x.gyro_bias,
-      propagated.P.topLeftCorner<6, 6>() + map_covariance.topLeftCorner<6, 6>()};
+      propagated.P.topLeftCorner<6, 6>() + systematic.topLeftCorner<6, 6>()};
 }
 
 }  // namespace fastlio

@@ -17,6 +17,14 @@ namespace fastlio
  * changes slowly. */
 inline constexpr std::size_t kMaxInsertions = 256;
 
+template <typename Insertion>
+void keepEverySecond(std::vector<Insertion>& insertions)
+{
+  for (std::size_t i = 0; 2 * i < insertions.size(); ++i)
+    insertions[i] = insertions[2 * i];
+  insertions.resize((insertions.size() + 1) / 2);
+}
+
 /** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
  * created. \param insertions ascending by scan; older ones may have been dropped */
 template <typename Insertion>

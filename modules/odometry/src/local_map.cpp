@@ -61,14 +61,9 @@ void LocalMap::propagateError(const StateMatrix& transition, const InertialSensi
 }
 
 UpdateByCalibration LocalMap::considerUpdate(
-    const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
+    const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
     BeamErrors& beams)
 {
-  LinearizedUpdate update;
-  update.T_world_scan = scanPose(posterior.x, scan.compensation);
-  update.by_state = scanPoseJacobian(posterior.x, scan.compensation);
-  update.constrained = match.constraints.projection;
-  update.gain = match.update.gain;
   const GroupedMeasurements& measurements =
       groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model);
   beams.add(update.T_world_scan.R, scan, groups_.points());

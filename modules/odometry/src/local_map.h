@@ -61,10 +61,10 @@ class LocalMap
       const StateMatrix& transition,
       const InertialSensitivity& by_inertial = InertialSensitivity::Zero());
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
-   * \param posterior of the update \param beams learn from the scan's residuals
+   * \param beams learn from the scan's residuals
    * \return how the update depends on the error of the calibration */
   UpdateByCalibration considerUpdate(
-      const DeskewedScan& scan, const MatchResult& match, const FilterState& posterior,
+      const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
       BeamErrors& beams);
 
   /** The scan matches as scans usually match this map. While the map consists of a few scans, any

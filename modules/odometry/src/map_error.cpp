@@ -122,13 +122,9 @@ TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>
 
 void MapErrorModel::thinOut()
 {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < insertions_.size(); i += 2)
-  {
-    if (i > 0) insertions_[i].memory *= insertions_[i - 1].memory;
-    insertions_[kept++] = insertions_[i];
-  }
-  insertions_.resize(kept);
+  for (std::size_t i = 2; i < insertions_.size(); i += 2)
+    insertions_[i].memory *= insertions_[i - 1].memory;
+  keepEverySecond(insertions_);
 }
 
 void MapErrorModel::propagate(const StateMatrix& transition)

@@ -19,9 +19,6 @@ namespace fastlio
 {
 namespace
 {
-// As classify() has it.
-constexpr double kOddMounting = 0.017453292519943295;  // [rad]; 1 deg
-constexpr double kOddInnovation = 15.0;
 // Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
 constexpr double kOddDeviations = 5.0;
 
@@ -200,7 +197,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
 void Odometry::Impl::reportMounting(const ScanResult& result)
 {
   const std::optional<MountingError>& error = result.statistics.mounting_error;
-  if (mounting_reported_ || !error || error->angle < kOddMounting) return;
+  if (mounting_reported_ || !error || error->angle < kMaxMountingError) return;
   mounting_reported_ = true;
   const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
   report(
@@ -216,7 +213,7 @@ void Odometry::Impl::reportMounting(const ScanResult& result)
 void Odometry::Impl::reportMotion(const ScanResult& result)
 {
   const double innovation = result.statistics.unexplained_motion_innovation;
-  if (motion_reported_ || mounting_reported_ || innovation < kOddInnovation) return;
+  if (motion_reported_ || mounting_reported_ || innovation < kMaxMotionInnovation) return;
   motion_reported_ = true;
   report(
       result.stamp_ns,

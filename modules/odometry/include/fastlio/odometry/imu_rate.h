@@ -23,13 +23,13 @@ struct ImuRateState
   NavState x;                                 //!< IMU body in the world
   Vec3 angular_rate = Vec3::Zero();           //!< IMU frame, gyro bias removed [rad/s]
   Matrix6 pose_covariance = Matrix6::Zero();  //!< attitude (IMU frame) [rad], position (world) [m];
-                                              //!< with what the map's errors add
+                                              //!< with what systematic errors add
 };
 
 /** The propagated state at \a stamp_ns as an ImuRateState; nothing when \a imu has no sample with
- * this very stamp. \param map_covariance what the map's errors add to the covariance */
+ * this very stamp. \param systematic what errors of map and calibration add to the covariance */
 [[nodiscard]] std::optional<ImuRateState> imuRateState(
-    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& map_covariance,
+    std::int64_t stamp_ns, const FilterState& propagated, const StateMatrix& systematic,
     const ImuBuffer& imu);
 
 }  // namespace fastlio
