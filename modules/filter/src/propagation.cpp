@@ -37,19 +37,18 @@ ProcessBlocks processBlocks(const NavState& x, const Vec3& gyro, const Vec3& acc
   return b;
 }
 
-constexpr int kMotionDim = 9;  //!< attitude, position, velocity: the rows of Fx that differ from I
-using MotionRows = Eigen::Matrix<double, kMotionDim, kStateDim>;
+using AlignedMotionRows = Eigen::Matrix<double, kMotionDim, kStateDim>;
 using MotionSquare = Eigen::Matrix<double, kMotionDim, kMotionDim>;
 
-/** The first nine rows of Fx P, for P a covariance or a product of such Fx. */
-MotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
+/** The first nine rows of Fx P. */
+AlignedMotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
 {
   using Rows = Eigen::Matrix<double, 3, kStateDim>;
   const Rows gained = dt * P.middleRows<3>(kGravity) +
                       F.velocity_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
                       F.velocity_gyro_bias.lazyProduct(P.middleRows<3>(kGyroBias)) +
                       F.velocity_accel_bias.lazyProduct(P.middleRows<3>(kAccelBias));
-  MotionRows m;
+  AlignedMotionRows m;
   m.middleRows<3>(kAttitude).noalias() =
       F.attitude_attitude.lazyProduct(P.middleRows<3>(kAttitude)) +
       F.attitude_gyro_bias.lazyProduct(P.middleRows<3>(kGyroBias));
@@ -60,7 +59,7 @@ MotionRows leftMultiply(const ProcessBlocks& F, const StateMatrix& P, double dt)
 }
 
 /** The first nine columns of (rows of Fx P) Fx^T. */
-MotionSquare rightMultiply(const MotionRows& m, const ProcessBlocks& F, double dt)
+MotionSquare rightMultiply(const AlignedMotionRows& m, const ProcessBlocks& F, double dt)
 {
   using Columns = Eigen::Matrix<double, kMotionDim, 3>;
   const Columns gained = dt * m.middleCols<3>(kGravity) +
@@ -100,20 +99,70 @@ void addNoise(StateMatrix& P, const ProcessBlocks& F, const ImuNoise& noise, dou
   P.diagonal().segment<3>(kAccelBias).array() += square(noise.accel_bias_walk) * dt;
 }
 
-/** Eq. 8 from the blocks of Fx: only the first nine rows and columns of P change but for noise. */
-StateMatrix propagateCovariance(
-    const StateMatrix& P, const ProcessBlocks& F, double dt, const ImuNoise& noise)
+/** Phi P Phi^T, of which only the first nine rows and columns differ from P, from those rows of
+ * Phi P and from \a motion, the corner of Phi P Phi^T. */
+StateMatrix assembled(
+    const StateMatrix& P, const AlignedMotionRows& rows, const MotionSquare& motion)
 {
   constexpr int kRest = kStateDim - kMotionDim;
-  const MotionRows rows = leftMultiply(F, P, dt);
-  const MotionSquare motion = rightMultiply(rows, F, dt);
   StateMatrix out;
   out.topLeftCorner<kMotionDim, kMotionDim>() = 0.5 * (motion + motion.transpose());
   out.topRightCorner<kMotionDim, kRest>() = rows.rightCols<kRest>();
   out.bottomLeftCorner<kRest, kMotionDim>() = rows.rightCols<kRest>().transpose();
   out.bottomRightCorner<kRest, kRest>() = P.bottomRightCorner<kRest, kRest>();
+  return out;
+}
+
+/** Eq. 8 from the blocks of Fx. */
+StateMatrix propagateCovariance(
+    const StateMatrix& P, const ProcessBlocks& F, double dt, const ImuNoise& noise)
+{
+  const AlignedMotionRows rows = leftMultiply(F, P, dt);
+  StateMatrix out = assembled(P, rows, rightMultiply(rows, F, dt));
   addNoise(out, F, noise, dt);
   return out;
+}
+
+/** Fx Phi, its first nine rows. */
+MotionRows chained(const MotionRows& Phi, const ProcessBlocks& F, double dt)
+{
+  using Rows = Eigen::Matrix<double, 3, kStateDim>;
+  const auto attitude = Phi.middleRows<3>(kAttitude);
+  Rows turned = F.attitude_attitude.lazyProduct(attitude);
+  turned.middleCols<3>(kGyroBias) += F.attitude_gyro_bias;
+  Rows gained = F.velocity_attitude.lazyProduct(attitude);
+  gained.middleCols<3>(kGyroBias) += F.velocity_gyro_bias;
+  gained.middleCols<3>(kAccelBias) += F.velocity_accel_bias;
+  gained.middleCols<3>(kGravity).diagonal().array() += dt;
+  MotionRows next;
+  next.middleRows<3>(kAttitude) = turned;
+  next.middleRows<3>(kPosition) =
+      Phi.middleRows<3>(kPosition) + dt * Phi.middleRows<3>(kVelocity) + (0.5 * dt) * gained;
+  next.middleRows<3>(kVelocity) = Phi.middleRows<3>(kVelocity) + gained;
+  return next;
+}
+
+/** The sensitivity after one more step, with rate and specific force free of their biases. */
+InertialSensitivity chained(
+    const InertialSensitivity& Psi, const ProcessBlocks& F, const Vec3& rate, const Vec3& force,
+    double dt)
+{
+  using Rows = Eigen::Matrix<double, 3, 18>;
+  const auto attitude = Psi.middleRows<3>(kAttitude);
+  Rows turned = F.attitude_attitude.lazyProduct(attitude);
+  Rows gained = F.velocity_attitude.lazyProduct(attitude);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    turned.middleCols<3>(3 * axis) -= rate[axis] * F.attitude_gyro_bias;
+    gained.middleCols<3>(3 * axis) -= rate[axis] * F.velocity_gyro_bias;
+    gained.middleCols<3>(9 + 3 * axis) -= force[axis] * F.velocity_accel_bias;
+  }
+  InertialSensitivity next;
+  next.middleRows<3>(kAttitude) = turned;
+  next.middleRows<3>(kPosition) =
+      Psi.middleRows<3>(kPosition) + dt * Psi.middleRows<3>(kVelocity) + (0.5 * dt) * gained;
+  next.middleRows<3>(kVelocity) = Psi.middleRows<3>(kVelocity) + gained;
+  return next;
 }
 }  // namespace
 
@@ -159,37 +208,20 @@ ProcessJacobians processJacobians(const NavState& x, const Vec3& gyro, const Vec
   return j;
 }
 
-StateMatrix chainTransition(
-    const StateMatrix& transition, const NavState& x, const Vec3& gyro, const Vec3& accel,
-    double dt)
+StateMatrix ErrorTransition::onBothSidesOf(const StateMatrix& P) const
 {
-  StateMatrix next = transition;
-  next.topRows<kMotionDim>() = leftMultiply(processBlocks(x, gyro, accel, dt), transition, dt);
-  return next;
+  const AlignedMotionRows rows = product(by_state, P);
+  return assembled(P, rows, productByTransposed(rows, by_state));
 }
 
-InertialSensitivity chainSensitivity(
-    const InertialSensitivity& sensitivity, const NavState& x, const Vec3& gyro, const Vec3& accel,
+ErrorTransition chain(
+    const ErrorTransition& before, const NavState& x, const Vec3& gyro, const Vec3& accel,
     double dt)
 {
-  using Rows = Eigen::Matrix<double, 3, 18>;
   const ProcessBlocks F = processBlocks(x, gyro, accel, dt);
-  const Vec3 rate = gyro - x.gyro_bias, force = accel - x.accel_bias;
-  const Rows by_attitude = sensitivity.middleRows<3>(kAttitude);
-  Rows turned = F.attitude_attitude.lazyProduct(by_attitude);
-  Rows gained = F.velocity_attitude.lazyProduct(by_attitude);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    turned.middleCols<3>(3 * axis) -= rate[axis] * F.attitude_gyro_bias;
-    gained.middleCols<3>(3 * axis) -= rate[axis] * F.velocity_gyro_bias;
-    gained.middleCols<3>(9 + 3 * axis) -= force[axis] * F.velocity_accel_bias;
-  }
-  InertialSensitivity next;
-  next.middleRows<3>(kAttitude) = turned;
-  next.middleRows<3>(kPosition) = sensitivity.middleRows<3>(kPosition) +
-                                  dt * sensitivity.middleRows<3>(kVelocity) + (0.5 * dt) * gained;
-  next.middleRows<3>(kVelocity) = sensitivity.middleRows<3>(kVelocity) + gained;
-  return next;
+  return {
+      chained(before.by_state, F, dt),
+      chained(before.by_inertial, F, gyro - x.gyro_bias, accel - x.accel_bias, dt)};
 }
 
 // Eq. 4 (mean, w = 0) and eq. 8 (covariance).

@@ -230,6 +230,23 @@ TEST(Propagation, aStepBackInTimeIsRefused)
   }
 }
 
+TEST(Propagation, transitionIsTheProductOfTheJacobians)
+{
+  testing::Random random(19);
+  StateMatrix Phi = StateMatrix::Identity();
+  ErrorTransition transition;
+  for (const Case& step : cases(19))
+  {
+    transition = chain(transition, step.x, step.gyro, step.accel, step.dt);
+    Phi = processJacobians(step.x, step.gyro, step.accel, step.dt).Fx * Phi;
+  }
+  const StateMatrix P = random.covariance(1.0, 10.0);
+  const double size = Phi.norm();
+  EXPECT_LT((transition.times(StateMatrix(StateMatrix::Identity())) - Phi).norm(), 1e-12 * size);
+  const StateMatrix expected = Phi * P * Phi.transpose();
+  EXPECT_LT((transition.onBothSidesOf(P) - expected).norm(), 1e-12 * expected.norm());
+}
+
 /** Two steps through readings of a sensor whose matrices are I + error, or as if they were I. */
 NavState motionWith(
     const std::array<Case, 2>& steps, const Mat3& gyro_error, const Mat3& accel_error)
@@ -252,11 +269,11 @@ TEST(Propagation, sensitivityIsTheDerivativeByTheMatricesOfTheSensor)
   {
     const std::array<Case, 2> steps{all[i], all[i + 1]};
     const NavState taken_for_true = motionWith(steps, Mat3::Zero(), Mat3::Zero());
-    InertialSensitivity sensitivity = InertialSensitivity::Zero();
+    ErrorTransition transition;
     NavState x = steps[0].x;
     for (const Case& step : steps)
     {
-      sensitivity = chainSensitivity(sensitivity, x, step.gyro, step.accel, step.dt);
+      transition = chain(transition, x, step.gyro, step.accel, step.dt);
       x = propagateMean(x, step.gyro, step.accel, step.dt);
     }
     for (int k = 0; k < 18; ++k)
@@ -271,7 +288,8 @@ TEST(Propagation, sensitivityIsTheDerivativeByTheMatricesOfTheSensor)
       };
       const StateVector numeric = (errorWith(kStep) - errorWith(-kStep)) / (2.0 * kStep);
       const double size = 1.0 + numeric.norm();
-      EXPECT_LT((numeric.head<9>() - sensitivity.col(k)).norm(), 1e-4 * size) << i << ", " << k;
+      EXPECT_LT((numeric.head<9>() - transition.by_inertial.col(k)).norm(), 1e-4 * size)
+          << i << ", " << k;
     }
   }
 }

@@ -25,26 +25,15 @@ void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
   in_scan += derivative * point.weighted_h;
 }
 
-BeamErrors::BeamErrors()
-{
-  for (std::size_t edge = 0; edge < sine_of_edge_.size(); ++edge)
-    sine_of_edge_[edge] = std::sin(kBin * (static_cast<double>(edge + 1) - 0.5 * kBins));
-}
-
-std::size_t BeamErrors::binOf(double sine) const
-{
-  const auto above = std::upper_bound(sine_of_edge_.begin(), sine_of_edge_.end(), sine);
-  return static_cast<std::size_t>(above - sine_of_edge_.begin());
-}
-
 void BeamErrors::add(
     const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points)
 {
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_scan.setZero();
-  const Mat3 R_lidar_scan = scan.T_imu_lidar.R.transpose();
-  const Mat3 R_lidar_world = R_lidar_scan * R_world_scan.transpose();
+  // All in the axes of the body.
+  const Mat3 R_scan_world = R_world_scan.transpose();
+  const Vec3 origin = scan.T_imu_lidar.p, up = scan.T_imu_lidar.R.col(2);
   const BodyPoints& body = scan.surfaces;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -53,16 +42,15 @@ void BeamErrors::add(
     const Vec3 in_body(
         static_cast<double>(body.x[i]), static_cast<double>(body.y[i]),
         static_cast<double>(body.z[i]));
-    const Vec3 beam = R_lidar_scan * (in_body - scan.T_imu_lidar.p);
+    const Vec3 beam = in_body - origin;
     const double range = beam.norm();
-    const Vec3 direction = beam / range;
-    const double sine = direction.z();  // of the elevation
+    const double sine = up.dot(beam) / range;  // of the elevation
     const double cosine = std::sqrt(1.0 - sine * sine);
     if (!(cosine > kLeastCosine)) continue;
-    const Vec3 normal = R_lidar_world * Vec3(point.weighted_h.tail<3>() / point.weight);
-    const double along = normal.dot(direction);
-    const double upward = (normal.z() - sine * along) / cosine;  // across the beam
-    const std::size_t bin = binOf(sine);
+    const Vec3 normal = R_scan_world * point.weighted_h.tail<3>() / point.weight;
+    const double along = normal.dot(beam) / range;
+    const double upward = (normal.dot(up) - sine * along) / cosine;  // across the beam
+    const auto bin = static_cast<std::size_t>((sine + 1.0) * kBinsPerUnit);
     range_[bin].add(point, along);
     elevation_[bin].add(point, range * upward);
   }
@@ -81,14 +69,24 @@ double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
   return known > 0.0 ? squares / known : 0.0;
 }
 
+double BeamErrors::rangeVariance() const
+{
+  return meanSquare(range_, kLeastRangeInformation);
+}
+
+double BeamErrors::elevationVariance() const
+{
+  return meanSquare(elevation_, kLeastElevationInformation);
+}
+
 double BeamErrors::rangeOffset() const
 {
-  return std::sqrt(meanSquare(range_, kLeastRangeInformation));
+  return std::sqrt(rangeVariance());
 }
 
 double BeamErrors::elevationOffset() const
 {
-  return std::sqrt(meanSquare(elevation_, kLeastElevationInformation));
+  return std::sqrt(elevationVariance());
 }
 
 Matrix6 BeamErrors::covariance() const
@@ -98,7 +96,7 @@ Matrix6 BeamErrors::covariance() const
     by_range += offset.in_scan * offset.in_scan.transpose();
   for (const Offset& offset : elevation_)
     by_elevation += offset.in_scan * offset.in_scan.transpose();
-  return std::pow(rangeOffset(), 2) * by_range + std::pow(elevationOffset(), 2) * by_elevation;
+  return rangeVariance() * by_range + elevationVariance() * by_elevation;
 }
 
 }  // namespace fastlio

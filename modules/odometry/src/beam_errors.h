@@ -20,8 +20,6 @@ namespace fastlio
 class BeamErrors
 {
  public:
-  BeamErrors();
-
   /** A scan was matched. \param R_world_scan attitude of the scan pose
    * \param points its measurements, as those of \a scan.surfaces */
   void add(
@@ -43,16 +41,17 @@ class BeamErrors
 
     void add(const PointMeasurement& point, double derivative);
   };
-  // The lasers of a VLP-16 are 2 deg apart, at odd degrees: in the middle of a bin. Denser LiDARs
-  // have several in a bin, whose mean counts.
-  static constexpr double kBin = 0.034906585039886591;  // [rad]
-  static constexpr std::size_t kBins = 90;
+  // Bins are as wide in the sine of the elevation as 2 deg at the horizon, where an edge is. The
+  // lasers of a VLP-16 are 2 deg apart, at odd degrees: in the middle of a bin. Denser LiDARs have
+  // several in a bin, whose mean counts.
+  static constexpr double kBinsPerUnit = 28.65;  // 1 / sin(2 deg)
+  static constexpr std::size_t kBins = 58;
   using Offsets = std::array<Offset, kBins>;
 
-  [[nodiscard]] std::size_t binOf(double sine) const;
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
+  [[nodiscard]] double rangeVariance() const;
+  [[nodiscard]] double elevationVariance() const;
 
-  std::array<double, kBins - 1> sine_of_edge_{};  // of the elevation between one bin and the next
   Offsets range_, elevation_;
 };
 

@@ -12,11 +12,15 @@ CalibrationErrorModel::CalibrationErrorModel()
   insertions_.reserve(kMaxInsertions);
 }
 
-void CalibrationErrorModel::propagate(
-    const StateMatrix& transition, const InertialSensitivity& by_inertial)
+void CalibrationErrorModel::propagate(const ErrorTransition& transition)
 {
-  S_ = product(transition, S_);
-  S_.block<9, 18>(0, kGyroMatrixError) += by_inertial;
+  S_ = transition.times(S_);
+  S_.block<kMotionDim, 18>(0, kGyroMatrixError) += transition.by_inertial;
+}
+
+void CalibrationErrorModel::correct(const StateMatrix& kept)
+{
+  S_ = product(kept, S_);
 }
 
 PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state) const
@@ -64,12 +68,11 @@ StateMatrix CalibrationErrorModel::addition(const CalibrationErrorMatrix& moment
 }
 
 StateMatrix CalibrationErrorModel::additionAfter(
-    const StateMatrix& transition, const InertialSensitivity& by_inertial,
-    const CalibrationErrorMatrix& moment) const
+    const ErrorTransition& transition, const CalibrationErrorMatrix& moment) const
 {
   CalibrationErrorModel then;
   then.S_ = S_;
-  then.propagate(transition, by_inertial);
+  then.propagate(transition);
   return then.addition(moment);
 }
 

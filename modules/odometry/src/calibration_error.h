@@ -53,8 +53,10 @@ class CalibrationErrorModel
  public:
   CalibrationErrorModel();
 
-  /** From scan to scan. \param transition product of the Fx */
-  void propagate(const StateMatrix& transition, const InertialSensitivity& by_inertial);
+  /** From scan to scan. */
+  void propagate(const ErrorTransition& transition);
+  /** Through an update without a scan. \param kept I - K H */
+  void correct(const StateMatrix& kept);
   /** Takes in an update of the filter with the measurements \a scan. */
   UpdateByCalibration update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
   /** Remembers how the planes that insertion number \a scan makes depend on theta. */
@@ -65,8 +67,7 @@ class CalibrationErrorModel
   [[nodiscard]] StateMatrix addition(const CalibrationErrorMatrix& moment) const;
   /** The same, some way after the last scan. */
   [[nodiscard]] StateMatrix additionAfter(
-      const StateMatrix& transition, const InertialSensitivity& by_inertial,
-      const CalibrationErrorMatrix& moment) const;
+      const ErrorTransition& transition, const CalibrationErrorMatrix& moment) const;
 
  private:
   struct Insertion

@@ -18,6 +18,10 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using SquareTheta = Eigen::Matrix<double, kCalibrationErrorDim, kCalibrationErrorDim>;
 using VecTheta = Eigen::Matrix<double, kCalibrationErrorDim, 1>;
 
+// Beside so many scans one more tells little: from then on one in so many is followed by a solution.
+constexpr int kScansSolvedEach = 20;
+constexpr int kScansPerSolution = 10;
+
 bool isPositive(const Eigen::LDLT<Square6>& ldlt)
 {
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 0.0;
@@ -62,7 +66,8 @@ void CalibrationEvidence::add(
   weighted_ -= innovation.transpose() * Wy;
   squares_ += Wy.dot(information_ldlt.solve(Wy) + P * Wy);
   count_ += 6.0;
-  solve();
+  ++scans_;
+  if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0) solve();
 }
 
 Matrix6 CalibrationEvidence::byExtrinsicPrior(const PoseByCalibration& pose) const

@@ -50,6 +50,7 @@ class CalibrationEvidence
   CalibrationErrorVector weighted_ = CalibrationErrorVector::Zero();
   double squares_ = 0.0;  // of the normalised innovations
   double count_ = 0.0;    // of their elements
+  int scans_ = 0;
   CalibrationEstimate estimate_;
 };
 

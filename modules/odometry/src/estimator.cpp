@@ -98,7 +98,7 @@ ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
       run().trusted);
   predicted.blind_s = toSeconds(end_ns - state_.stamp_ns);
   considerUnmodelledAcceleration(predicted.state, predicted.blind_s);
-  map_.propagateError(predicted.transition, predicted.by_inertial);
+  map_.propagateError(predicted.transition);
   timings_.propagate = watch.milliseconds();
   return predicted;
 }
@@ -175,7 +175,7 @@ void Estimator::applyZeroVelocityUpdate(bool matched, ScanResult& result)
     return;
   }
   filter = update->posterior;
-  map_.propagateError(update->kept);  // the map's error goes through the same correction
+  map_.correctError(update->kept);  // the map's error goes through the same correction
   report(result);
   result.statistics.at_rest = true;
 }

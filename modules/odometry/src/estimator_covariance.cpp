@@ -92,8 +92,7 @@ StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
   const CalibrationEstimate& calibration = calibration_.estimate();
   return (calibration.innovation_scale - 1.0) * prediction.state.P +
          calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
-         map_.calibrationError().additionAfter(
-             prediction.transition, prediction.by_inertial, calibration.second_moment);
+         map_.calibrationError().additionAfter(prediction.transition, calibration.second_moment);
 }
 
 }  // namespace fastlio

@@ -54,10 +54,16 @@ LocalMap::LocalMap(
   error_.recordInsertion(0, InsertionError{}, Pose{});
 }
 
-void LocalMap::propagateError(const StateMatrix& transition, const InertialSensitivity& by_inertial)
+void LocalMap::propagateError(const ErrorTransition& transition)
 {
   error_.propagate(transition);
-  calibration_.propagate(transition, by_inertial);
+  calibration_.propagate(transition);
+}
+
+void LocalMap::correctError(const StateMatrix& kept)
+{
+  error_.correct(kept);
+  calibration_.correct(kept);
 }
 
 UpdateByCalibration LocalMap::considerUpdate(

@@ -55,11 +55,10 @@ class LocalMap
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
   [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
 
-  /** Carries the errors of map and calibration in the state through a linear change of the state's
-   * error. */
-  void propagateError(
-      const StateMatrix& transition,
-      const InertialSensitivity& by_inertial = InertialSensitivity::Zero());
+  /** What errors of map and calibration make of the state passes on from scan to scan. */
+  void propagateError(const ErrorTransition& transition);
+  /** The same through an update without a scan. \param kept I - K H */
+  void correctError(const StateMatrix& kept);
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
    * \param beams learn from the scan's residuals
    * \return how the update depends on the error of the calibration */

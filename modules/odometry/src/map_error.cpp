@@ -127,12 +127,18 @@ void MapErrorModel::thinOut()
   keepEverySecond(insertions_);
 }
 
-void MapErrorModel::propagate(const StateMatrix& transition)
+void MapErrorModel::propagate(const ErrorTransition& transition)
 {
-  const AlignedStateMatrix Phi = transition;
-  addition_ = transformedCovariance(Phi, addition_);
-  Y_planes_ = product(Phi, Y_planes_);
-  Y_poses_ = product(Phi, Y_poses_);
+  addition_ = transition.onBothSidesOf(addition_);
+  Y_planes_ = transition.times(Y_planes_);
+  Y_poses_ = transition.times(Y_poses_);
+}
+
+void MapErrorModel::correct(const StateMatrix& kept)
+{
+  addition_ = transformedCovariance(kept, addition_);
+  Y_planes_ = product(kept, Y_planes_);
+  Y_poses_ = product(kept, Y_poses_);
 }
 
 void MapErrorModel::update(
@@ -171,10 +177,9 @@ StateMatrix MapErrorModel::addition() const
   return 0.5 * (addition_ + addition_.transpose());
 }
 
-StateMatrix MapErrorModel::additionAfter(const StateMatrix& transition) const
+StateMatrix MapErrorModel::additionAfter(const ErrorTransition& transition) const
 {
-  const AlignedStateMatrix Phi = transition;
-  return transformedCovariance(Phi, addition());
+  return transition.onBothSidesOf(addition());
 }
 
 void MapErrorModel::recordInsertion(

@@ -17,8 +17,7 @@ namespace fastlio
 struct Prediction
 {
   FilterState state;
-  StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
-  InertialSensitivity by_inertial = InertialSensitivity::Zero();
+  ErrorTransition transition;
 };
 
 /** Eq. 4-8 through inputs that hold until end_ns; \a visit(stamp_ns, prediction) after each step.
@@ -35,8 +34,7 @@ Prediction propagateThrough(
     const std::int64_t stop_ns = i + 1 < inputs.size() ? inputs[i + 1].stamp_ns : end_ns;
     const double dt = toSeconds(stop_ns - inputs[i].stamp_ns);
     const Vec3 &gyro = inputs[i].gyro, &accel = inputs[i].accel;
-    p.transition = chainTransition(p.transition, p.state.x, gyro, accel, dt);
-    p.by_inertial = chainSensitivity(p.by_inertial, p.state.x, gyro, accel, dt);
+    p.transition = chain(p.transition, p.state.x, gyro, accel, dt);
     p.state = propagate(
         p.state, gyro, accel, dt, noiseBetween(noise, inflations, inputs[i].stamp_ns, stop_ns));
     visit(stop_ns, p);

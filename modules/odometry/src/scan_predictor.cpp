@@ -28,10 +28,7 @@ ScanPrediction ScanPredictor::predict(
   result.finite = isFinite(propagated.state.x) && propagated.state.P.allFinite();
   result.state = result.finite ? propagated.state : from.filter;
   if (result.finite)
-  {
     result.transition = propagated.transition;
-    result.by_inertial = propagated.by_inertial;
-  }
   else
     imu_rate_.clear();
   return result;

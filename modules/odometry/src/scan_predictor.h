@@ -21,8 +21,7 @@ struct ScanPrediction
 {
   double blind_s = 0.0;  //!< since the scan before [s]
   FilterState state;
-  StateMatrix transition = StateMatrix::Identity();  //!< product of the Fx
-  InertialSensitivity by_inertial = InertialSensitivity::Zero();
+  ErrorTransition transition;
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it
   double imu_gap_s = 0.0;  //!< longest one on the way
 };

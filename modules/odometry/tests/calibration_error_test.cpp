@@ -107,14 +107,14 @@ TEST(CalibrationError, IsTheDerivativeOfThePoseThatAWrongExtrinsicLeaves)
 TEST(CalibrationError, NeedsNoScanForTheInertialSensor)
 {
   CalibrationErrorModel model;
-  InertialSensitivity by_inertial = InertialSensitivity::Zero();
-  by_inertial(kAttitude, 0) = 0.5;
+  ErrorTransition transition;
+  transition.by_inertial(kAttitude, 0) = 0.5;
   CalibrationErrorMatrix moment = CalibrationErrorMatrix::Zero();
   moment(kGyroMatrixError, kGyroMatrixError) = 1e-4;
-  const StateMatrix after = model.additionAfter(StateMatrix::Identity(), by_inertial, moment);
+  const StateMatrix after = model.additionAfter(transition, moment);
   EXPECT_NEAR(after(kAttitude, kAttitude), 0.25e-4, 1e-12);
   EXPECT_EQ(model.addition(moment).norm(), 0.0);
-  model.propagate(StateMatrix::Identity(), by_inertial);
+  model.propagate(transition);
   EXPECT_LT((model.addition(moment) - after).norm(), 1e-15);
 }
 

@@ -160,9 +160,15 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
   DenseRecursion dense;
   for (int i = 0; i < 30; ++i)
   {
-    StateMatrix Phi = StateMatrix::Identity() + 0.02 * StateMatrix::Random();
-    model.propagate(Phi);
+    ErrorTransition transition;
+    transition.by_state += 0.02 * MotionRows::Random();
+    StateMatrix Phi = StateMatrix::Identity();
+    Phi.topRows<kMotionDim>() = transition.by_state;
+    model.propagate(transition);
     dense.propagate(Phi);
+    const StateMatrix kept = StateMatrix::Identity() + 0.02 * StateMatrix::Random();
+    model.correct(kept);
+    dense.propagate(kept);
 
     GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1});
     scan.information = randomCovariance(kInformation);

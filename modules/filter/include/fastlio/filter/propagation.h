@@ -6,6 +6,7 @@
 
 #include <fastlio/filter/imu.h>
 #include <fastlio/filter/state.h>
+#include <fastlio/math/linear_algebra.h>
 
 namespace fastlio
 {
@@ -37,24 +38,41 @@ struct ProcessJacobians
 [[nodiscard]] ProcessJacobians processJacobians(
     const NavState& x, const Vec3& gyro, const Vec3& accel, double dt);
 
-/** Fx Phi: the transition Phi of the error state over the steps before, and over one more from x.
- * \param gyro w_m [rad/s]
- * \param accel a_m [m/s^2]
- * \param dt [s] */
-[[nodiscard]] StateMatrix chainTransition(
-    const StateMatrix& transition, const NavState& x, const Vec3& gyro, const Vec3& accel,
-    double dt);
+/** Attitude, position and velocity: a step changes the error of these alone. */
+constexpr int kMotionDim = 9;
+
+/** The first rows of a product of Fx; the others are those of the identity. */
+using MotionRows = Eigen::Matrix<double, kMotionDim, kStateDim, Eigen::DontAlign>;
 
 /** Derivative of attitude, position and velocity by the errors of the inertial sensor's matrices,
  * A_g and A_a by columns: w_m = A_g w + b_w, a_m = A_a a + b_a with A = I + error (scale,
- * misalignment).
- */
-using InertialSensitivity = Eigen::Matrix<double, 9, 18, Eigen::DontAlign>;
+ * misalignment). The filter takes a reading for true, so what the matrices add to it acts as a bias
+ * that the filter does not know. */
+using InertialSensitivity = Eigen::Matrix<double, kMotionDim, 18, Eigen::DontAlign>;
 
-/** The sensitivity over the steps before, and over one more from x. The filter takes a reading for
- * true, so what the matrices add to it acts as a bias that the filter does not know. */
-[[nodiscard]] InertialSensitivity chainSensitivity(
-    const InertialSensitivity& sensitivity, const NavState& x, const Vec3& gyro, const Vec3& accel,
+/** How some steps pass errors on: e <- Phi e + Psi theta. */
+struct ErrorTransition
+{
+  MotionRows by_state = MotionRows::Identity();                   //!< Phi
+  InertialSensitivity by_inertial = InertialSensitivity::Zero();  //!< Psi
+
+  /** Phi m, for a matrix with a row per element of the error. */
+  template <typename Matrix>
+  [[nodiscard]] Matrix times(Matrix m) const
+  {
+    m.template topRows<kMotionDim>() = product(by_state, m);
+    return m;
+  }
+  /** Phi P Phi^T of a symmetric P. */
+  [[nodiscard]] StateMatrix onBothSidesOf(const StateMatrix& P) const;
+};
+
+/** The steps before, and one more from x.
+ * \param gyro w_m [rad/s]
+ * \param accel a_m [m/s^2]
+ * \param dt [s] */
+[[nodiscard]] ErrorTransition chain(
+    const ErrorTransition& before, const NavState& x, const Vec3& gyro, const Vec3& accel,
     double dt);
 
 /** One step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block and symmetric

@@ -28,6 +28,7 @@
  * as noise of the points is taken off. See docs/covariance.md. */
 #pragma once
 
+#include <fastlio/filter/propagation.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/odometry/plane_groups.h>
 
@@ -69,8 +70,10 @@ struct InsertionError
 class MapErrorModel
 {
  public:
-  /** Carries the error over the way from scan to scan. \param transition product of the Fx */
-  void propagate(const StateMatrix& transition);
+  /** Carries the error over the way from scan to scan. */
+  void propagate(const ErrorTransition& transition);
+  /** Carries the error through an update without a scan. \param kept I - K H */
+  void correct(const StateMatrix& kept);
 
   /** Takes in an update of the filter with the measurements \a scan.
    * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the
@@ -83,8 +86,8 @@ class MapErrorModel
    * the filter has counted as noise of the points. */
   [[nodiscard]] StateMatrix addition() const;
 
-  /** The same, some way after the last scan. \param transition product of the Fx since then */
-  [[nodiscard]] StateMatrix additionAfter(const StateMatrix& transition) const;
+  /** The same, some way after the last scan. */
+  [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
   /** Remembers how well the scan pose was known when insertion number \a scan was made. */
   void recordInsertion(
