@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "svg_plot.h"
 #include "units.h"
 #include <fastlio/evaluation/report.h>
 #include <fastlio/math/time.h>
+#include <fastlio/plot/svg_plot.h>
 
 #include <algorithm>
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "sample_trajectories.h"
-#include "svg_plot.h"
 #include <fastlio/evaluation/report.h>
 
 #include <nlohmann/json.hpp>
@@ -172,19 +171,6 @@ TEST(Report, SvgOfALongRunKeepsThePeakAndStaysSmall)
   const std::string svg = toSvg(evaluate(estimate, truth, options));
   EXPECT_LT(svg.size(), 300'000U);
   EXPECT_NE(svg.find(">4<"), std::string::npos);  // a tick that only the peak reaches
-}
-
-TEST(Svg, TicksAreRoundNumbersInside)
-{
-  EXPECT_EQ(roundTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
-  EXPECT_EQ(roundTicks(-1.0, 1.0, 2), (std::vector<double>{-1, 0, 1}));
-  EXPECT_TRUE(roundTicks(1.0, 1.0, 5).empty());
-  EXPECT_TRUE(roundTicks(0.0, std::nan(""), 5).empty());
-}
-
-TEST(Svg, TextIsEscaped)
-{
-  EXPECT_EQ(escapeXml("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
 }
 
 }  // namespace
