@@ -151,32 +151,10 @@ ReportSeries::Values ReportSeries::valuesOf(const ScanResult& result, const Pose
   return values;
 }
 
-void ReportSeries::addToPath(const Vec3& position, bool after_gap)
-{
-  last_position_ = position;
-  if (after_gap) path_.emplace_back(Vec3::Constant(std::nan("")));
-  if (poses_++ % poses_per_point_ == 0) path_.push_back(position);
-  if (path_.size() <= kMaxPath) return;
-  for (std::size_t i = 0; 2 * i < path_.size(); ++i)
-    path_[i] = path_[2 * i];
-  path_.resize((path_.size() + 1) / 2);
-  poses_per_point_ *= 2;
-}
-
-std::vector<Vec3> ReportSeries::path() const
-{
-  std::vector<Vec3> path = path_;
-  if (last_position_ && (path.empty() || path.back() != *last_position_))
-    path.push_back(*last_position_);
-  return path;
-}
-
 void ReportSeries::add(const ScanResult& result)
 {
   if (bins_.empty()) begin_ns_ = result.begin_ns;
   const PoseEstimate body = poseEstimateOf(result.filter, T_imu_body_);
-  const bool after_gap =
-      last_position_ && toSeconds(result.stamp_ns - last_pose_ns_) > kReportGapSeconds;
   const Values values = valuesOf(result, body);
   ReportBin& bin = openBin(toSeconds(result.begin_ns - begin_ns_));
   takeIn(bin, values, values);
@@ -189,7 +167,7 @@ void ReportSeries::add(const ScanResult& result)
   }
   if (!hasPose(result.status)) return;
   bin.position = body.T_world_body.p;
-  addToPath(body.T_world_body.p, after_gap);
+  path_.add(result.stamp_ns, body.T_world_body.p);
 }
 
 }  // namespace fastlio

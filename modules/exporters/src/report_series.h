@@ -4,6 +4,7 @@
 /** \file report_series.h What a run was like over time, in bounded memory (internal). */
 #pragma once
 
+#include "bounded_path.h"
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/odometry/degeneracy.h>
 #include <fastlio/odometry/scan_result.h>
@@ -70,24 +71,20 @@ class ReportSeries
   void add(const ScanResult& result);
 
   [[nodiscard]] const std::vector<ReportBin>& bins() const { return bins_; }
-  /** Positions of the body [m]; the first and the last pose are among them. One that is not finite
-   * stands for a long time without a pose. */
-  [[nodiscard]] std::vector<Vec3> path() const;
+  /** Positions of the body: BoundedPath::positions(). */
+  [[nodiscard]] std::vector<Vec3> path() const { return path_.positions(); }
   [[nodiscard]] std::int64_t beginNs() const { return begin_ns_; }
 
  private:
   using Values = std::array<float, kReportChannels>;
 
   [[nodiscard]] Values valuesOf(const ScanResult& result, const PoseEstimate& body);
-  void addToPath(const Vec3& position, bool after_gap);
   ReportBin& openBin(double begin_s);
 
   Pose T_imu_body_;
   std::vector<ReportBin> bins_;
   std::size_t scans_per_bin_ = 1, scans_in_last_ = 0;
-  std::vector<Vec3> path_;
-  std::size_t poses_per_point_ = 1, poses_ = 0;
-  std::optional<Vec3> last_position_;
+  BoundedPath path_{kMaxPath, kReportGapSeconds};
   std::optional<Mat3> last_attitude_;
   std::int64_t begin_ns_ = 0, last_pose_ns_ = 0;
 };

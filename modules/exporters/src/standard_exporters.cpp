@@ -113,6 +113,8 @@ const std::vector<ExporterKind>& exporterKinds()
       {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},
       {"graph", "poses.graph", "pose graph for MRPT", false, makeGraphExporter},
       {"g2o", "poses.g2o", "pose graph for g2o", false, makeG2oExporter},
+      {"scene", "scene.3Dscene", "map, path and uncertainty for SceneViewer3D", false,
+       makeSceneExporter},
       // After the files whose problems it tells.
       {"report", "report.html", "page that shows and explains the run", true, makeReportExporter},
       // The last: it lists the files before it.

@@ -121,6 +121,10 @@ struct ExporterKind
 /** `poses.g2o`: the same for g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT). */
 [[nodiscard]] std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options);
 
+/** `scene.3Dscene`: map, trajectory, key frames and ellipsoids of their covariances, for
+ * SceneViewer3D of MRPT. */
+[[nodiscard]] std::unique_ptr<Exporter> makeSceneExporter(const ExportTarget& options);
+
 /** `report.html`: a page that shows and explains the run, without any other file. */
 [[nodiscard]] std::unique_ptr<Exporter> makeReportExporter(const ExportTarget& options);
 
