@@ -147,15 +147,15 @@ TEST(Report, TableHasUnitsAndFitsTheTerminal)
     EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST(Report, SvgDrawsBothPathsAndTheErrors)
+TEST(Report, SvgDrawsBothPathsTheHeightAndTheErrors)
 {
   const std::string svg = toSvg(scaleErrorReport());
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
   std::size_t lines = 0;
   for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
     ++lines;
-  EXPECT_EQ(lines, 4U);
-  for (const char* part : {"reference", "x [m]", "time [s]", "[deg]", "</svg>"})
+  EXPECT_EQ(lines, 6U);
+  for (const char* part : {"reference", "start", "z [m]", "x [m]", "time [s]", "[deg]", "</svg>"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
