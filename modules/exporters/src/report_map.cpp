@@ -156,13 +156,18 @@ PlotPanel viewOf(const ViewGrid& grid, const std::vector<Vec3>& path, int across
 /** Short bars along the translations that scans left open. */
 PlotSeries openBars(const ReportSeries& series, const Vec3& origin, const ViewGrid& grid)
 {
-  constexpr double kBar = 0.02;  // of the view
+  constexpr double kBar = 0.02;          // of the view
+  constexpr std::size_t kMostBars = 40;  // more of them hide the path
   const double length = kBar * (grid.x.high - grid.x.low);
   const double gap = std::nan("");
   PlotSeries bars{"degenerate direction", "var(--warn)", {}, 2.5};
+  std::vector<ReportBin> open;
   for (const ReportBin& bin : series.bins())
+    if (bin.open_axis) open.push_back(bin);
+  const std::size_t stride = (open.size() + kMostBars - 1) / kMostBars;
+  for (std::size_t i = 0; i < open.size(); i += stride)
   {
-    if (!bin.open_axis) continue;
+    const ReportBin& bin = open[i];
     const Vec3 p = bin.position - origin, d = length * *bin.open_axis;
     for (const Vec3& end : {Vec3(p - d), Vec3(p + d)})
       bars.points.push_back({end.x(), end.y()});

@@ -62,8 +62,9 @@ std::string neesSentence(const NeesSummary& nees)
   return "<p>NEES of the pose: " + fixedText(nees.mean, 2) + " (" + std::to_string(nees.degrees) +
          " is expected); " + fixedText(100.0 * nees.share_inside, 1) +
          " % of the poses lie below the 95 % bound. " +
-         (nees.mean > nees.mean_upper ? "The covariance is too small for this run."
-                                      : "The covariance is not too small for this run.") +
+         (nees.mean > nees.mean_upper
+              ? "The errors of this run are larger than the covariance says."
+              : "The errors of this run are not larger than the covariance says.") +
          "</p>\n";
 }
 

@@ -28,12 +28,24 @@ std::string tableOf(const std::vector<TableRow>& rows)
   return html + "</table>\n";
 }
 
+/** A list that stays readable. \param items HTML \param where all of them are, as text */
+std::string listOfHtml(const std::vector<std::string>& items, const char* where)
+{
+  constexpr std::size_t kMost = 50;
+  std::string html = "<ul>\n";
+  for (std::size_t i = 0; i < std::min(kMost, items.size()); ++i)
+    html += "<li>" + items[i] + "</li>\n";
+  if (items.size() > kMost)
+    html += "<li>and " + std::to_string(items.size() - kMost) + " more: " + where + "</li>\n";
+  return html + "</ul>\n";
+}
+
 std::string listOf(const std::vector<std::string>& texts)
 {
-  std::string html = "<ul>\n";
+  std::vector<std::string> items;
   for (const std::string& text : texts)
-    html += "<li>" + htmlText(text) + "</li>\n";
-  return html + "</ul>\n";
+    items.push_back(htmlText(text));
+  return listOfHtml(items, "summary.json");
 }
 
 std::string statusCounts(const RunStatistics& statistics)
@@ -64,9 +76,9 @@ std::string openText(const OpenDirections& open)
 std::string imuText(const ImuReport& imu)
 {
   return fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
-         toString(imu.gyro_unit) + ", " + std::to_string(imu.gaps) + " gaps, " +
-         std::to_string(imu.missing) + " samples missing, " + std::to_string(imu.saturated) +
-         " clipped, " + std::to_string(imu.spikes) + " spikes";
+         toString(imu.gyro_unit) + "; gaps: " + std::to_string(imu.gaps) +
+         ", samples missing: " + std::to_string(imu.missing) +
+         ", clipped: " + std::to_string(imu.saturated) + ", spikes: " + std::to_string(imu.spikes);
 }
 
 std::string vectorText(const Vec3& v, const Vec3& sigma, int decimals)
@@ -107,12 +119,12 @@ std::string untrustedHtml(const RunHealth& health)
 {
   const auto stretches = health.untrusted();
   if (stretches.empty()) return "<p>None.</p>\n";
-  std::string html = "<ul>\n";
+  std::vector<std::string> items;
   for (const UntrustedStretch& s : stretches)
-    html += "<li><b>" + fixedText(s.begin_s, 1) + " to " + fixedText(s.end_s, 1) + " s</b> (" +
-            std::to_string(s.scans) + " scans), " + causeLink(s.cause) + ": " + htmlText(s.reason) +
-            "</li>\n";
-  return html + "</ul>\n";
+    items.push_back(
+        "<b>" + fixedText(s.begin_s, 1) + " to " + fixedText(s.end_s, 1) + " s</b> (" +
+        std::to_string(s.scans) + " scans), " + causeLink(s.cause) + ": " + htmlText(s.reason));
+  return listOfHtml(items, "untrusted.csv");
 }
 
 std::string lossesHtml(const RunSummary& run)
@@ -139,6 +151,7 @@ std::string sensorsHtml(const RunSummary& run)
 
 std::string calibrationHtml(const RunSummary& run)
 {
+  if (run.statistics.poses() == 0) return "<p>There is no pose to tell it.</p>\n";
   const CalibrationCheck& check = run.statistics.calibration();
   return tableOf(
              {{"Extrinsic rotation, error [deg]",

@@ -65,12 +65,27 @@ std::string shareText(const std::vector<UntrustedStretch>& stretches, double dur
          " s of this run (" + number + (stretches.size() == 1 ? " stretch)" : " stretches)");
 }
 
+/** Of the longest stretch, where the first trouble does not tell its cause. */
+std::string longestStretchHtml(const RunHealth& health, const std::vector<UntrustedStretch>& all)
+{
+  const auto shorter = [](const UntrustedStretch& a, const UntrustedStretch& b)
+  { return a.end_s - a.begin_s < b.end_s - b.begin_s; };
+  const auto longest = std::max_element(all.begin(), all.end(), shorter);
+  const auto& first = health.firstTrouble();
+  if (longest == all.end() || (first && first->health.cause == longest->cause)) return {};
+  return paragraph(
+             "<b>Longest stretch: " + fixedText(longest->begin_s, 1) + " to " +
+             fixedText(longest->end_s, 1) + " s</b>: " + htmlText(longest->reason)) +
+         adviceParagraphs(longest->cause);
+}
+
 RunVerdict ofHealth(const RunStatistics& statistics)
 {
   const RunHealth& health = statistics.health();
   const auto stretches = health.untrusted();
   const auto& first = health.firstTrouble();
-  const std::string details = first ? firstTroubleHtml(*first) : std::string();
+  const std::string details =
+      (first ? firstTroubleHtml(*first) : std::string()) + longestStretchHtml(health, stretches);
   if (statistics.count(ScanStatus::Diverged) > 0)
     return {
         "bad",
@@ -78,9 +93,7 @@ RunVerdict ofHealth(const RunStatistics& statistics)
             shareText(stretches, statistics.duration()) + ".",
         details};
   if (!stretches.empty())
-    return {
-        "warn", "Do not rely on " + shareText(stretches, statistics.duration()) + ".",
-        details.empty() ? paragraph(htmlText(stretches.front().reason)) : details};
+    return {"warn", "Do not rely on " + shareText(stretches, statistics.duration()) + ".", details};
   const std::string scans = std::to_string(health.scans()) + " scans";
   if (first)
     return {

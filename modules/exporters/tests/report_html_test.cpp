@@ -51,6 +51,34 @@ TEST(ReportHtml, ABadStretchIsNamedWithItsFirstSecondAndWhatToTry)
   EXPECT_TRUE(has(html, "docs/troubleshooting.md#no_match"));
 }
 
+TEST(ReportHtml, TheLongestStretchIsExplainedAfterAnEarlierTrouble)
+{
+  auto scans = walk(10);
+  scans.push_back(troubled(10, HealthCause::FewMatches, "a dog"));
+  for (int i = 11; i < 60; ++i)
+    scans.push_back(testing::resultAt(i, ScanStatus::Tracking, 0.1 * i, 1.0));
+  for (int i = 60; i < 70; ++i)
+    scans.push_back(troubled(i, HealthCause::Bias, "the bias ran"));
+  const std::string html = reportOf(scans);
+  expectGoodPage(html);
+  EXPECT_TRUE(has(html, "<b>First bad second: 1.1 s</b>"));
+  EXPECT_TRUE(has(html, "a dog"));
+  EXPECT_TRUE(has(html, "<b>Longest stretch: 6.1 to 7.0 s</b>: the bias ran")) << html;
+}
+
+TEST(ReportHtml, ListsStayReadable)
+{
+  std::vector<ScanResult> scans;
+  for (int i = 0; i < 3000; ++i)
+    scans.push_back(
+        i % 30 < 6 ? troubled(i, HealthCause::NoMatch, "why")
+                   : testing::resultAt(i, ScanStatus::Tracking, 0.1 * i, 1.0));
+  const std::string html = reportOf(scans);
+  expectGoodPage(html);
+  EXPECT_TRUE(has(html, "<li>and 50 more: untrusted.csv</li>")) << html.substr(0, 9000);
+  EXPECT_LT(html.size(), 3'000'000U);
+}
+
 TEST(ReportHtml, EveryCauseOfTroubleGivesAPage)
 {
   for (const HealthCause cause : allHealthCauses())

@@ -7,6 +7,7 @@
 #include "report_test_support.h"
 #include <fastlio/options/number_text.h>
 
+#include <filesystem>
 #include <fstream>
 
 namespace fastlio
@@ -71,7 +72,9 @@ TEST(ReportReference, ADamagedReferenceFailsNoRun)
   std::ofstream(folder.file("empty"));
   writeTruth(folder.file("elsewhen"), 1, 0.0);
   std::ofstream(folder.file("binary"), std::ios::binary) << std::string(1000, '\xfe');
-  for (const char* name : {"text", "empty", "elsewhen", "binary", "missing", "."})
+  std::ofstream(folder.file("huge"));
+  std::filesystem::resize_file(folder.file("huge"), ReferenceComparison::kLargestFile + 1);
+  for (const char* name : {"text", "empty", "elsewhen", "binary", "missing", ".", "huge"})
   {
     const std::string html = reportOf(walk(5), {}, folder.file(name));
     expectGoodPage(html);
