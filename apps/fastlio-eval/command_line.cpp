@@ -117,7 +117,8 @@ void addOutputOptions(CLI::App& app, EvalCommand& c)
          "Write the report as JSON to FILE, or with '-' instead of the table")
       ->type_name("FILE");
   app.add_option(
-         "--plot", c.svg_path, "Write a picture (SVG): top view, height and errors over time")
+         "--plot", c.svg_path,
+         "Write a picture (.svg or .png): top view, height and errors over time")
       ->type_name("FILE");
 }
 

@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include "estimates.h"
+#include "picture.h"
 #include <fastlio/evaluation/report.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/same_file.h>
@@ -45,7 +46,7 @@ void writeReports(const EvalCommand& command, const std::vector<NamedReport>& re
   if (!command.json_path.empty() && !json_to_stdout)
     fastlio::writeFileAtomically(command.json_path, jsonOf(reports));
   if (!command.svg_path.empty())
-    fastlio::writeFileAtomically(
+    fastlio::writePicture(
         command.svg_path,
         reports.size() == 1 ? fastlio::toSvg(reports.front().report) : fastlio::toSvg(reports));
 }
@@ -64,10 +65,6 @@ void requireHarmlessOutputs(
     outputs.push_back({command.json_path, "--json"});
   if (!command.svg_path.empty()) outputs.push_back({command.svg_path.string(), "--plot"});
   fastlio::requireDistinctFiles(inputs, outputs);
-  if (command.svg_path.extension() == ".png")
-    throw std::invalid_argument(
-        "--plot writes SVG, not PNG, saw '" + command.svg_path.string() +
-        "': give a name that ends in .svg (rsvg-convert makes a PNG of it)");
 }
 
 /** Says on standard error which limits are not kept, with both numbers. */

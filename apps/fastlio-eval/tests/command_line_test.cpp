@@ -17,9 +17,24 @@ TEST_F(FastlioEval, PrintsATable)
   expectOutcome("-r truth.tum -e estimate.tum -a yaw", 0, {"alignment   yaw"});
 }
 
-TEST_F(FastlioEval, APictureIsAnSvg)
+TEST_F(FastlioEval, ANameWithPngGivesAPng)
 {
-  expectOutcome("truth.tum estimate.tum -a first --plot p.png", 1, {"p.png", ".svg"});
+  if (std::system("command -v rsvg-convert >/dev/null 2>&1") != 0)
+    GTEST_SKIP() << "there is no rsvg-convert (apt-get install librsvg2-bin)";
+  expectOutcome("truth.tum estimate.tum -a first --plot p.png", 0, {"APE"});
+  const std::string png = contentOf(folder_.path() / "p.png");
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_GT(png.size(), 10'000U);
+}
+
+TEST_F(FastlioEval, WithoutItsProgramAPngIsRefusedAndNothingWritten)
+{
+  const Outcome outcome = runShell(
+      "cd '" + folder_.path().string() +
+      "' && PATH=/nowhere '" FASTLIO_EVAL_PROGRAM
+      "' truth.tum estimate.tum -a first --plot p.png 2>&1");
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  EXPECT_NE(outcome.output.find("librsvg2-bin"), std::string::npos) << outcome.output;
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "p.png"));
 }
 
