@@ -79,6 +79,8 @@ TEST(ReportReference, ADamagedReferenceFailsNoRun)
     const std::string html = reportOf(walk(5), {}, folder.file(name));
     expectGoodPage(html);
     EXPECT_TRUE(says(html, "could not be used: ")) << name;
+    const bool missing = std::string(name) == "missing";
+    EXPECT_EQ(says(html, "does not exist"), missing) << name << html.substr(0, 20000);
     EXPECT_TRUE(says(html, "The run can be trusted")) << name;
   }
   const std::string html = reportOf({}, {}, folder.file("text"));

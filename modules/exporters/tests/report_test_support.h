@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstdlib>
+#include <filesystem>
 #include <regex>
 #include <set>
 #include <string>
@@ -17,11 +19,36 @@
 
 namespace fastlio::testing
 {
+/** A folder besides the TemporaryFolder of the test; removed at the end. */
+class FurtherFolder
+{
+ public:
+  FurtherFolder()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "fastlio-report-XXXXXX").string();
+    EXPECT_NE(mkdtemp(name.data()), nullptr);
+    path_ = name;
+  }
+  ~FurtherFolder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  FurtherFolder(const FurtherFolder&) = delete;
+  FurtherFolder& operator=(const FurtherFolder&) = delete;
+
+  [[nodiscard]] std::string file(const std::string& name) const { return path_ + "/" + name; }
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 /** What report.html is for these scans. \param run is completed with them */
 inline std::string reportOf(
     const std::vector<ScanResult>& scans, RunSummary run = {}, const std::string& reference = {})
 {
-  const TemporaryFolder folder;
+  const FurtherFolder folder;
   ExportTarget target;
   target.directory = folder.path();
   target.reference = reference;
