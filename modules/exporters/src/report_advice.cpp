@@ -86,7 +86,7 @@ std::string anchorOf(HealthCause cause)
 
 std::string causeLink(HealthCause cause)
 {
-  const std::string name = anchorOf(cause);
+  std::string name = anchorOf(cause);
   if (cause == HealthCause::None) return name;
   return std::string("<a href=\"#").append(name).append("\">").append(name).append("</a>");
 }

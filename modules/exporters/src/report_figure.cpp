@@ -20,11 +20,14 @@ std::string figureHtml(
 {
   std::string html = "<figure>\n<figcaption><b>" + htmlText(title) + "</b>";
   for (const LegendEntry& entry : legend)
-    html += " <span class=\"key\"><i style=\"background:" + entry.colour + "\"></i>" +
+    html += R"( <span class="key"><i style="background:)" + entry.colour + R"("></i>)" +
             htmlText(entry.name) + "</span>";
-  html += "</figcaption>\n<svg viewBox=\"0 0 " + fixedText(place.width, 0) + " " +
-          fixedText(place.height, 0) + "\" role=\"img\" aria-label=\"" + htmlText(title) + "\">\n" +
-          drawPanel(panel, place) + "</svg>\n";
+  html +=
+      "</figcaption>\n"
+      R"(<svg viewBox="0 0 )" +
+      fixedText(place.width, 0) + " " + fixedText(place.height, 0) +
+      R"(" role="img" aria-label=")" + htmlText(title) + "\">\n" + drawPanel(panel, place) +
+      "</svg>\n";
   if (!remark.empty()) html += "<p>" + remark + "</p>\n";
   return html + "</figure>\n";
 }

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <map>
 
 namespace fastlio
 {
@@ -21,6 +20,7 @@ constexpr std::array<const char*, 7> kHeightColours = {"#3b6fd4", "#2aa0c9", "#2
 constexpr std::array<double, 3> kOpacities = {0.35, 0.65, 1.0};
 constexpr double kPixelsPerCell = 2.5;
 constexpr double kInnerWidth = 400.0, kInnerHeight = 340.0;  // [px], about
+constexpr double kFarthestPose = 1e8;                        // [m]: nothing is there
 constexpr std::size_t kSample = 20000;                       // points that tell the extent
 
 /** Some points of the map, at even distances. */
@@ -72,7 +72,7 @@ PlotRange rangeOf(const std::vector<float>& sorted, const std::vector<Vec3>& pat
   return {range.low - margin, range.high + margin};
 }
 
-/** Cells of one view. */
+/** Cells of one view, row by row: their number is that of the view's pixels, whatever the map. */
 struct ViewGrid
 {
   struct Cell
@@ -83,21 +83,35 @@ struct ViewGrid
 
   PlotRange x, y;
   double size = 1.0;
-  std::map<std::pair<int, int>, Cell> cells;  //!< bounded by the size of the view
+  std::size_t columns = 0;
+  std::vector<Cell> cells;
 
   ViewGrid(const PlotRange& across, const PlotRange& up) : x(across), y(up)
   {
     size =
         kPixelsPerCell * std::max((x.high - x.low) / kInnerWidth, (y.high - y.low) / kInnerHeight);
+    columns = indexOf(x.high - x.low) + 1;
+    cells.resize(columns * (indexOf(y.high - y.low) + 1));
+  }
+
+  [[nodiscard]] std::size_t indexOf(double distance) const
+  {
+    return static_cast<std::size_t>(distance / size);
   }
 
   void add(double across, double up, double height)
   {
     if (!(across >= x.low && across <= x.high && up >= y.low && up <= y.high)) return;
-    const auto index = [this](double v) { return static_cast<int>(std::floor(v / size)); };
-    Cell& cell = cells[{index(up - y.low), index(across - x.low)}];
+    Cell& cell = cells[indexOf(up - y.low) * columns + indexOf(across - x.low)];
     cell.height += height;
     ++cell.count;
+  }
+
+  [[nodiscard]] PlotPoint centreOf(std::size_t cell) const
+  {
+    return {
+        x.low + (static_cast<double>(cell % columns) + 0.5) * size,
+        y.low + (static_cast<double>(cell / columns) + 0.5) * size};
   }
 };
 
@@ -112,8 +126,8 @@ std::size_t classOf(double value, double low, double high, std::size_t classes)
 std::array<std::size_t, 2> crowdLimits(const ViewGrid& grid)
 {
   std::vector<std::size_t> counts;
-  for (const auto& [index, cell] : grid.cells)
-    counts.push_back(cell.count);
+  for (const ViewGrid::Cell& cell : grid.cells)
+    if (cell.count > 0) counts.push_back(cell.count);
   if (counts.empty()) return {};
   std::sort(counts.begin(), counts.end());
   return {counts[2 * (counts.size() - 1) / 5], counts[4 * (counts.size() - 1) / 5]};
@@ -126,14 +140,14 @@ std::vector<PlotCells> cellsOfView(const ViewGrid& grid, const PlotRange& height
   for (const char* colour : kHeightColours)
     for (const double opacity : kOpacities)
       groups.push_back({colour, opacity, grid.size, {}});
-  for (const auto& [index, cell] : grid.cells)
+  for (std::size_t i = 0; i < grid.cells.size(); ++i)
   {
+    const ViewGrid::Cell& cell = grid.cells[i];
+    if (cell.count == 0) continue;
     const double height = cell.height / static_cast<double>(cell.count);
     const std::size_t colour = classOf(height, heights.low, heights.high, kHeightColours.size());
     const std::size_t crowd = cell.count > limits[1] ? 2 : cell.count > limits[0] ? 1 : 0;
-    groups[colour * kOpacities.size() + crowd].centres.push_back(
-        {grid.x.low + (index.second + 0.5) * grid.size,
-         grid.y.low + (index.first + 0.5) * grid.size});
+    groups[colour * kOpacities.size() + crowd].centres.push_back(grid.centreOf(i));
   }
   return groups;
 }
@@ -180,7 +194,9 @@ std::vector<Vec3> relativePath(const ReportSeries& series, const Vec3& origin)
 {
   std::vector<Vec3> path;
   for (const Vec3& p : series.path())
-    path.emplace_back(p - origin);
+    path.emplace_back(
+        (p - origin).cwiseAbs().maxCoeff() < kFarthestPose ? Vec3(p - origin)
+                                                           : Vec3::Constant(std::nan("")));
   return path;
 }
 

@@ -43,6 +43,7 @@ std::string listOfHtml(const std::vector<std::string>& items, const char* where)
 std::string listOf(const std::vector<std::string>& texts)
 {
   std::vector<std::string> items;
+  items.reserve(texts.size());
   for (const std::string& text : texts)
     items.push_back(htmlText(text));
   return listOfHtml(items, "summary.json");
@@ -120,6 +121,7 @@ std::string untrustedHtml(const RunHealth& health)
   const auto stretches = health.untrusted();
   if (stretches.empty()) return "<p>None.</p>\n";
   std::vector<std::string> items;
+  items.reserve(stretches.size());
   for (const UntrustedStretch& s : stretches)
     items.push_back(
         "<b>" + fixedText(s.begin_s, 1) + " to " + fixedText(s.end_s, 1) + " s</b> (" +
@@ -135,6 +137,7 @@ std::string lossesHtml(const RunSummary& run)
   if (points.far > 0) lost.push_back({"points_too_far", points.far});
   if (lost.empty()) return "<p>Nothing was dropped.</p>\n";
   std::vector<TableRow> rows;
+  rows.reserve(lost.size());
   for (const NamedCount& count : lost)
     rows.push_back({count.name, std::to_string(count.count)});
   return tableOf(rows);

@@ -138,6 +138,7 @@ TEST(ReportHtml, NumbersThatAreNoneBreakNothing)
   scans[5].statistics.residual_rms = INFINITY;
   scans[6].statistics.normalized_innovation = nan;
   scans[7].filter.x.p = {nan, 1e300, -INFINITY};
+  scans[12].filter.x.p = {-1.7e308, 1.7e308, 1.7e308};
   scans[8].filter.x.v.setConstant(1e308);
   scans[9].filter.P.setConstant(nan);
   scans[10].health.value = nan;
