@@ -6,7 +6,8 @@
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 
-#include <fstream>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace fastlio
@@ -69,6 +70,7 @@ TEST(ReportHtml, TheLongestStretchIsExplainedAfterAnEarlierTrouble)
 TEST(ReportHtml, ListsStayReadable)
 {
   std::vector<ScanResult> scans;
+  scans.reserve(3000);
   for (int i = 0; i < 3000; ++i)
     scans.push_back(
         i % 30 < 6 ? troubled(i, HealthCause::NoMatch, "why")
@@ -137,7 +139,7 @@ TEST(ReportHtml, NumbersThatAreNoneBreakNothing)
   const double nan = std::nan("");
   scans[5].statistics.residual_rms = INFINITY;
   scans[6].statistics.normalized_innovation = nan;
-  scans[7].filter.x.p = {nan, 1e300, -INFINITY};
+  scans[7].filter.x.p = {nan, 1e300, -std::numeric_limits<double>::infinity()};
   scans[12].filter.x.p = {-1.7e308, 1.7e308, 1.7e308};
   scans[8].filter.x.v.setConstant(1e308);
   scans[9].filter.P.setConstant(nan);

@@ -69,10 +69,10 @@ TEST(ReportReference, ADamagedReferenceFailsNoRun)
 {
   const TemporaryFolder folder;
   std::ofstream(folder.file("text")) << "<b>no numbers</b>\n";
-  std::ofstream(folder.file("empty"));
+  std::ofstream(folder.file("empty")) << "";
   writeTruth(folder.file("elsewhen"), 1, 0.0);
   std::ofstream(folder.file("binary"), std::ios::binary) << std::string(1000, '\xfe');
-  std::ofstream(folder.file("huge"));
+  std::ofstream(folder.file("huge")) << "";
   std::filesystem::resize_file(folder.file("huge"), ReferenceComparison::kLargestFile + 1);
   for (const char* name : {"text", "empty", "elsewhen", "binary", "missing", ".", "huge"})
   {

@@ -120,7 +120,7 @@ TEST(Troubleshooting, LinksOfThePageLead)
 /** The literals of a source, those that follow each other joined, without the rest. */
 std::string literalsOf(const std::string& source)
 {
-  static const std::regex kNext("\"\\s*\\n\\s*\"");
+  static const std::regex kNext(R"("\s*\n\s*")");
   return std::regex_replace(source, kNext, "");
 }
 

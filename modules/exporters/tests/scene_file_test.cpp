@@ -58,6 +58,7 @@ std::size_t sizeOf(const mrpt::opengl::CSetOfObjects& set)
 TEST(Scene, HoldsMapTrajectoryKeyFramesAndCovariances)
 {
   std::vector<ScanResult> scans;
+  scans.reserve(101);
   for (int i = 0; i < 101; ++i)
     scans.push_back(resultAt(i, ScanStatus::Tracking, 0.1 * i, 1.0));
   scans[50].status = ScanStatus::Diverged;
@@ -93,6 +94,7 @@ TEST(Scene, OfARunWithoutAPoseIsEmpty)
 TEST(Scene, StatesThatAreNotFiniteAreLeftOut)
 {
   std::vector<ScanResult> scans;
+  scans.reserve(30);
   for (int i = 0; i < 30; ++i)
     scans.push_back(resultAt(i, ScanStatus::Tracking, i, 1.0));
   scans[3].filter.x.p.x() = std::nan("");
@@ -107,6 +109,7 @@ TEST(Scene, StatesThatAreNotFiniteAreLeftOut)
 TEST(Scene, OfALongRunIsBounded)
 {
   std::vector<ScanResult> scans;
+  scans.reserve(3000);
   for (int i = 0; i < 3000; ++i)
     scans.push_back(resultAt(i, ScanStatus::Tracking, 2.0 * i, 1.0));
   MrptScene scene;
