@@ -159,6 +159,8 @@ void requireOutput(const ReplayArguments& arguments)
     throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
   if (arguments.imu_rate && arguments.output_directory.empty())
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
+  if (!arguments.reference.empty() && arguments.output_directory.empty())
+    throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
   if (!arguments.exporters.empty() && arguments.output_directory.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
 }

@@ -112,12 +112,25 @@ TEST_F(ReplayReport, AReferenceIsNotReplaced)
   const ProcessResult result =
       Process(
           {FASTLIO_REPLAY_PROGRAM, "--input-rawlog", in("recording.rawlog"), "--reference",
-           in("ground_truth.tum"), "--output-tum-path", in("ground_truth.tum")},
+           in("ground_truth.tum"), "--output-dir", in("out"), "--output-tum-path",
+           in("ground_truth.tum")},
           in("log"))
           .wait();
   EXPECT_EQ(result.exit_status, 1) << result.output;
   EXPECT_TRUE(says(result.output, "(--reference)")) << result.output;
   EXPECT_TRUE(contentOf(in("ground_truth.tum")) == truth);
+}
+
+TEST_F(ReplayReport, AReferenceNeedsAFolderForTheReport)
+{
+  const ProcessResult result =
+      Process(
+          {FASTLIO_REPLAY_PROGRAM, "--input-rawlog", in("recording.rawlog"), "--reference",
+           in("ground_truth.tum"), "--output-tum-path", in("t.tum")},
+          in("log"))
+          .wait();
+  EXPECT_EQ(result.exit_status, 1) << result.output;
+  EXPECT_TRUE(says(result.output, "--output-dir, where report.html")) << result.output;
 }
 
 }  // namespace

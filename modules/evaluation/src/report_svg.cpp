@@ -33,7 +33,7 @@ std::size_t strideFor(std::size_t count)
   return (count + kMaxPoints - 1) / kMaxPoints;
 }
 
-/** Draws every so-manieth pose, and the last one. */
+/** Draws each n-th pose, and the last one. */
 template <typename Draw>
 void forSomePoses(const std::vector<StampedPose>& poses, const Draw& draw)
 {

@@ -18,7 +18,7 @@ struct ReferenceFindings
   std::string file;     //!< empty: there is no reference
   std::string problem;  //!< why it could not be used, or empty
   std::optional<EvaluationReport> report;
-  std::size_t poses_per_sample = 1;  //!< of a long run, only each so-manieth pose is compared
+  std::size_t poses_per_sample = 1;  //!< of a long run, only each n-th pose is compared, n is this
 };
 
 /** Poses of a run with their covariances, in bounded memory: of a long run only some. */

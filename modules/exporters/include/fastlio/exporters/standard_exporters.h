@@ -45,8 +45,8 @@ struct ExporterKind
 /** Every format. A new one is a file with a class, and a row here. */
 [[nodiscard]] const std::vector<ExporterKind>& exporterKinds();
 
-/** The trajectory to compare a run with: the one that is given, or the ground truth beside the first
- * recording (`NAME.gt.tum` for `NAME.rawlog`); empty: there is none. */
+/** The trajectory to compare a run with: the one that is given, or the ground truth beside the
+ * first recording (`NAME.gt.tum` for `NAME.rawlog`); empty: there is none. */
 [[nodiscard]] std::string referenceFor(
     const std::string& given, const std::vector<std::string>& recordings);
 
