@@ -25,6 +25,8 @@ set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME ${FASTLIO_DEB_plugin})
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
   "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION}), libmrpt-maps-dev, libmrpt-slam-dev, libeigen3-dev, nlohmann-json3-dev")
+# PNGs of fastlio-eval.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "librsvg2-bin")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "Programs (fastlio-replay, fastlio-sim, fastlio-eval, fastlio-info, fastlio-calibrate), shared libraries and parameter files.")

@@ -14,8 +14,9 @@ if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
   build_packages="$build_packages libisal-dev"
 fi
 benchmark_packages="libbenchmark-dev"
-# MRPT's own programs, which the tests run on our outputs; the benchmarks are tested, too.
-test_packages="mrpt-apps $benchmark_packages"
+# MRPT's own programs, which the tests run on our outputs; fastlio-eval makes PNGs by librsvg's; the benchmarks are
+# tested, too.
+test_packages="mrpt-apps librsvg2-bin $benchmark_packages"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
 packages_packages="help2man dpkg-dev file"

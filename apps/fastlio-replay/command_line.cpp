@@ -87,6 +87,10 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--output-tum-path", arguments.output_tum_path,
          "Write the trajectory (TUM format) to this file, with or without --output-dir")
       ->type_name("FILE");
+  app.add_option(
+         "--reference", arguments.reference,
+         "Compare with this trajectory in report.html; default: NAME.gt.tum beside NAME.rawlog")
+      ->type_name("FILE.tum");
   app.add_flag(
       "--overwrite", arguments.overwrite,
       "Replace files in --output-dir also where no earlier run has written them");
@@ -155,6 +159,8 @@ void requireOutput(const ReplayArguments& arguments)
     throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
   if (arguments.imu_rate && arguments.output_directory.empty())
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
+  if (!arguments.reference.empty() && arguments.output_directory.empty())
+    throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
   if (!arguments.exporters.empty() && arguments.output_directory.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
 }
