@@ -1,0 +1,76 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "bag_file.h"
+#include "ros_recording.h"
+#include <fastlio/recordings/recording_reader.h>
+
+#include <filesystem>
+
+namespace fastlio
+{
+namespace
+{
+template <typename Container>
+std::unique_ptr<RecordingReader> openMessages(const std::string& path)
+{
+  return std::make_unique<RosRecording>(path, [path] { return std::make_unique<Container>(path); });
+}
+}  // namespace
+
+const std::vector<RecordingFormat>& recordingFormats()
+{
+  static const std::vector<RecordingFormat> formats{
+      {"rosbag1", "bag of ROS 1 (.bag)", isBag, openMessages<BagFile>},
+  };
+  return formats;
+}
+
+const RecordingFormat* recordingFormatOf(const std::string& path)
+{
+  for (const RecordingFormat& format : recordingFormats())
+    if (format.recognises(path)) return &format;
+  return nullptr;
+}
+
+std::uint64_t recordingBytes(const std::string& path)
+{
+  namespace fs = std::filesystem;
+  constexpr std::size_t kMostFiles = 1'000'000;
+  std::error_code error;
+  if (!fs::is_directory(path, error))
+  {
+    const auto size = fs::file_size(path, error);
+    return error ? 0 : size;
+  }
+  std::uint64_t total = 0;
+  std::size_t files = 0;
+  for (fs::recursive_directory_iterator it(path, error), end;
+       !error && it != end && files < kMostFiles; it.increment(error), ++files)
+    if (it->is_regular_file(error)) total += it->file_size(error);
+  return total;
+}
+
+const char* toString(ReadProblemKind kind)
+{
+  switch (kind)
+  {
+    case ReadProblemKind::NotFound:
+      return "not found";
+    case ReadProblemKind::NotARawlog:
+      return "not a rawlog";
+    case ReadProblemKind::Truncated:
+      return "truncated";
+    case ReadProblemKind::Corrupt:
+      return "corrupt";
+    case ReadProblemKind::UnknownClass:
+      return "unknown class";
+    case ReadProblemKind::ExternalFile:
+      return "external file";
+    case ReadProblemKind::NotSupported:
+      return "not supported";
+  }
+  return "unknown";
+}
+
+}  // namespace fastlio
