@@ -3,6 +3,7 @@
 
 #include "bag_file.h"
 
+#include "chunk_search.h"
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
@@ -123,9 +124,10 @@ NextMessage BagFile::endOfFile(Step step)
     finished_ = true;
     return EndOfRecording{};
   }
-  const bool found = seekChunk(record_ + 1);
-  finished_ = !found;
-  if (found)
+  const auto chunk = findBagChunk(file_, record_ + 1);
+  finished_ = !chunk;
+  file_.seek(chunk.value_or(file_.size()));
+  if (chunk)
     return problem(
         ReadProblemKind::Corrupt, record_,
         "it is no record of a bag; reading goes on with the chunk at byte " +
@@ -214,34 +216,6 @@ BagFile::Step BagFile::openChunk(const BagFields& fields, std::size_t size)
   }
   chunk_ = std::make_unique<StretchBytes>(file_, size, std::move(inflater));
   return Step::Other;
-}
-
-// Goes to the next record that is a chunk. Its head has the field op=5 and lies a little before.
-bool BagFile::seekChunk(std::uint64_t from)
-{
-  constexpr std::size_t kWindow = std::size_t{1} << 16U, kLongest = 128;
-  const std::string mark{"\x04\x00\x00\x00op=\x05", 8};
-  for (std::uint64_t at = from; at < file_.size(); at += kWindow - kLongest)
-  {
-    file_.seek(at);
-    std::string window(kWindow, '\0');
-    window.resize(file_.read(reinterpret_cast<std::uint8_t*>(window.data()), kWindow));
-    for (auto found = window.find(mark); found != std::string::npos;
-         found = window.find(mark, found + 1))
-      for (std::size_t back = 4; back <= std::min(found, kLongest); ++back)
-      {
-        const auto* head = reinterpret_cast<const std::uint8_t*>(window.data()) + found - back;
-        std::uint32_t size = 0;
-        std::memcpy(&size, head, sizeof size);
-        if (size < back || size > kLongest || found - back + 4 + size > window.size()) continue;
-        const auto fields = BagFields::parse(head + 4, size);
-        if (!fields || fields->op() != BagOp::Chunk || !fields->text("compression")) continue;
-        file_.seek(at + found - back);
-        return true;
-      }
-    if (window.size() < kWindow) return false;
-  }
-  return false;
 }
 
 std::vector<const RosTopic*> BagFile::topics() const

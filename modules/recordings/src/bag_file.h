@@ -39,7 +39,6 @@ class BagFile : public RosMessageSource
   Step openChunk(const BagFields& fields, std::size_t size);
   [[nodiscard]] std::optional<ReadProblem> closeChunk(Step step);
   [[nodiscard]] NextMessage endOfFile(Step step);
-  [[nodiscard]] bool seekChunk(std::uint64_t from);
   [[nodiscard]] ReadProblem problem(
       ReadProblemKind kind, std::uint64_t offset, const std::string& what) const;
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <zlib.h>
 
 namespace fastlio
 {
@@ -115,12 +116,20 @@ std::size_t StretchBytes::read(std::uint8_t* data, std::size_t size)
     const std::size_t got = file_.read(data, wanted);
     left_ -= got;
     truncated_ |= got < wanted;
+    checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, got));
     return got;
   }
   std::size_t done = 0;
   while (done < size && !ended_)
     done += inflate(data + done, size - done);
+  checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, done));
   return done;
+}
+
+std::optional<std::uint32_t> StretchBytes::checksum() const
+{
+  if (skipped_) return std::nullopt;
+  return checksum_;
 }
 
 bool StretchBytes::skip(std::uint64_t size)
@@ -128,6 +137,7 @@ bool StretchBytes::skip(std::uint64_t size)
   if (inflater_) return ByteSource::skip(size);
   const std::uint64_t wanted = std::min(size, left_);
   left_ -= wanted;
+  skipped_ = true;
   truncated_ |= !file_.skip(wanted);
   return wanted == size && !truncated_;
 }

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,9 @@ class StretchBytes : public ByteSource
   /** The file ends inside the stretch. */
   [[nodiscard]] bool truncated() const { return truncated_; }
 
+  /** The checksum (CRC-32) of all bytes; nothing when some were not looked at. */
+  [[nodiscard]] std::optional<std::uint32_t> checksum() const;
+
  private:
   void load();
   std::size_t inflate(std::uint8_t* data, std::size_t size);
@@ -88,7 +92,8 @@ class StretchBytes : public ByteSource
   std::unique_ptr<Inflater> inflater_;
   Bytes buffer_;
   std::size_t begin_ = 0, end_ = 0;
-  bool ended_ = false, corrupt_ = false, truncated_ = false;
+  bool ended_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
+  std::uint32_t checksum_ = 0;
 };
 
 /** The first bytes of a file, fewer when it is shorter; none when it is no readable file. */

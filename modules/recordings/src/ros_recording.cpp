@@ -9,6 +9,7 @@
 #include <fastlio/sensors/conversions.h>
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 
 namespace fastlio
@@ -23,6 +24,36 @@ constexpr std::uint64_t kLookBytes = std::uint64_t{64} << 20U;
 bool isWanted(const RosTopic& topic)
 {
   return topic.trouble.empty() && rosTypeOf(topic.type).read != nullptr;
+}
+
+// Bags of ROS 2 may compress each message by itself; CDR never begins like that.
+constexpr std::uint8_t kZstdMessage[] = {0x28, 0xB5, 0x2F, 0xFD};
+
+bool isCompressed(const RosMessage& message)
+{
+  return message.topic->format == WireFormat::Cdr && message.data->size() >= sizeof kZstdMessage &&
+         std::equal(std::begin(kZstdMessage), std::end(kZstdMessage), message.data->begin());
+}
+
+Bytes inflated(const Bytes& packed)
+{
+  constexpr std::size_t kPiece = std::size_t{1} << 18U;
+  const auto inflater = makeZstdInflater();
+  Bytes bytes;
+  for (std::size_t done = 0;;)
+  {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kPiece);
+    const auto step = inflater->step(
+        packed.data() + done, static_cast<std::uint32_t>(packed.size() - done), bytes.data() + size,
+        kPiece);
+    done += step.consumed;
+    bytes.resize(size + step.produced);
+    if (step.status == InflateStatus::MemberEnd) return bytes;
+    if (step.status == InflateStatus::Corrupt || (step.consumed == 0 && step.produced == 0))
+      throw std::runtime_error("its compressed data are damaged");
+    if (bytes.size() > kLargestRecord) throw std::runtime_error("it is larger than 256 MiB");
+  }
 }
 
 bool isTransform(const RosTopic& topic)
@@ -59,7 +90,9 @@ void RosRecording::takeTransforms(const RosMessage& message)
   if (message.data == nullptr || !isTransform(*message.topic)) return;
   try
   {
-    WireReader in(message.data->data(), message.data->size(), message.topic->format);
+    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
+    const Bytes& data = own.empty() ? *message.data : own;
+    WireReader in(data.data(), data.size(), message.topic->format);
     for (const RosTransform& transform : readTransforms(in))
       isStatic(*message.topic) ? transforms_.addFixed(transform) : transforms_.addMoving(transform);
   }
@@ -97,7 +130,9 @@ NextRecorded RosRecording::convert(const RosMessage& message)
   const RosTopic& topic = *message.topic;
   try
   {
-    WireReader in(message.data->data(), message.data->size(), topic.format);
+    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
+    const Bytes& data = own.empty() ? *message.data : own;
+    WireReader in(data.data(), data.size(), topic.format);
     RosObservation result = rosTypeOf(topic.type).read(in, topic.name);
     setPose(*result.observation, result.frame);
     ++counts_[topic.name].taken;
@@ -115,7 +150,8 @@ NextRecorded RosRecording::convert(const RosMessage& message)
 
 ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string& what) const
 {
-  const std::string type = message.topic->type + " on " + message.topic->name;
+  const std::string& known = message.topic->type;
+  const std::string type = (known.empty() ? "unknown type" : known) + " on " + message.topic->name;
   return {
       path_,
       index_ - 1,

@@ -17,6 +17,8 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -84,6 +86,12 @@ inline LidarScan smallScan(std::int64_t stamp_ns = kStart)
 inline std::vector<TopicMessage> smallRecording(Wire wire, int scans = 10)
 {
   return messagesOf(recording(scans), wire);
+}
+
+inline std::string contentOfFile(const std::string& path)
+{
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 /** The fields of a cloud. */
