@@ -8,6 +8,7 @@
 #include <fastlio/sensors/point_cloud_conversion.h>
 
 #include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/poses/CPose3DQuat.h>
 
 #include <cmath>
@@ -162,6 +163,17 @@ std::vector<TopicMessage> messagesOf(
       messages.push_back(
           {"/" + imu->sensorLabel, "sensor_msgs/Imu", sample.stamp_ns,
            imuMessage(wire, sample.stamp_ns, sample.gyro, sample.accel)});
+    }
+    else if (
+        const auto* raw = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(object.get()))
+    {
+      std::vector<std::string> packets;
+      for (const auto& packet : raw->scan_packets)
+        packets.emplace_back(reinterpret_cast<const char*>(&packet), sizeof packet);
+      const std::int64_t stamp_ns = toNanoseconds(raw->timestamp);
+      messages.push_back(
+          {"/lidar", "velodyne_msgs/VelodyneScan", stamp_ns,
+           velodyneMessage(wire, stamp_ns, packets)});
     }
     else if (dynamic_cast<const mrpt::obs::CObservationPointCloud*>(object.get()) != nullptr)
     {
