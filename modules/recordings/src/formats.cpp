@@ -5,7 +5,9 @@
 #include "bag_folder.h"
 #include "db3_file.h"
 #include "mcap_file.h"
+#include "pcap_recording.h"
 #include "ros_recording.h"
+#include "udp_capture.h"
 #include <fastlio/recordings/recording_reader.h>
 
 #include <filesystem>
@@ -29,6 +31,9 @@ const std::vector<RecordingFormat>& recordingFormats()
       {"rosbag2-sqlite", "bag of ROS 2 in SQLite (.db3)", isDb3, openMessages<Db3File>},
       {"rosbag2-zstd", "compressed file of a ROS 2 bag (.db3.zstd, .mcap.zstd)", isCompressedBag,
        openMessages<BagFolder>},
+      {"pcap", "capture of a network (.pcap, .pcapng) with Velodyne, Ouster or Livox", isCapture,
+       [](const std::string& path) -> std::unique_ptr<RecordingReader>
+       { return std::make_unique<PcapRecording>(path); }},
       {"rosbag2", "folder of a ROS 2 bag", isBagFolder, openMessages<BagFolder>},
   };
   return formats;

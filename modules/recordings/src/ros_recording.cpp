@@ -23,7 +23,7 @@ constexpr std::uint64_t kLookBytes = std::uint64_t{64} << 20U;
 
 bool isWanted(const RosTopic& topic)
 {
-  return topic.trouble.empty() && rosTypeOf(topic.type).read != nullptr;
+  return topic.trouble.empty() && rosTypeOf(topic.type).isTaken();
 }
 
 // Bags of ROS 2 may compress each message by itself; CDR never begins like that.
@@ -56,9 +56,10 @@ Bytes inflated(const Bytes& packed)
   }
 }
 
-bool isTransform(const RosTopic& topic)
+bool tellsOfOthers(const RosTopic& topic)
 {
-  return topic.trouble.empty() && rosTypeOf(topic.type).transforms;
+  const RosRole role = rosTypeOf(topic.type).role;
+  return topic.trouble.empty() && (role == RosRole::Transforms || role == RosRole::Text);
 }
 
 bool isStatic(const RosTopic& topic)
@@ -70,31 +71,35 @@ bool isStatic(const RosTopic& topic)
 RosRecording::RosRecording(std::string path, OpenMessages open)
     : path_(std::move(path)), open_(std::move(open))
 {
-  lookForTransforms();
+  lookAhead();
   messages_ = open_();
 }
 
-void RosRecording::lookForTransforms()
+void RosRecording::lookAhead()
 {
   messages_ = open_();
   for (std::size_t i = 0; i < kLookMessages && messages_->position() < kLookBytes; ++i)
   {
-    const NextMessage next = messages_->next(isTransform);
+    const NextMessage next = messages_->next(tellsOfOthers);
     if (std::holds_alternative<EndOfRecording>(next)) return;
-    if (const auto* message = std::get_if<RosMessage>(&next)) takeTransforms(*message);
+    if (const auto* message = std::get_if<RosMessage>(&next)) lookAt(*message);
   }
 }
 
-void RosRecording::takeTransforms(const RosMessage& message)
+void RosRecording::lookAt(const RosMessage& message)
 {
-  if (message.data == nullptr || !isTransform(*message.topic)) return;
+  if (message.data == nullptr || !tellsOfOthers(*message.topic)) return;
   try
   {
     const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
     const Bytes& data = own.empty() ? *message.data : own;
     WireReader in(data.data(), data.size(), message.topic->format);
-    for (const RosTransform& transform : readTransforms(in))
-      isStatic(*message.topic) ? transforms_.addFixed(transform) : transforms_.addMoving(transform);
+    if (rosTypeOf(message.topic->type).role == RosRole::Text)
+      ouster_.takeMetadata(message.topic->name, in);
+    else
+      for (const RosTransform& transform : readTransforms(in))
+        isStatic(*message.topic) ? transforms_.addFixed(transform)
+                                 : transforms_.addMoving(transform);
   }
   catch (const std::runtime_error&)
   {
@@ -106,16 +111,30 @@ NextRecorded RosRecording::next()
 {
   for (;;)
   {
+    if (!queue_.empty())
+    {
+      auto observation = std::move(queue_.front());
+      queue_.pop_front();
+      return observation;
+    }
     NextMessage next = messages_->next(isWanted);
     if (auto* problem = std::get_if<ReadProblem>(&next)) return std::move(*problem);
-    if (std::holds_alternative<EndOfRecording>(next)) return EndOfRecording{};
+    if (std::holds_alternative<EndOfRecording>(next))
+    {
+      ouster_.flush(queue_);
+      if (queue_.empty()) return EndOfRecording{};
+      continue;
+    }
     const auto& message = std::get<RosMessage>(next);
     ++index_;
     ++counts_[message.topic->name].messages;
-    if (message.data != nullptr) return convert(message);
-    const bool lost =
-        !message.topic->trouble.empty() &&
-        (message.topic->type.empty() || rosTypeOf(message.topic->type).read != nullptr);
+    if (message.data != nullptr)
+    {
+      if (auto broken = convert(message)) return std::move(*broken);
+      continue;
+    }
+    const bool lost = !message.topic->trouble.empty() &&
+                      (message.topic->type.empty() || rosTypeOf(message.topic->type).isTaken());
     if (lost && refused_.insert(message.topic->name).second)
     {
       ReadProblem problem = problemOf(message, message.topic->trouble);
@@ -125,7 +144,8 @@ NextRecorded RosRecording::next()
   }
 }
 
-NextRecorded RosRecording::convert(const RosMessage& message)
+// Its observations are in the queue then.
+std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
 {
   const RosTopic& topic = *message.topic;
   try
@@ -133,10 +153,17 @@ NextRecorded RosRecording::convert(const RosMessage& message)
     const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
     const Bytes& data = own.empty() ? *message.data : own;
     WireReader in(data.data(), data.size(), topic.format);
-    RosObservation result = rosTypeOf(topic.type).read(in, topic.name);
-    setPose(*result.observation, result.frame);
+    const RosType& type = rosTypeOf(topic.type);
+    if (type.role == RosRole::OusterPackets)
+      ouster_.takePacket(topic.name, in, queue_);
+    else
+    {
+      RosObservation result = type.read(in, topic.name);
+      setPose(*result.observation, result.frame);
+      queue_.push_back(std::move(result.observation));
+    }
     ++counts_[topic.name].taken;
-    return result.observation;
+    return std::nullopt;
   }
   catch (const std::bad_alloc&)
   {

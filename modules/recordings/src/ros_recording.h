@@ -5,6 +5,7 @@
 #pragma once
 
 #include "byte_source.h"
+#include "ouster_topics.h"
 #include "transform_tree.h"
 #include "wire_reader.h"
 #include <fastlio/recordings/recording_reader.h>
@@ -60,7 +61,7 @@ class RosMessageSource
 using OpenMessages = std::function<std::unique_ptr<RosMessageSource>()>;
 
 /** A recording of ROS messages. Its beginning is looked through for the transforms between the
- * frames of the sensors before the first observation is given. */
+ * frames of the sensors, and for metadata, before the first observation is given. */
 class RosRecording : public RecordingReader
 {
  public:
@@ -78,9 +79,9 @@ class RosRecording : public RecordingReader
     std::size_t messages = 0, taken = 0;
   };
 
-  void lookForTransforms();
-  void takeTransforms(const RosMessage& message);
-  [[nodiscard]] NextRecorded convert(const RosMessage& message);
+  void lookAhead();
+  void lookAt(const RosMessage& message);
+  [[nodiscard]] std::optional<ReadProblem> convert(const RosMessage& message);
   [[nodiscard]] ReadProblem problemOf(const RosMessage& message, const std::string& what) const;
   void setPose(mrpt::obs::CObservation& observation, const std::string& frame);
 
@@ -88,6 +89,8 @@ class RosRecording : public RecordingReader
   OpenMessages open_;
   std::unique_ptr<RosMessageSource> messages_;
   TransformTree transforms_;
+  OusterTopics ouster_;
+  ObservationQueue queue_;                     // read, and not given yet
   std::string vehicle_;                        // the frame that poses refer to; empty: none known
   std::map<std::string, std::string> frames_;  // by label: the frame and what is known of its pose
   std::map<std::string, Counts> counts_;       // by topic

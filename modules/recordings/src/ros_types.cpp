@@ -11,7 +11,7 @@ namespace
 {
 constexpr const char* kLidar = "LiDAR, points and their times as recorded";
 
-const std::array<RosType, 10> kRosTypes{{
+const std::array<RosType, 13> kRosTypes{{
     {"sensor_msgs/Imu", "IMU, units as recorded", readImu},
     {"sensor_msgs/PointCloud2", kLidar, readPointCloud2},
     {"livox_ros_driver/CustomMsg", kLidar, readLivoxCustom},
@@ -20,8 +20,12 @@ const std::array<RosType, 10> kRosTypes{{
     {"velodyne_msgs/VelodyneScan", "LiDAR, raw packets", readVelodyneScan},
     {"sensor_msgs/NavSatFix", "GNSS", readNavSatFix},
     {"nav_msgs/Odometry", "odometry: planar pose and velocity", readOdometry},
-    {"tf2_msgs/TFMessage", "transforms: poses of sensors", nullptr, true},
-    {"tf/tfMessage", "transforms: poses of sensors", nullptr, true},
+    {"tf2_msgs/TFMessage", "transforms: poses of sensors", nullptr, RosRole::Transforms},
+    {"ouster_ros/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr, RosRole::OusterPackets},
+    {"ouster_sensor_msgs/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr,
+     RosRole::OusterPackets},
+    {"std_msgs/String", "text: metadata of an Ouster, if it is that", nullptr, RosRole::Text},
+    {"tf/tfMessage", "transforms: poses of sensors", nullptr, RosRole::Transforms},
 }};
 
 const RosType kOther{"", "not read: no type of this program"};

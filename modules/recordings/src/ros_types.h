@@ -10,6 +10,15 @@
 
 namespace fastlio
 {
+/** What a message is there for. */
+enum class RosRole
+{
+  Observation,
+  Transforms,     //!< where frames are
+  Text,           //!< metadata, perhaps
+  OusterPackets,  //!< a part of a scan, or an inertial sample
+};
+
 /** A row: a type and what is made of it. */
 struct RosType
 {
@@ -17,7 +26,10 @@ struct RosType
   const char* meaning;  //!< for people
   RosObservation (*read)(WireReader&, const std::string& label) =
       nullptr;  //!< null: it is not read
-  bool transforms = false;
+  RosRole role = RosRole::Observation;
+
+  /** Its messages become observations. */
+  [[nodiscard]] bool isTaken() const { return read != nullptr || role == RosRole::OusterPackets; }
 };
 
 /** The row of a type, in the form of ROS 1 ("sensor_msgs/Imu"), of ROS 2 ("sensor_msgs/msg/Imu") or
