@@ -9,7 +9,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kMostFields = 100;
+constexpr std::size_t kMostBagFields = 100;
 
 std::uint32_t bagWord(const void* data)
 {
@@ -24,7 +24,7 @@ std::optional<BagFields> BagFields::parse(const std::uint8_t* data, std::size_t 
   BagFields fields;
   while (size > 0)
   {
-    if (size < sizeof(std::uint32_t) || fields.fields_.size() == kMostFields) return std::nullopt;
+    if (size < sizeof(std::uint32_t) || fields.fields_.size() == kMostBagFields) return std::nullopt;
     const std::size_t length = bagWord(data);
     data += sizeof(std::uint32_t);
     size -= sizeof(std::uint32_t);

@@ -4,6 +4,7 @@
 #include "bag_file.h"
 #include "bag_folder.h"
 #include "db3_file.h"
+#include "folder_recording.h"
 #include "mcap_file.h"
 #include "pcap_recording.h"
 #include "ros_recording.h"
@@ -34,7 +35,12 @@ const std::vector<RecordingFormat>& recordingFormats()
       {"pcap", "capture of a network (.pcap, .pcapng) with Velodyne, Ouster or Livox", isCapture,
        [](const std::string& path) -> std::unique_ptr<RecordingReader>
        { return std::make_unique<PcapRecording>(path); }},
+      {"kitti-raw", "drive of KITTI's raw data (folder)", isKittiDrive, openKittiDrive},
+      {"kitti-odometry", "sequence of KITTI's odometry benchmark (folder)", isKittiSequence,
+       openKittiSequence},
       {"rosbag2", "folder of a ROS 2 bag", isBagFolder, openMessages<BagFolder>},
+      {"clouds", "folder of PCD or BIN files with their times, and imu.csv", isCloudFolder,
+       openCloudFolder},
   };
   return formats;
 }
