@@ -2,7 +2,7 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions] [packages] [fuzz]
+# Usage: cmake/install_dependencies.sh [build] [test] [conformance] [lint] [benchmark] [instructions] [packages] [fuzz]
 # (default: build)
 set -eu
 
@@ -16,6 +16,8 @@ fi
 benchmark_packages="libbenchmark-dev"
 # MRPT's own programs, which the tests run on our outputs; the benchmarks are tested, too.
 test_packages="mrpt-apps $benchmark_packages"
+# Other writers of recordings, whose files the tests of the import read where they are installed.
+conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
 packages_packages="help2man dpkg-dev file"
@@ -48,13 +50,14 @@ for set in "${@:-build}"; do
   case "$set" in
     build) wanted="$wanted $build_packages" ;;
     test) wanted="$wanted $test_packages" ;;
+    conformance) wanted="$wanted $conformance_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     packages) wanted="$wanted $packages_packages" ;;
     fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions, packages, fuzz" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, conformance, lint, benchmark, instructions, packages, fuzz" >&2
       exit 2
       ;;
   esac

@@ -103,6 +103,10 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
   app.add_flag(
       "--list", arguments.list,
       "Print the topics, what is taken and why, and what the times of points mean; write nothing");
+  app.add_flag(
+      "--merge", arguments.merge,
+      "The inputs were recorded at the same time, by one clock: their observations are put in the "
+      "order of their stamps. For a capture of a LiDAR, and an IMU in another file");
   addOutput(app, arguments);
   addChoice(app, arguments);
   app.add_flag("-q,--quiet", arguments.quiet, "Print errors and warnings only");

@@ -26,6 +26,7 @@ struct ImportArguments
   std::vector<std::string> input_files;
   RawlogParts::Options output;
   bool overwrite = false, list = false, quiet = false;
+  bool merge = false;                  //!< the inputs were recorded at the same time
   std::string lidar_topic, imu_topic;  //!< regular expressions; empty: all
   PointTimeReading point_times{PointTimeUnit::Auto, PointTimeReference::Auto};
 };

@@ -3,12 +3,12 @@
 
 #include "import_run.h"
 
+#include "import_inputs.h"
 #include "topic_list.h"
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/printable.h>
-#include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
@@ -49,7 +49,7 @@ class Import
   {
   }
 
-  void run(RawlogSource& source)
+  void run(ImportInputs& source)
   {
     const bool progress = !arguments_.quiet && isatty(STDERR_FILENO) == 1;
     for (int last = -1; auto observation = source.next();)
@@ -176,9 +176,10 @@ ImportStatus runImport(const ImportArguments& arguments)
     return plan.survey.sensors.empty() ? ImportStatus::Unusable : ImportStatus::Ok;
   }
   Import import(arguments, plan);
-  RawlogSource source(arguments.input_files);
+  ImportInputs source(arguments.input_files, arguments.merge);
   import.run(source);
-  warn(source.problems());
+  const std::vector<ReadProblem> problems = source.problems();
+  warn(problems);
   report(arguments, plan, import);
   if (import.files().empty())
   {
@@ -186,7 +187,7 @@ ImportStatus runImport(const ImportArguments& arguments)
                  "--list shows what there is\n";
     return ImportStatus::Unusable;
   }
-  return source.problems().empty() ? ImportStatus::Ok : ImportStatus::Incomplete;
+  return problems.empty() ? ImportStatus::Ok : ImportStatus::Incomplete;
 }
 
 }  // namespace fastlio

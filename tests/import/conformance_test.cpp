@@ -4,10 +4,9 @@
 // Containers and messages that others have written: a simulated recording through Debian's
 // python3-rosbag and npm's @mcap/core gives the trajectory of its rawlog, to the bit.
 
+#include "folder_writers.h"
 #include "simulated_walk.h"
 #include "wire_writer.h"
-#include <fastlio/options/number_text.h>
-#include <fastlio/sensors/imu_conversion.h>
 
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -27,18 +26,13 @@ class Conformance : public SimulatedWalk
   {
     const std::string folder = folder_.file("dump");
     std::filesystem::create_directories(folder + "/scans");
-    std::string table;
     for (const Object& object : objects)
-    {
-      if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(object.get()))
-        table += line(toImuSample(*imu).sample.value());
-      else if (dynamic_cast<const mrpt::obs::CObservationPointCloud*>(object.get()) != nullptr)
+      if (dynamic_cast<const mrpt::obs::CObservationPointCloud*>(object.get()) != nullptr)
       {
         const LidarScan scan = scanOf(*object);
         write(folder + "/scans/" + std::to_string(scan.stamp_ns) + ".bin", bytesOf(scan.points));
       }
-    }
-    write(folder + "/imu.csv", table);
+    write(folder + "/imu.csv", imuTableOf(objects));
     return folder;
   }
 
@@ -53,15 +47,6 @@ class Conformance : public SimulatedWalk
   }
 
  private:
-  static std::string line(const ImuSample& sample)
-  {
-    std::string text = std::to_string(sample.stamp_ns);
-    for (const Vec3& values : {sample.gyro, sample.accel})
-      for (int i = 0; i < 3; ++i)
-        text += "," + roundTripText(values[i]);
-    return text + "\n";
-  }
-
   static std::string bytesOf(const PointColumns& points)
   {
     WireWriter out(Wire::Ros1);

@@ -35,7 +35,7 @@ class SimulatedWalk : public ::testing::Test
   std::string rawlogOf(const std::vector<std::pair<std::string, std::string>>& overrides = {})
   {
     SimulationSettings settings = defaultSettings("office");
-    settings.duration = 6.0;
+    settings.duration = 4.0;
     settings = withSetting(settings, "lidar.pose", "0, 0, 0, 0, 0, 0");
     for (const auto& [key, value] : overrides)
       settings = withSetting(settings, key, value);

@@ -4,8 +4,13 @@
 // A simulated recording in every format gives the trajectory of its rawlog, to the bit.
 
 #include "bag_writers.h"
+#include "folder_writers.h"
 #include "ros2_writers.h"
 #include "simulated_walk.h"
+#include "wire_writer.h"
+#include <fastlio/sensors/xyzirt_access.h>
+
+#include <mrpt/obs/CObservationPointCloud.h>
 
 namespace fastlio::testing
 {
@@ -53,6 +58,41 @@ TEST_F(EveryFormat, GivesTheTrajectoryOfARawlogOfClouds)
   expectSameTrajectory(fileOf("zstd.mcap", mcapOf(cdr, {"zstd", 100, true})), expected);
   writeDb3(folder_.file("walk.db3"), messagesOf(objects, Wire::CdrBigEndian));
   expectSameTrajectory(folder_.file("walk.db3"), expected);
+}
+TEST_F(EveryFormat, ACaptureAndATableOfSamplesMergeIntoTheRawlog)
+{
+  const std::string rawlog = rawlogOf();
+  const std::vector<Object> objects = objectsOf(rawlog);
+  const std::string expected = trajectoryOf(rawlog);
+  const std::string capture = fileOf("walk.pcap", captureOf(packetsOf(objects)));
+  const std::string table = fileOf("imu.csv", imuTableOf(objects));
+  const auto import =
+      Process(
+          {FASTLIO_IMPORT_PROGRAM, "--merge", capture, table, "-o", folder_.file("merged.rawlog")},
+          folder_.file("log"))
+          .wait();
+  ASSERT_EQ(import.exit_status, 0) << import.output;
+  EXPECT_EQ(trajectoryOf(folder_.file("merged.rawlog")), expected);
+}
+
+TEST_F(EveryFormat, FoldersGiveTheTrajectoryOfTheRawlog)
+{
+  const std::string rawlog = rawlogOf({{"lidar.kind", "os64"}, {"lidar.columns", "256"}});
+  const std::vector<Object> objects = objectsOf(rawlog);
+  writePcdFolder(folder_.file("walk"), objects);
+  expectSameTrajectory(folder_.file("walk"), trajectoryOf(rawlog));
+
+  // KITTI stores no times of points: neither does the rawlog that it is compared with.
+  for (const Object& object : objects)
+    if (auto* cloud = dynamic_cast<mrpt::obs::CObservationPointCloud*>(object.get()))
+    {
+      CloudColumns columns = readColumns(*cloud->pointcloud);
+      columns.time.clear();
+      cloud->pointcloud = makeXyzirt(columns);
+    }
+  const std::string timeless = fileOf("timeless.rawlog", serialize(objects));
+  writeKittiDrive(folder_.file("drive"), objects);
+  expectSameTrajectory(folder_.file("drive"), trajectoryOf(timeless));
 }
 }  // namespace
 }  // namespace fastlio::testing

@@ -24,7 +24,8 @@ std::optional<BagFields> BagFields::parse(const std::uint8_t* data, std::size_t 
   BagFields fields;
   while (size > 0)
   {
-    if (size < sizeof(std::uint32_t) || fields.fields_.size() == kMostBagFields) return std::nullopt;
+    if (size < sizeof(std::uint32_t) || fields.fields_.size() == kMostBagFields)
+      return std::nullopt;
     const std::size_t length = bagWord(data);
     data += sizeof(std::uint32_t);
     size -= sizeof(std::uint32_t);

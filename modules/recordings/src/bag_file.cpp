@@ -124,7 +124,7 @@ NextMessage BagFile::endOfFile(Step step)
     finished_ = true;
     return EndOfRecording{};
   }
-  const auto chunk = findBagChunk(file_, record_ + 1);
+  const auto chunk = ++searches_ <= kMostSearches ? findBagChunk(file_, record_ + 1) : std::nullopt;
   finished_ = !chunk;
   file_.seek(chunk.value_or(file_.size()));
   if (chunk)

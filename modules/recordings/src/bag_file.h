@@ -50,7 +50,8 @@ class BagFile : public RosMessageSource
   std::map<std::uint32_t, RosTopic> connections_;
   Bytes head_, data_;
   RosMessage message_;
-  std::string refused_;  // a compression that is not known
+  std::string refused_;       // a compression that is not known
+  std::size_t searches_ = 0;  // for a chunk behind damage
   bool finished_ = false;
 };
 

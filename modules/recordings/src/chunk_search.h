@@ -11,6 +11,9 @@
 
 namespace fastlio
 {
+/** Searches in one file: each reads a little again, and hostile files would ask for millions. */
+inline constexpr std::size_t kMostSearches = 10'000;
+
 /** \name The place of the next chunk from a place on; nothing: there is none. The position of the
  * file changes.
  * @{ */

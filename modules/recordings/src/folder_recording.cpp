@@ -222,4 +222,25 @@ std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)
   return std::make_unique<FolderRecording>(std::move(streams), std::vector<std::string>{});
 }
 
+// The extension is asked for, too: trajectories are tables of numbers as well.
+bool isImuTable(const std::string& path)
+{
+  if (fs::path(path).extension() != ".csv" || headOf(path, 1).empty()) return false;
+  try
+  {
+    return ImuTable(path).stamp().has_value();
+  }
+  catch (const std::runtime_error&)
+  {
+    return false;
+  }
+}
+
+std::unique_ptr<RecordingReader> openImuTable(const std::string& path)
+{
+  std::vector<std::unique_ptr<TimedStream>> streams;
+  streams.push_back(std::make_unique<ImuTable>(path));
+  return std::make_unique<FolderRecording>(std::move(streams), std::vector<std::string>{});
+}
+
 }  // namespace fastlio

@@ -44,6 +44,10 @@ class FolderRecording : public RecordingReader
 /** PCD or BIN files whose names, or a file of times, tell their stamps; imu.csv if there is one. */
 [[nodiscard]] bool isCloudFolder(const std::string& path);
 [[nodiscard]] std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path);
+
+/** A table of inertial samples alone (.csv), for what is recorded beside it. */
+[[nodiscard]] bool isImuTable(const std::string& path);
+[[nodiscard]] std::unique_ptr<RecordingReader> openImuTable(const std::string& path);
 /** @} */
 
 }  // namespace fastlio

@@ -41,6 +41,7 @@ const std::vector<RecordingFormat>& recordingFormats()
       {"rosbag2", "folder of a ROS 2 bag", isBagFolder, openMessages<BagFolder>},
       {"clouds", "folder of PCD or BIN files with their times, and imu.csv", isCloudFolder,
        openCloudFolder},
+      {"imu-table", "table of inertial samples (.csv)", isImuTable, openImuTable},
   };
   return formats;
 }

@@ -153,7 +153,8 @@ ReadProblem McapFile::endOfFile(Step step)
         "the file ends without the mark of its end. The recording or a copy of it was cut off; "
         "everything before was read.");
   }
-  const auto chunk = findMcapChunk(file_, record_ + 1);
+  const auto chunk =
+      ++searches_ <= kMostSearches ? findMcapChunk(file_, record_ + 1) : std::nullopt;
   finished_ = !chunk;
   file_.seek(chunk.value_or(file_.size()));
   return problem(

@@ -58,6 +58,7 @@ class McapFile : public RosMessageSource
   std::map<std::uint16_t, RosTopic> channels_;
   Bytes data_;
   RosMessage message_;
+  std::size_t searches_ = 0;  // for a chunk behind damage
   bool finished_ = false;
 };
 
