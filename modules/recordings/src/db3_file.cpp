@@ -125,8 +125,11 @@ NextMessage Db3File::next(const TopicFilter& wanted)
   if (finished_) return EndOfRecording{};
   steps_ = 0;
   const int result = sqlite3_step(rows_.get());
-  if (result == SQLITE_ROW) return messageOfRow(wanted);
-  if (result != SQLITE_DONE) return damage();
+  // Rows that do not go forward come out of pages that lead in circles.
+  const bool forward = result == SQLITE_ROW && sqlite3_column_int64(rows_.get(), 0) > row_;
+  if (forward) return messageOfRow(wanted);
+  if (result == SQLITE_ROW) return damage("its rows do not go forward");
+  if (result != SQLITE_DONE) return damage(sqlite3_errmsg(database_.get()));
   finished_ = true;
   return EndOfRecording{};
 }
@@ -149,14 +152,18 @@ NextMessage Db3File::messageOfRow(const TopicFilter& wanted)
 }
 
 // Goes on with the next rows that can be read, in steps that grow.
-NextMessage Db3File::damage()
+NextMessage Db3File::damage(const std::string& why)
 {
-  const std::string why = sqlite3_errmsg(database_.get());
+  constexpr std::size_t kMostDamages = 1000;
+  constexpr std::int64_t kLatestRow = std::int64_t{1} << 40U;
   const std::int64_t from = row_;
+  // The page that tells the last row may be the damaged one.
+  const std::int64_t last = last_row_ > 0 ? std::min(last_row_, kLatestRow) : kLatestRow;
   bool found = false;
-  for (std::int64_t step = 1; !found && row_ < last_row_; step *= 2)
+  ++damages_;
+  for (std::int64_t step = 1; !found && damages_ < kMostDamages && row_ < last; step *= 2)
   {
-    row_ = step < last_row_ - row_ ? row_ + step : last_row_;
+    row_ = std::min(row_ + step, last);
     steps_ = 0;
     found = query(row_) && sqlite3_step(rows_.get()) == SQLITE_ROW && query(row_);
   }

@@ -31,7 +31,7 @@ class Db3File : public RosMessageSource
   void readTopics();
   [[nodiscard]] bool query(std::int64_t behind);
   [[nodiscard]] NextMessage messageOfRow(const TopicFilter& wanted);
-  [[nodiscard]] NextMessage damage();
+  [[nodiscard]] NextMessage damage(const std::string& why);
   [[nodiscard]] bool isCut() const;
 
   std::string told_;
@@ -43,6 +43,7 @@ class Db3File : public RosMessageSource
   std::uint64_t steps_ = 0;              // of the database's machine for the row at hand
   Bytes data_;
   RosMessage message_;
+  std::size_t damages_ = 0;  // behind which reading went on
   bool finished_ = false;
 };
 

@@ -158,6 +158,27 @@ TEST_F(Ros2Bags, ADamagedPageOfADatabaseCostsItsRowsOnly)
   EXPECT_FALSE(bag.problems.empty());
 }
 
+TEST_F(Ros2Bags, PagesThatLeadInCirclesEnd)
+{
+  // Every pointer to a page leads to one of the first pages.
+  const std::string whole = contentOfFile(db3Of(smallRecording(Wire::Cdr, 20)));
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i)
+  {
+    std::string wrong = whole;
+    for (std::size_t page = 4096; page < wrong.size(); page += 4096)
+      if (random() % 4 == 0) wrong.replace(page, 4096, whole, random() % 6 * 4096, 4096);
+    try
+    {
+      (void)readRecording(fileOf(wrong, "circles.db3"));
+    }
+    catch (const std::runtime_error&)
+    {
+      continue;  // refused when it is opened
+    }
+  }
+}
+
 TEST_F(Ros2Bags, AFolderIsReadInTheOrderOfItsNumbersAlsoCompressed)
 {
   const auto messages = smallRecording(Wire::Cdr, 12);
