@@ -18,6 +18,7 @@ namespace
 {
 constexpr std::size_t kPiece = std::size_t{1} << 20U;
 constexpr std::size_t kStretchBuffer = std::size_t{1} << 16U;
+constexpr std::size_t kSmallRead = 4096, kReady = std::size_t{1} << 15U;
 }  // namespace
 
 bool ByteSource::skip(std::uint64_t size)
@@ -79,8 +80,9 @@ void FileBytes::seek(std::uint64_t position)
     throw std::runtime_error("the file cannot be read at byte " + std::to_string(position_));
 }
 
-StretchBytes::StretchBytes(FileBytes& file, std::uint64_t size, std::unique_ptr<Inflater> inflater)
-    : file_(file), left_(size), inflater_(std::move(inflater))
+StretchBytes::StretchBytes(
+    FileBytes& file, std::uint64_t size, std::unique_ptr<Inflater> inflater, bool with_checksum)
+    : file_(file), left_(size), inflater_(std::move(inflater)), with_checksum_(with_checksum)
 {
   if (inflater_) buffer_.resize(kStretchBuffer);
 }
@@ -116,19 +118,38 @@ std::size_t StretchBytes::read(std::uint8_t* data, std::size_t size)
     const std::size_t got = file_.read(data, wanted);
     left_ -= got;
     truncated_ |= got < wanted;
-    checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, got));
+    if (with_checksum_) checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, got));
     return got;
   }
-  std::size_t done = 0;
+  std::size_t done = takeReady(data, size);
   while (done < size && !ended_)
-    done += inflate(data + done, size - done);
-  checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, done));
+  {
+    // Numbers come out of a store: a library takes its time for each call.
+    if (size - done < kSmallRead)
+    {
+      ready_.resize(kReady);
+      ready_begin_ = 0;
+      ready_.resize(inflate(ready_.data(), kReady));
+      done += takeReady(data + done, size - done);
+    }
+    else
+      done += inflate(data + done, size - done);
+  }
+  if (with_checksum_) checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, done));
   return done;
+}
+
+std::size_t StretchBytes::takeReady(std::uint8_t* data, std::size_t size)
+{
+  const std::size_t count = std::min(size, ready_.size() - ready_begin_);
+  std::copy_n(ready_.begin() + static_cast<std::ptrdiff_t>(ready_begin_), count, data);
+  ready_begin_ += count;
+  return count;
 }
 
 std::optional<std::uint32_t> StretchBytes::checksum() const
 {
-  if (skipped_) return std::nullopt;
+  if (skipped_ || !with_checksum_) return std::nullopt;
   return checksum_;
 }
 

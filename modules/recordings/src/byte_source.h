@@ -70,7 +70,9 @@ class StretchBytes : public ByteSource
 {
  public:
   /** Begins at the file's position. The file must outlive it. */
-  StretchBytes(FileBytes& file, std::uint64_t size, std::unique_ptr<Inflater> inflater);
+  StretchBytes(
+      FileBytes& file, std::uint64_t size, std::unique_ptr<Inflater> inflater,
+      bool with_checksum = false);
 
   std::size_t read(std::uint8_t* data, std::size_t size) override;
   bool skip(std::uint64_t size) override;
@@ -80,18 +82,23 @@ class StretchBytes : public ByteSource
   /** The file ends inside the stretch. */
   [[nodiscard]] bool truncated() const { return truncated_; }
 
-  /** The checksum (CRC-32) of all bytes; nothing when some were not looked at. */
+  /** The checksum (CRC-32) of all bytes; nothing when some were not looked at, or nobody
+   * asked for it. */
   [[nodiscard]] std::optional<std::uint32_t> checksum() const;
 
  private:
   void load();
   std::size_t inflate(std::uint8_t* data, std::size_t size);
+  std::size_t takeReady(std::uint8_t* data, std::size_t size);
 
   FileBytes& file_;
   std::uint64_t left_;
   std::unique_ptr<Inflater> inflater_;
-  Bytes buffer_;
+  bool with_checksum_;
+  Bytes buffer_;  // compressed
   std::size_t begin_ = 0, end_ = 0;
+  Bytes ready_;  // inflated, for small reads
+  std::size_t ready_begin_ = 0;
   bool ended_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
   std::uint32_t checksum_ = 0;
 };

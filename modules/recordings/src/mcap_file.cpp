@@ -281,7 +281,8 @@ McapFile::Step McapFile::openChunk(std::uint64_t size)
     return file_.skip(*packed) ? Step::Other : Step::Ended;
   }
   chunk_ = {
-      std::make_unique<StretchBytes>(file_, *packed, std::move(inflater)), end, *checksum, ""};
+      std::make_unique<StretchBytes>(file_, *packed, std::move(inflater), *checksum != 0), end,
+      *checksum, ""};
   return Step::Other;
 }
 
