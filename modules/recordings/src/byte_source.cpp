@@ -17,7 +17,7 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kPiece = std::size_t{1} << 20U;
-constexpr std::size_t kStretchBuffer = std::size_t{1} << 16U;
+constexpr std::size_t kStretchBuffer = std::size_t{1} << 18U;
 constexpr std::size_t kSmallRead = 4096, kReady = std::size_t{1} << 15U;
 }  // namespace
 

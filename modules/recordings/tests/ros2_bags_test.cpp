@@ -11,7 +11,7 @@ namespace
 using namespace fastlio;
 using namespace fastlio::testing;
 
-class Ros2Bags : public RecordingTest
+class RosTwoBags : public RecordingTest
 {
  protected:
   static void expectAll(const Recorded& bag, const std::vector<TopicMessage>& messages)
@@ -32,7 +32,7 @@ class Ros2Bags : public RecordingTest
   }
 };
 
-TEST_F(Ros2Bags, McapIsReadInEveryFormAndEncoding)
+TEST_F(RosTwoBags, McapIsReadInEveryFormAndEncoding)
 {
   for (const Wire wire : {Wire::Cdr, Wire::CdrBigEndian})
     for (const char* compression : {"none", "lz4", "zstd"})
@@ -47,7 +47,7 @@ TEST_F(Ros2Bags, McapIsReadInEveryFormAndEncoding)
   expectAll(readRecording(fileOf(mcapOf(ros1, {}, "ros1"))), ros1);
 }
 
-TEST_F(Ros2Bags, McapOfAnotherEncodingIsNamed)
+TEST_F(RosTwoBags, McapOfAnotherEncodingIsNamed)
 {
   const Recorded bag = readRecording(fileOf(mcapOf(smallRecording(Wire::Cdr, 2), {}, "protobuf")));
   EXPECT_TRUE(bag.observations.empty());
@@ -56,7 +56,7 @@ TEST_F(Ros2Bags, McapOfAnotherEncodingIsNamed)
   EXPECT_TRUE(contains(bag.problems[0].message, "protobuf")) << bag.problems[0].message;
 }
 
-TEST_F(Ros2Bags, ACutMcapGivesAllThatIsBeforeTheCut)
+TEST_F(RosTwoBags, ACutMcapGivesAllThatIsBeforeTheCut)
 {
   const auto messages = smallRecording(Wire::Cdr);
   for (const char* compression : {"none", "lz4", "zstd"})
@@ -76,7 +76,7 @@ TEST_F(Ros2Bags, ACutMcapGivesAllThatIsBeforeTheCut)
     }
 }
 
-TEST_F(Ros2Bags, DamageInAChunkOfMcapIsToldAndCostsThisChunkOnly)
+TEST_F(RosTwoBags, DamageInAChunkOfMcapIsToldAndCostsThisChunkOnly)
 {
   const auto messages = smallRecording(Wire::Cdr);
   for (const char* compression : {"none", "lz4", "zstd"})
@@ -91,7 +91,7 @@ TEST_F(Ros2Bags, DamageInAChunkOfMcapIsToldAndCostsThisChunkOnly)
   }
 }
 
-TEST_F(Ros2Bags, McapGoesOnAtTheNextChunkBehindGarbage)
+TEST_F(RosTwoBags, McapGoesOnAtTheNextChunkBehindGarbage)
 {
   const auto messages = smallRecording(Wire::Cdr);
   for (const char* compression : {"lz4", "zstd"})
@@ -106,7 +106,31 @@ TEST_F(Ros2Bags, McapGoesOnAtTheNextChunkBehindGarbage)
   }
 }
 
-TEST_F(Ros2Bags, AnUnknownCompressionOfMcapIsNamed)
+TEST_F(RosTwoBags, SearchesBehindDamageAreBounded)
+{
+  // Heads of chunks that tell their length right, hold nothing, and are followed by garbage.
+  const std::string chunk = WireWriter(Wire::Ros1)
+                                .number(std::uint8_t{6})
+                                .number(std::uint64_t{28 + 7 + 8 + 1})
+                                .raw(std::string(28, '\0'))
+                                .text("lz4")
+                                .number(std::uint64_t{1})
+                                .raw(std::string(30, '\x55'))
+                                .bytes();
+  std::string bytes = mcapOf({}, {"none", 0, false}).substr(0, 30);
+  const std::size_t head = bytes.size();
+  for (int i = 0; i < 30'000; ++i)
+    bytes += chunk;
+  const std::string file = fileOf(bytes + std::string(100, '\x55'));
+  const auto reader = recordingFormatOf(file)->open(file);
+  std::size_t problems = 0;
+  while (!std::holds_alternative<EndOfRecording>(reader->next()))
+    ++problems;
+  EXPECT_GT(problems, 10'000U) << head;
+  EXPECT_LT(problems, 25'000U);
+}
+
+TEST_F(RosTwoBags, AnUnknownCompressionOfMcapIsNamed)
 {
   const auto messages = smallRecording(Wire::Cdr);
   std::string bytes = mcapOf(messages, {"zstd", 20, true});
@@ -117,7 +141,7 @@ TEST_F(Ros2Bags, AnUnknownCompressionOfMcapIsNamed)
   EXPECT_TRUE(contains(bag.problems[0].message, "xyzw")) << bag.problems[0].message;
 }
 
-TEST_F(Ros2Bags, SqliteIsRead)
+TEST_F(RosTwoBags, SqliteIsRead)
 {
   for (const Wire wire : {Wire::Cdr, Wire::CdrBigEndian})
   {
@@ -126,7 +150,7 @@ TEST_F(Ros2Bags, SqliteIsRead)
   }
 }
 
-TEST_F(Ros2Bags, ADatabaseOfSomethingElseIsRefused)
+TEST_F(RosTwoBags, ADatabaseOfSomethingElseIsRefused)
 {
   const std::string file = db3Of(smallRecording(Wire::Cdr, 1));
   std::string bytes = contentOfFile(file);
@@ -136,7 +160,7 @@ TEST_F(Ros2Bags, ADatabaseOfSomethingElseIsRefused)
   EXPECT_THROW((void)readRecording(file), std::runtime_error);
 }
 
-TEST_F(Ros2Bags, ACutDatabaseGivesWhatIsLeft)
+TEST_F(RosTwoBags, ACutDatabaseGivesWhatIsLeft)
 {
   const auto messages = smallRecording(Wire::Cdr, 20);
   const std::string whole = contentOfFile(db3Of(messages));
@@ -147,7 +171,7 @@ TEST_F(Ros2Bags, ACutDatabaseGivesWhatIsLeft)
   EXPECT_EQ(bag.problems.back().kind, ReadProblemKind::Truncated) << bag.problems.back().message;
 }
 
-TEST_F(Ros2Bags, ADamagedPageOfADatabaseCostsItsRowsOnly)
+TEST_F(RosTwoBags, ADamagedPageOfADatabaseCostsItsRowsOnly)
 {
   const auto messages = smallRecording(Wire::Cdr, 20);
   std::string bytes = contentOfFile(db3Of(messages));
@@ -158,7 +182,7 @@ TEST_F(Ros2Bags, ADamagedPageOfADatabaseCostsItsRowsOnly)
   EXPECT_FALSE(bag.problems.empty());
 }
 
-TEST_F(Ros2Bags, PagesThatLeadInCirclesEnd)
+TEST_F(RosTwoBags, PagesThatLeadInCirclesEnd)
 {
   // Every pointer to a page leads to one of the first pages.
   const std::string whole = contentOfFile(db3Of(smallRecording(Wire::Cdr, 20)));
@@ -179,7 +203,7 @@ TEST_F(Ros2Bags, PagesThatLeadInCirclesEnd)
   }
 }
 
-TEST_F(Ros2Bags, AFolderIsReadInTheOrderOfItsNumbersAlsoCompressed)
+TEST_F(RosTwoBags, AFolderIsReadInTheOrderOfItsNumbersAlsoCompressed)
 {
   const auto messages = smallRecording(Wire::Cdr, 12);
   const std::size_t third = messages.size() / 3;
@@ -201,7 +225,17 @@ TEST_F(Ros2Bags, AFolderIsReadInTheOrderOfItsNumbersAlsoCompressed)
   EXPECT_EQ(recordingFormatOf(folder_.path().string())->name, std::string("rosbag2"));
 }
 
-TEST_F(Ros2Bags, MessagesCompressedOneByOneAreRead)
+TEST_F(RosTwoBags, AFileThatInflatesWithoutEndIsRefused)
+{
+  const std::string bomb = zstd(mcapOf({}) + std::string(std::size_t{300} << 20U, '\0'));
+  ASSERT_LT(bomb.size(), std::size_t{1} << 20U);
+  const Recorded bag = readRecording(fileOf(bomb, "bomb.mcap.zstd"));
+  EXPECT_TRUE(bag.observations.empty());
+  ASSERT_EQ(bag.problems.size(), 1U);
+  EXPECT_TRUE(contains(bag.problems[0].message, "50 times")) << bag.problems[0].message;
+}
+
+TEST_F(RosTwoBags, MessagesCompressedOneByOneAreRead)
 {
   auto packed = smallRecording(Wire::Cdr, 3);
   const auto messages = packed;
@@ -214,7 +248,7 @@ TEST_F(Ros2Bags, MessagesCompressedOneByOneAreRead)
   EXPECT_EQ(cut.problems.size(), 1U);
 }
 
-TEST_F(Ros2Bags, NoDamageThrowsOrRunsAway)
+TEST_F(RosTwoBags, NoDamageThrowsOrRunsAway)
 {
   const auto messages = smallRecording(Wire::Cdr, 2);
   const std::string database = contentOfFile(db3Of(messages));
