@@ -67,10 +67,10 @@ test: test-dependencies
 
 faults: test-dependencies
 	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
-	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_recordings
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_given_recordings
 	build/$(TEST_PRESET)/tests/faults/test_faults
 	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/outages/test_outages
-	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_recordings --gtest_filter='*Outage*'
+	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_given_recordings --gtest_filter='*Outage*'
 
 fuzz:
 	@cmake/install_dependencies.sh build fuzz

@@ -10,6 +10,7 @@
 #include <fastlio/files/same_file.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -118,10 +119,10 @@ OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config
 void requireReadable(const std::vector<std::string>& files)
 {
   for (const auto& file : files)
-    if (const auto problem = inputFileProblem(file))
+    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
       throw SetupError(
           ExitStatus::InputUnusable,
-          "input file '" + file + "' " + *problem + " (--input-rawlog takes a rawlog file)");
+          "input file '" + file + "' " + *problem + " (--input-rawlog takes a recording)");
 }
 
 /** Runs what may throw std::invalid_argument for a parameter, others for the input. */

@@ -1,0 +1,300 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "capture_writer.h"
+#include "ouster_metadata.h"
+#include "recording_test_support.h"
+#include "velodyne_packets.h"
+
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <numeric>
+
+namespace
+{
+using namespace fastlio;
+using namespace fastlio::testing;
+using mrpt::obs::CObservationIMU;
+
+constexpr std::int64_t kPacketNs = 1'327'104;
+
+/** Revolutions of a VLP-16: 75 packets each. */
+std::vector<SentPacket> velodynePackets(int revolutions)
+{
+  std::vector<SentPacket> packets;
+  for (int i = 0; i < 75 * revolutions; ++i)
+  {
+    const auto azimuth = static_cast<std::uint16_t>(i % 75 * 480);
+    const Packet packet = makePacket(azimuth, 40, static_cast<std::uint32_t>(i * 1327), 1000);
+    packets.push_back(
+        {kStart + i * kPacketNs, 2368,
+         std::string(reinterpret_cast<const char*>(&packet), sizeof packet)});
+  }
+  return packets;
+}
+
+WireWriter little()
+{
+  return WireWriter(Wire::Ros1);
+}
+
+/** Of the second generation, with points on the x axis, 1 m, 2 m, ... */
+std::string mid360Packet(std::int64_t stamp_ns, std::uint16_t points)
+{
+  WireWriter out = little();
+  out.number(std::uint8_t{0}).number(static_cast<std::uint16_t>(36 + 14 * points));
+  out.number(static_cast<std::uint16_t>(50 * (points - 1))).number(points);  // 5 us a point
+  out.number(std::uint16_t{0}).number(std::uint8_t{0}).number(std::uint8_t{1});
+  out.raw(std::string(17, '\0'));
+  out.number(static_cast<std::uint64_t>(stamp_ns));
+  for (std::uint16_t i = 0; i < points; ++i)
+  {
+    out.number(std::int32_t{1000 * (i + 1)}).number(std::int32_t{-500}).number(std::int32_t{250});
+    out.number(std::uint8_t{77}).number(std::uint8_t{0});
+  }
+  return out.bytes();
+}
+
+std::string aviaPacket(std::int64_t stamp_ns)
+{
+  WireWriter out = little();
+  out.number(std::uint8_t{5}).raw(std::string(7, '\0')).number(std::uint8_t{1});
+  out.number(std::uint8_t{2}).number(static_cast<std::uint64_t>(stamp_ns));
+  for (int i = 0; i < 96; ++i)
+    out.number(1000 * (i + 1)).number(0).number(0).number(std::uint8_t{9}).number(std::uint8_t{0});
+  return out.bytes();
+}
+
+std::string imuOf(const std::string& head, const std::vector<float>& values)
+{
+  WireWriter out = little();
+  out.raw(head);
+  for (const float value : values)
+    out.number(value);
+  return out.bytes();
+}
+
+/** Metadata of an Ouster of 16 beams, all level, in the newer form. */
+std::string metadataOf(const std::string& profile)
+{
+  std::string angles = "[0";
+  for (int i = 1; i < 16; ++i)
+    angles += ",0";
+  angles += "]";
+  return R"({"beam_intrinsics":{"beam_altitude_angles":)" + angles + R"(,"beam_azimuth_angles":)" +
+         angles +
+         R"(,"lidar_origin_to_beam_origin_mm":15.8},"lidar_data_format":{"columns_per_frame":512,)"
+         R"("columns_per_packet":16,"pixels_per_column":16,"udp_profile_lidar":")" +
+         profile +
+         R"("},"imu_intrinsics":{"imu_to_sensor_transform":[1,0,0,6.25,0,1,0,0,0,0,1,0,0,0,0,1]},)"
+         R"("lidar_intrinsics":{"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.18,0,0,0,1]},)"
+         R"("config_params":{"udp_port_lidar":7502,"udp_port_imu":7503}})";
+}
+
+/** 16 columns from \a column on, all ranges 5 m. */
+std::string ousterPacket(std::int64_t stamp_ns, std::uint16_t column)
+{
+  WireWriter out = little();
+  out.raw(std::string(32, '\0'));
+  for (std::uint16_t i = 0; i < 16; ++i)
+  {
+    out.number(static_cast<std::uint64_t>(stamp_ns + i * 195'000));
+    out.number(static_cast<std::uint16_t>(column + i)).number(std::uint16_t{1});
+    for (int k = 0; k < 16; ++k)
+      out.number(std::uint32_t{5000}).number(std::uint16_t{42}).raw(std::string(6, '\0'));
+  }
+  return out.raw(std::string(32, '\0')).bytes();
+}
+
+class Captures : public RecordingTest
+{
+};
+
+TEST_F(Captures, VelodynePacketsStayRawARevolutionAScan)
+{
+  for (const CaptureStyle& style :
+       {CaptureStyle{}, CaptureStyle{500, false, false}, CaptureStyle{65000, true, false},
+        CaptureStyle{65000, false, true}})
+  {
+    const Recorded capture = readRecording(fileOf(captureOf(velodynePackets(3), style)));
+    EXPECT_TRUE(capture.problems.empty());
+    ASSERT_EQ(capture.observations.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+      const auto& scan =
+          dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*capture.observations[i]);
+      EXPECT_EQ(scan.scan_packets.size(), 75U);
+      EXPECT_EQ(scan.sensorLabel, "velodyne_192.168.1.201");
+      EXPECT_NEAR(
+          static_cast<double>(toNanoseconds(scan.timestamp) - kStart),
+          static_cast<double>(i) * 75 * kPacketNs, 100);
+    }
+  }
+}
+
+TEST_F(Captures, TwoSendersAreTwoSensors)
+{
+  auto packets = velodynePackets(1);
+  auto more = velodynePackets(1);
+  for (SentPacket& packet : more)
+    packet.sender = 202;
+  packets.insert(packets.end(), more.begin(), more.end());
+  const Recorded capture = readRecording(fileOf(captureOf(packets)));
+  EXPECT_EQ(capture.count("velodyne_192.168.1.201"), 1U);
+  EXPECT_EQ(capture.count("velodyne_192.168.1.202"), 1U);
+}
+
+TEST_F(Captures, LivoxOfTheSecondGenerationGivesScansAndSamples)
+{
+  std::vector<SentPacket> packets;
+  for (int i = 0; i < 500; ++i)
+    packets.push_back({kStart, 56301, mid360Packet(kStart + i * 480'000, 96)});
+  std::string head = mid360Packet(kStart + 5'000'000, 2).substr(0, 36);
+  head[1] = 60;
+  head[10] = '\0';
+  packets.push_back({kStart, 56401, imuOf(head, {0.1F, 0.2F, 0.3F, 0, 0, 1})});
+  const Recorded capture = readRecording(fileOf(captureOf(packets)));
+  ASSERT_EQ(capture.count("livox_192.168.1.201"), 3U);  // 240 ms in scans of 100 ms
+  ASSERT_EQ(capture.count("livox_192.168.1.201_imu"), 1U);
+  const CloudColumns columns = columnsOf(*capture.observations[0]);
+  EXPECT_EQ(columns.x[1], 2.0F);
+  EXPECT_EQ(columns.y[1], -0.5F);
+  EXPECT_EQ(columns.z[1], 0.25F);
+  EXPECT_EQ(columns.intensity[1], 77.0F);
+  EXPECT_NEAR(columns.time[1], 5e-6, 1e-12);
+  EXPECT_NEAR(columns.time[96], 480e-6, 1e-12);
+  for (const auto& observation : capture.observations)
+    if (const auto* imu = dynamic_cast<const CObservationIMU*>(observation.get()))
+    {
+      EXPECT_NEAR(imu->get(mrpt::obs::IMU_WY), 0.2, 1e-6);
+      EXPECT_NEAR(imu->get(mrpt::obs::IMU_Z_ACC), 9.80665, 1e-6);
+      EXPECT_EQ(toNanoseconds(imu->timestamp), kStart + 5'000'000);
+    }
+}
+
+TEST_F(Captures, LivoxOfTheFirstGenerationGivesScans)
+{
+  std::vector<SentPacket> packets;
+  for (int i = 0; i < 300; ++i)
+    packets.push_back({kStart, 60001, aviaPacket(kStart + i * 400'000)});
+  const Recorded capture = readRecording(fileOf(captureOf(packets)));
+  ASSERT_EQ(capture.observations.size(), 2U);
+  const CloudColumns columns = columnsOf(*capture.observations[0]);
+  EXPECT_EQ(columns.size(), 250U * 96);
+  EXPECT_NEAR(columns.time[24], 1e-4, 1e-9);  // 240 kHz
+  EXPECT_EQ(columns.ring[7], 1U);
+}
+
+TEST_F(Captures, OusterFollowsItsMetadata)
+{
+  std::vector<SentPacket> packets;
+  for (int i = 0; i < 96; ++i)
+    packets.push_back(
+        {kStart, 7502,
+         ousterPacket(kStart + i * 16 * 195'000, static_cast<std::uint16_t>(i % 32 * 16))});
+  const std::string stamps = little()
+                                 .number(std::uint64_t{0})
+                                 .number(static_cast<std::uint64_t>(kStart))
+                                 .number(static_cast<std::uint64_t>(kStart))
+                                 .bytes();
+  packets.push_back({kStart, 7503, imuOf(stamps, {0, 0, 1, 90, 0, 0})});
+  write(folder_.file("walk.json"), metadataOf("RNG19_RFL8_SIG16_NIR16"));
+  const Recorded capture =
+      readRecording(fileOf(captureOf(packets, {1480, false, false}), "walk.pcap"));
+  EXPECT_TRUE(capture.problems.empty()) << capture.problems.front().message;
+  ASSERT_EQ(capture.count("ouster_192.168.1.201"), 3U);
+  ASSERT_EQ(capture.count("ouster_192.168.1.201_imu"), 1U);
+  const CloudColumns columns = columnsOf(*capture.observations[0]);
+  ASSERT_EQ(columns.size(), 512U * 16);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{100 * 16 + 3}})
+  {
+    // The range counts from the axis, as the azimuth's offset is zero.
+    const double azimuth = -2 * M_PI * static_cast<double>(i / 16) / 512;
+    EXPECT_NEAR(columns.x[i], 5.0 * std::cos(azimuth), 1e-5);
+    EXPECT_NEAR(columns.y[i], 5.0 * std::sin(azimuth), 1e-5);
+    EXPECT_NEAR(columns.time[i], 195e-6 * static_cast<double>(i / 16), 1e-9);
+    EXPECT_EQ(columns.ring[i], i % 16);
+    EXPECT_EQ(columns.intensity[i], 42.0F);
+  }
+  for (const auto& observation : capture.observations)
+  {
+    mrpt::poses::CPose3D pose;
+    observation->getSensorPose(pose);
+    const auto* imu = dynamic_cast<const CObservationIMU*>(observation.get());
+    EXPECT_NEAR(imu != nullptr ? pose.x() : pose.z(), imu != nullptr ? 0.00625 : 0.03618, 1e-9);
+    if (imu == nullptr) continue;
+    EXPECT_NEAR(imu->get(mrpt::obs::IMU_WX), M_PI / 2, 1e-6);
+    EXPECT_NEAR(imu->get(mrpt::obs::IMU_Z_ACC), 9.80665, 1e-6);
+  }
+}
+
+TEST_F(Captures, AnOusterWithoutMetadataIsTold)
+{
+  const std::vector<SentPacket> packets(5, {kStart, 7502, ousterPacket(kStart, 0)});
+  const std::string file = fileOf(captureOf(packets), "walk.pcap");
+  Recorded capture = readRecording(file);
+  ASSERT_EQ(capture.problems.size(), 1U);
+  EXPECT_EQ(capture.problems[0].kind, ReadProblemKind::NotSupported);
+  EXPECT_TRUE(contains(capture.problems[0].message, ".json")) << capture.problems[0].message;
+  write(folder_.file("walk.json"), "{\"no\": \"metadata\"}");
+  capture = readRecording(file);
+  ASSERT_EQ(capture.problems.size(), 1U);
+  EXPECT_TRUE(contains(capture.problems[0].message, "walk.json")) << capture.problems[0].message;
+}
+
+TEST_F(Captures, MetadataOfEveryFormIsUnderstoodAndNonsenseRefused)
+{
+  EXPECT_EQ(parseOusterMetadata(metadataOf("LEGACY")).packetBytes(), 16U * (20 + 16 * 12));
+  EXPECT_EQ(parseOusterMetadata(metadataOf("RNG15_RFL8_NIR8")).packetBytes(), 64U + 16 * (12 + 64));
+  EXPECT_THROW((void)parseOusterMetadata(metadataOf("RNG99")), std::runtime_error);
+  EXPECT_THROW((void)parseOusterMetadata("{"), std::runtime_error);
+  EXPECT_THROW((void)parseOusterMetadata("[]"), std::runtime_error);
+  EXPECT_THROW((void)parseOusterMetadata("{\"lidar_mode\":5}"), std::runtime_error);
+  std::string huge = metadataOf("LEGACY");
+  const std::string columns = "\"columns_per_packet\":16";
+  huge.replace(huge.find(columns), columns.size(), "\"columns_per_packet\":99999999999");
+  EXPECT_THROW((void)parseOusterMetadata(huge), std::runtime_error);
+}
+
+TEST_F(Captures, ACutCaptureGivesAllThatIsBeforeTheCut)
+{
+  const std::string whole = captureOf(velodynePackets(4));
+  const Recorded capture = readRecording(fileOf(whole.substr(0, whole.size() * 5 / 8)));
+  EXPECT_EQ(capture.observations.size(), 3U);
+  ASSERT_EQ(capture.problems.size(), 1U);
+  EXPECT_EQ(capture.problems[0].kind, ReadProblemKind::Truncated) << capture.problems[0].message;
+}
+
+TEST_F(Captures, OtherTrafficIsListedAndLeftAlone)
+{
+  auto packets = velodynePackets(1);
+  packets.push_back({kStart, 53, "a question"});
+  packets.push_back({kStart, 53, ""});
+  const Recorded capture = readRecording(fileOf(captureOf(packets)));
+  EXPECT_EQ(capture.observations.size(), 1U);
+  ASSERT_NE(capture.topic("192.168.1.201 to port 53"), nullptr);
+  EXPECT_TRUE(contains(capture.topic("192.168.1.201 to port 53")->reason, "not read"));
+}
+
+TEST_F(Captures, NoDamageThrowsOrRunsAway)
+{
+  std::vector<SentPacket> packets = velodynePackets(1);
+  packets.resize(20);
+  for (int i = 0; i < 10; ++i)
+  {
+    packets.push_back({kStart, 56301, mid360Packet(kStart + i * 480'000, 96)});
+    packets.push_back({kStart, 60001, aviaPacket(kStart + i * 400'000)});
+    packets.push_back({kStart, 7502, ousterPacket(kStart, static_cast<std::uint16_t>(16 * i))});
+  }
+  write(folder_.file("recording.json"), metadataOf("RNG19_RFL8_SIG16_NIR16"));
+  const std::string whole = captureOf(packets, {800, false, false});
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i)
+  {
+    std::string wrong = whole;
+    for (int k = 0; k < 20; ++k)
+      wrong[24 + random() % (wrong.size() - 24)] = static_cast<char>(random());
+    (void)readRecording(fileOf(wrong));
+  }
+}
+}  // namespace
