@@ -129,6 +129,10 @@ void addMapOptions(CLI::App& app, ReplayArguments& arguments)
 
 void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 {
+  app.add_flag(
+      "--calibrate", arguments.calibrate,
+      "First calibrate the rig with the recording, as fastlio-calibrate does; used where it is "
+      "better on data that it was not fitted to");
   app.add_option(
          "--dump-config", arguments.dump_config,
          "Print all parameters in effect as YAML, each with where it comes from, and run nothing; "

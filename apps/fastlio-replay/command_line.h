@@ -31,6 +31,7 @@ struct ReplayArguments
   std::string map_in;                             //!< a saved map to start in; empty: none
   std::vector<double> initial_pose;               //!< x y z yaw pitch roll [m, deg]; empty: origin
   std::string reference;                          //!< to compare with in the report; empty: none
+  bool calibrate = false;                         //!< the rig, with the recording, before the run
   bool no_map_update = false;                     //!< sets the parameter map.update to false
   std::string dump_config;                        //!< "all" or "main": print and run nothing
   std::string frame = "vehicle";                  //!< or "imu"

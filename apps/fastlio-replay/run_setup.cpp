@@ -3,6 +3,7 @@
 
 #include "run_setup.h"
 
+#include "calibration_first.h"
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/failure_text.h>
@@ -207,12 +208,16 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);
   checked([&] { requireGivenOnce(arguments.input_files); });
+  std::string calibration;
+  if (arguments.calibrate)
+    calibration = checked([&] { return calibrateFirst(arguments.input_files, setup.config); });
   const SensorOptions& sensors = setup.config.sensors;
   const SensorPatterns patterns = patternsOf(sensors);
   setup.selection = checked(
       [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
   setup.plan =
       checked([&] { return planInput(setup.selection, sensors, setup.config.odometry.lidar); });
+  if (!calibration.empty()) setup.plan.notes.push_back(calibration);
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
   setup.frame = outputFrameOf(arguments.frame, setup.plan.T_vehicle_imu);

@@ -68,6 +68,28 @@ TEST_F(Calibrate, WritesParametersThatAReplayTakes)
   EXPECT_EQ(replay.exit_status, 0) << replay.output;
 }
 
+TEST_F(Calibrate, AReplayCalibratesFirst)
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.duration = 15.0;
+  settings.lidar.stride = 4;
+  settings.lidar.laser_range_std = 0.02;
+  settings.imu.gyro_scale_std = 0.01;
+  const std::string rawlog = writeRecording(Simulation(settings), folder_.file("walk")).rawlog;
+  const auto replay = Process(
+                          {FASTLIO_REPLAY_PROGRAM, "--calibrate", "--input-rawlog", rawlog,
+                           "--output-dir", folder_.file("out")},
+                          folder_.file("replay.txt"))
+                          .wait();
+  EXPECT_EQ(replay.exit_status, 0) << replay.output;
+  const std::string summary = textOf(folder_.file("out/summary.json"));
+  EXPECT_NE(summary.find("Calibration (--calibrate): On "), std::string::npos);
+  EXPECT_NE(summary.find("use it."), std::string::npos) << replay.output;
+  const auto parameters = nlohmann::json::parse(summary)["parameters"];
+  EXPECT_NE(parameters.dump().find("\"beam_offsets\":\"[[-"), std::string::npos)
+      << parameters.dump();
+}
+
 TEST_F(Calibrate, QuietAndWithoutTrial)
 {
   const std::string rawlog = record("walk"), yaml = folder_.file("rig.yaml");
