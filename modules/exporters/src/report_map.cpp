@@ -82,16 +82,19 @@ struct ViewGrid
   };
 
   PlotRange x, y;
-  double size = 1.0;
-  std::size_t columns = 0;
+  double size;  //!< edge of a cell [m]
+  std::size_t columns;
   std::vector<Cell> cells;
 
-  ViewGrid(const PlotRange& across, const PlotRange& up) : x(across), y(up)
+  ViewGrid(const PlotRange& across, const PlotRange& up)
+      : x(across),
+        y(up),
+        size(
+            kPixelsPerCell *
+            std::max((x.high - x.low) / kInnerWidth, (y.high - y.low) / kInnerHeight)),
+        columns(indexOf(x.high - x.low) + 1),
+        cells(columns * (indexOf(y.high - y.low) + 1))
   {
-    size =
-        kPixelsPerCell * std::max((x.high - x.low) / kInnerWidth, (y.high - y.low) / kInnerHeight);
-    columns = indexOf(x.high - x.low) + 1;
-    cells.resize(columns * (indexOf(y.high - y.low) + 1));
   }
 
   [[nodiscard]] std::size_t indexOf(double distance) const
@@ -109,9 +112,10 @@ struct ViewGrid
 
   [[nodiscard]] PlotPoint centreOf(std::size_t cell) const
   {
+    const std::size_t row = cell / columns, column = cell % columns;
     return {
-        x.low + (static_cast<double>(cell % columns) + 0.5) * size,
-        y.low + (static_cast<double>(cell / columns) + 0.5) * size};
+        x.low + (static_cast<double>(column) + 0.5) * size,
+        y.low + (static_cast<double>(row) + 0.5) * size};
   }
 };
 

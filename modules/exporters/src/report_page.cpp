@@ -18,7 +18,9 @@ namespace
 std::string nameOfRun(const RunSummary& run)
 {
   if (run.inputs.empty()) return "run";
-  return std::filesystem::path(run.inputs.front().path).filename().string();
+  const std::string first = std::filesystem::path(run.inputs.front().path).filename().string();
+  const std::size_t further = run.inputs.size() - 1;
+  return further == 0 ? first : first + " and " + std::to_string(further) + " more";
 }
 
 std::string pageSection(const char* id, const char* title, const std::string& html)
@@ -133,11 +135,14 @@ std::string referenceHtml(const ReferenceFindings& findings)
     return "<p>The reference " + file + " could not be used: " + htmlText(findings.problem) +
            "</p>\n";
   const EvaluationReport& r = *findings.report;
-  std::string html = "<p>" + file + ": " + std::to_string(r.association.used) + " of " +
-                     std::to_string(r.association.estimated) + " poses have a reference, " +
-                     fixedText(100.0 * r.association.coverage, 1) +
-                     " % of its time. Alignment of APE: " + toString(r.options.alignment) +
-                     "; errors over time are relative to the first pose.</p>\n";
+  std::string html =
+      "<p>" + file + ": " + std::to_string(r.association.used) + " of " +
+      std::to_string(r.association.estimated) + " poses have a reference, " +
+      fixedText(100.0 * r.association.coverage, 1) +
+      " % of its time. Alignment of APE: " + toString(r.options.alignment) +
+      "; errors over time are relative to the first pose. Both are taken as poses of the "
+      "body \u201c" +
+      htmlText(findings.body) + "\u201d (--frame).</p>\n";
   if (findings.poses_per_sample > 1)
     html += "<p>The run is long: of each " + std::to_string(findings.poses_per_sample) +
             " poses one is compared. fastlio-eval compares all.</p>\n";

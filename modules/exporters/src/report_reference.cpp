@@ -80,6 +80,7 @@ ReferenceFindings ReferenceComparison::findings() const
 {
   ReferenceFindings findings;
   findings.file = file_;
+  findings.body = frame_.name;
   findings.poses_per_sample = poses_per_sample_;
   if (file_.empty()) return findings;
   try

@@ -16,6 +16,7 @@ namespace fastlio
 struct ReferenceFindings
 {
   std::string file;     //!< empty: there is no reference
+  std::string body;     //!< whose poses are compared
   std::string problem;  //!< why it could not be used, or empty
   std::optional<EvaluationReport> report;
   std::size_t poses_per_sample = 1;  //!< of a long run, only each n-th pose is compared, n is this

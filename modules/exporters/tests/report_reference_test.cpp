@@ -53,7 +53,9 @@ TEST(ReportReference, ErrorsAreThoseOfTheEvaluation)
   EXPECT_GT(findings.report->ape.translation.rmse, 0.01);
   EXPECT_TRUE(says(html, fixedText(findings.report->ape.translation.rmse, 4)));
   EXPECT_TRUE(says(html, fixedText(findings.report->nees->pose.mean, 2)));
-  for (const char* part : {"40 of 40 poses", "NEES of the pose", "Position error, z"})
+  for (const char* part :
+       {"40 of 40 poses", "poses of the body \u201cimu\u201d", "NEES of the pose",
+        "Position error, z"})
     EXPECT_TRUE(says(html, part)) << part;
 }
 
