@@ -73,8 +73,8 @@ TEST_F(Calibrate, AReplayCalibratesFirst)
   SimulationSettings settings = defaultSettings("office");
   settings.duration = 15.0;
   settings.lidar.stride = 4;
-  settings.lidar.laser_range_std = 0.02;
-  settings.imu.gyro_scale_std = 0.01;
+  settings = withSetting(settings, "lidar.laser_range_std", "0.02");
+  settings = withSetting(settings, "imu.gyro_scale_std", "0.01");
   const std::string rawlog = writeRecording(Simulation(settings), folder_.file("walk")).rawlog;
   const auto replay = Process(
                           {FASTLIO_REPLAY_PROGRAM, "--calibrate", "--input-rawlog", rawlog,
