@@ -35,7 +35,8 @@ constexpr const char* kFooter =
     "       written\n"
     "When several apply, the order is 130, 5, 3, 4, 6.\n\n"
     "Example:\n"
-    "  fastlio-replay -c params/velodyne_vlp16.yaml --input-rawlog walk.rawlog --output-dir out";
+    "  fastlio-replay walk.rawlog\n"
+    "  fastlio-replay walk.rawlog -c params/velodyne_vlp16.yaml --set map.voxel_size=0.3 -o out";
 
 const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
 {
@@ -45,15 +46,29 @@ const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
   return names;
 }
 
-void addInputOptions(CLI::App& app, ReplayArguments& arguments)
+void addInputOptions(
+    CLI::App& app, ReplayArguments& arguments, std::vector<std::string>& positional)
 {
   app.add_option(
          "-c,--config", arguments.config_file,
          "Parameters (YAML); without it, the defaults for the sensor that is found")
       ->type_name("FILE.yaml");
   app.add_option(
+         "recordings", positional,
+         "Recordings: rawlogs, bags, MCAP, captures, folders (docs/import.md); of several, each "
+         "gets a run of its own")
+      ->type_name("RECORDING");
+  app.add_flag(
+      "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
+  app.add_option(
+         "--set", arguments.settings,
+         "Set a parameter as the configuration file would, and over it; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("KEY=VALUE");
+  app.add_option(
          "--input-rawlog", arguments.input_files,
-         "Recording; repeat for the parts of a split one, in order")
+         "A recording, too; repeated: the parts of a split one, in order")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
@@ -80,8 +95,9 @@ void addInputOptions(CLI::App& app, ReplayArguments& arguments)
 void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
 {
   app.add_option(
-         "--output-dir", arguments.output_directory,
-         "Folder for all output files (see docs/outputs.md); created when absent")
+         "-o,--output-dir", arguments.output_directory,
+         "Folder for all output files (see docs/outputs.md); created when absent; default: a new "
+         "one, named after the recording, and 'latest' is a link to it")
       ->type_name("DIR");
   app.add_option(
          "--output-tum-path", arguments.output_tum_path,
@@ -150,6 +166,7 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
   app.add_option("-v,--verbosity", arguments.verbosity, "ERROR, WARN, INFO (default) or DEBUG")
       ->transform(CLI::CheckedTransformer(verbosityNames(), CLI::ignore_case).description(""))
       ->type_name("LEVEL");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
   app.set_version_flag(
       "--version", std::string("fastlio-replay ") + FASTLIO_VERSION + " (" +
                        mrpt::system::MRPT_getVersion() + ")");
@@ -158,15 +175,28 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 void requireOutput(const ReplayArguments& arguments)
 {
   if (!arguments.dump_config.empty()) return;
-  if (arguments.input_files.empty()) throw CLI::RequiredError("--input-rawlog");
-  if (arguments.output_directory.empty() && arguments.output_tum_path.empty())
-    throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
-  if (arguments.imu_rate && arguments.output_directory.empty())
+  if (arguments.input_files.empty())
+    throw CLI::RequiredError("a recording (fastlio-replay walk.rawlog)");
+  if (arguments.batch && !arguments.output_tum_path.empty())
+    throw CLI::ValidationError(
+        "--output-tum-path", "has one file for several recordings; use --output-dir or --join");
+  if (!arguments.output_directory.empty() || arguments.output_tum_path.empty()) return;
+  if (arguments.imu_rate)
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
-  if (!arguments.reference.empty() && arguments.output_directory.empty())
+  if (!arguments.reference.empty())
     throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
-  if (!arguments.exporters.empty() && arguments.output_directory.empty())
+  if (!arguments.exporters.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
+}
+
+/** Positional recordings are of their own, those of --input-rawlog parts of one. */
+void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& positional)
+{
+  arguments.batch = !arguments.join && positional.size() > 1;
+  if (!positional.empty() && !arguments.input_files.empty())
+    throw CLI::ValidationError(
+        "--input-rawlog", "is given beside other recordings; give all of them in one way");
+  if (!positional.empty()) arguments.input_files = positional;
 }
 }  // namespace
 
@@ -175,13 +205,16 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
   CLI::App app(kDescription, "fastlio-replay");
   app.footer("Files (--export):\n" + exporterHelp() + "\n" + kFooter);
   ReplayArguments arguments;
-  addInputOptions(app, arguments);
+  std::vector<std::string> positional;
+  addInputOptions(app, arguments, positional);
   addOutputOptions(app, arguments);
   addMapOptions(app, arguments);
   addRunOptions(app, arguments);
   try
   {
     app.parse(argc, argv);
+    joinInputs(arguments, positional);
+    if (arguments.quiet) arguments.verbosity = mrpt::system::LVL_ERROR;
     requireOutput(arguments);
   }
   catch (const CLI::ParseError& e)

@@ -18,7 +18,10 @@ namespace fastlio
 struct ReplayArguments
 {
   std::string config_file;                        //!< empty: defaults for the sensor that is found
-  std::vector<std::string> input_files;           //!< rawlogs, in order
+  std::vector<std::string> input_files;           //!< recordings, in order
+  bool join = false;                              //!< they are parts of one
+  bool batch = false;                             //!< they are recordings of their own
+  std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none
   bool overwrite = false;                         //!< also files that no run has written
@@ -37,6 +40,7 @@ struct ReplayArguments
   std::string frame = "vehicle";                  //!< or "imu"
   std::optional<int> threads;                     //!< overrides the parameter `threads`
   mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;
+  bool quiet = false;  //!< nothing but errors
 };
 
 /** The arguments, or the exit status when there is nothing (more) to do: help and version have been

@@ -10,6 +10,8 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
@@ -65,10 +67,32 @@ ConfigFile readFile(const ReplayArguments& arguments)
   }
 }
 
-/** The command line goes before the file. */
+/** Takes in --set KEY=VALUE. */
+void takeSetting(const std::string& setting, Loaded& loaded)
+{
+  const std::size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals);
+  const auto* row = findOption(configTable(), key);
+  if (equals == std::string::npos || row == nullptr)
+    throw SetupError(
+        ExitStatus::Usage,
+        "--set '" + printable(setting) + "': " +
+            (equals == std::string::npos
+                 ? "has no '='; write KEY=VALUE, for example map.voxel_size=0.3"
+                 : "unknown key; did you mean '" + nearestKey(configTable(), key) + "'?"));
+  const auto problem =
+      assign(row->value(loaded.file.config), row->unit, setting.substr(equals + 1));
+  if (problem)
+    throw SetupError(ExitStatus::Usage, "--set '" + printable(setting) + "': " + *problem);
+  loaded.origins[key] = "--set";
+}
+
+/** The command line goes before the file, and its own options before --set. */
 Loaded loadConfiguration(const ReplayArguments& arguments)
 {
   Loaded loaded{readFile(arguments), {}};
+  for (const std::string& setting : arguments.settings)
+    takeSetting(setting, loaded);
   OdometryOptions& odometry = loaded.file.config.odometry;
   SensorOptions& sensors = loaded.file.config.sensors;
   std::string& exporters = loaded.file.config.exporters.exporters;
@@ -204,6 +228,7 @@ RunSetup setUpRun(const ReplayArguments& arguments)
 {
   RunSetup setup;
   setup.config = loadConfiguration(arguments).file.config;
+  if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);

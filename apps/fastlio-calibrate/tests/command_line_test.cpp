@@ -86,8 +86,7 @@ TEST_F(Calibrate, AReplayCalibratesFirst)
   EXPECT_NE(summary.find("Calibration (--calibrate): On "), std::string::npos);
   EXPECT_NE(summary.find("use it."), std::string::npos) << replay.output;
   const auto parameters = nlohmann::json::parse(summary)["parameters"];
-  EXPECT_NE(parameters.dump().find("\"beam_offsets\":\"[[-"), std::string::npos)
-      << parameters.dump();
+  EXPECT_GT(parameters["lidar"]["beam_offsets"].size(), 10U) << parameters.dump();
 }
 
 TEST_F(Calibrate, QuietAndWithoutTrial)
