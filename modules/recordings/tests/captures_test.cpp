@@ -8,7 +8,7 @@
 
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
-#include <numeric>
+#include <limits>
 
 namespace
 {
@@ -263,6 +263,25 @@ TEST_F(Captures, ACutCaptureGivesAllThatIsBeforeTheCut)
   EXPECT_EQ(capture.observations.size(), 3U);
   ASSERT_EQ(capture.problems.size(), 1U);
   EXPECT_EQ(capture.problems[0].kind, ReadProblemKind::Truncated) << capture.problems[0].message;
+}
+
+TEST_F(Captures, TimesThatNoClockTellsAreNoTimes)
+{
+  const std::int64_t wild = std::numeric_limits<std::int64_t>::min() + 5;
+  std::vector<SentPacket> packets = velodynePackets(1);
+  packets.front().stamp_ns = -1;  // pcapng: 584 years
+  for (const std::int64_t stamp_ns : {kStart, wild, kStart + 480'000})
+  {
+    packets.push_back({kStart, 56301, mid360Packet(stamp_ns, 96)});
+    packets.push_back({kStart, 7502, ousterPacket(stamp_ns, 0)});
+  }
+  write(folder_.file("walk.json"), metadataOf("RNG19_RFL8_SIG16_NIR16"));
+  const Recorded capture =
+      readRecording(fileOf(captureOf(packets, {65000, false, true}), "walk.pcap"));
+  EXPECT_EQ(capture.count("livox_192.168.1.201"), 1U);
+  ASSERT_EQ(capture.count("ouster_192.168.1.201"), 2U);  // the columns count anew
+  for (const auto& observation : capture.observations)
+    EXPECT_LT(toNanoseconds(observation->timestamp), kLatestStamp + 1'000'000'000);
 }
 
 TEST_F(Captures, OtherTrafficIsListedAndLeftAlone)
