@@ -41,6 +41,23 @@ TEST_F(Captures, VelodynePacketsStayRawARevolutionAScan)
   }
 }
 
+TEST_F(Captures, OfMoreThan64PacketsInFragmentsTheOldestAreDropped)
+{
+  for (const std::size_t n : {64U, 70U})
+  {
+    auto packets = velodynePackets(1);
+    packets.resize(n);
+    const CaptureStyle interleaved{1000, false, false, true};
+    const Recorded capture = readRecording(fileOf(captureOf(packets, interleaved)));
+    // A late fragment whose packet has been dropped begins another one, and drops the next.
+    ASSERT_EQ(capture.observations.size(), n == 64 ? 1U : 0U);
+    if (n > 64) continue;
+    const auto& scan =
+        dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*capture.observations[0]);
+    EXPECT_EQ(scan.scan_packets.size(), 64U);
+  }
+}
+
 TEST_F(Captures, TwoSendersAreTwoSensors)
 {
   auto packets = velodynePackets(1);
