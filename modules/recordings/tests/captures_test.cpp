@@ -58,6 +58,17 @@ TEST_F(Captures, OfMoreThan64PacketsInFragmentsTheOldestAreDropped)
   }
 }
 
+TEST_F(Captures, SendersBeyond64AreLeftAlone)
+{
+  std::vector<SentPacket> packets;
+  for (int sender = 0; sender < 100; ++sender)
+  {
+    packets.push_back(velodynePackets(1).front());
+    packets.back().sender = static_cast<std::uint8_t>(sender);
+  }
+  EXPECT_EQ(readRecording(fileOf(captureOf(packets))).observations.size(), 64U);
+}
+
 TEST_F(Captures, TwoSendersAreTwoSensors)
 {
   auto packets = velodynePackets(1);
