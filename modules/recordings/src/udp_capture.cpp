@@ -13,6 +13,7 @@
 #include <cstring>
 #include <pcap/pcap.h>
 #include <stdexcept>
+#include <string_view>
 
 namespace fastlio
 {
@@ -35,11 +36,10 @@ std::uint16_t bigEndian16(const std::uint8_t* bytes)
 bool isCapture(const std::string& path)
 {
   const std::string head = headOf(path, 4);
-  for (const char* magic :
-       {"\xD4\xC3\xB2\xA1", "\xA1\xB2\xC3\xD4", "\x4D\x3C\xB2\xA1", "\xA1\xB2\x3C\x4D",
-        "\x0A\x0D\x0D\x0A"})
-    if (head == magic) return true;
-  return false;
+  constexpr std::array<std::string_view, 5> kMagics{
+      "\xD4\xC3\xB2\xA1", "\xA1\xB2\xC3\xD4", "\x4D\x3C\xB2\xA1", "\xA1\xB2\x3C\x4D",
+      "\x0A\x0D\x0D\x0A"};
+  return std::find(kMagics.begin(), kMagics.end(), head) != kMagics.end();
 }
 
 UdpCapture::UdpCapture(const std::string& path) : pcap_(nullptr, pcap_close)
