@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "mcap_output.h"
 #include <fastlio/recordings/recording_reader.h>
 
 #include <CLI/CLI.hpp>
@@ -37,7 +38,16 @@ void addOutput(CLI::App& app, ImportArguments& arguments)
       {"gzip", RawlogCompression::Gzip},
       {"zstd", RawlogCompression::Zstd},
       {"none", RawlogCompression::None}};
-  app.add_option("-o,--output", arguments.output.path, "Rawlog to write")->type_name("FILE");
+  app.add_option(
+         "-o,--output", arguments.output.path,
+         "Rawlog to write; a name that ends in .mcap: MCAP with messages of ROS 2, for Foxglove "
+         "and "
+         "tools of ROS")
+      ->type_name("FILE");
+  app.add_option(
+         "--trajectory", arguments.trajectory,
+         "Also write this trajectory of a run (--output-tum-path of fastlio-replay) into the MCAP")
+      ->type_name("FILE");
   app.add_option(
          "--compression", arguments.output.compression,
          "Of the rawlog: gzip (every MRPT reads it), zstd (MRPT 2.15.7 and newer, and this "
@@ -118,6 +128,11 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
     app.parse(argc, argv);
     if (!arguments.list && arguments.output.path.empty())
       throw CLI::RequiredError("--output (or --list)");
+    if (!arguments.trajectory.empty() && !isMcapName(arguments.output.path))
+      throw CLI::ValidationError("--trajectory", "goes with an --output that ends in .mcap");
+    if (isMcapName(arguments.output.path) &&
+        (arguments.output.split_mib > 0 || arguments.output.split_seconds > 0))
+      throw CLI::ValidationError("--split-size, --split-time", "are for rawlogs, not for MCAP");
   }
   catch (const CLI::ParseError& e)
   {

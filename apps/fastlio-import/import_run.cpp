@@ -4,6 +4,7 @@
 #include "import_run.h"
 
 #include "import_inputs.h"
+#include "mcap_output.h"
 #include "topic_list.h"
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
@@ -37,6 +38,13 @@ struct Written
   std::int64_t first_ns = 0, last_ns = 0;
 };
 
+std::unique_ptr<ImportOutput> outputOf(const ImportArguments& arguments)
+{
+  if (isMcapName(arguments.output.path))
+    return std::make_unique<McapOutput>(arguments.output.path, arguments.trajectory);
+  return std::make_unique<RawlogParts>(arguments.output);
+}
+
 class Import
 {
  public:
@@ -45,7 +53,7 @@ class Import
         plan_(plan),
         lidars_("--lidar-topic", arguments.lidar_topic),
         imus_("--imu-topic", arguments.imu_topic),
-        parts_(arguments.output)
+        output_(outputOf(arguments))
   {
   }
 
@@ -57,7 +65,7 @@ class Import
       if (isWanted(*observation)) write(converted(observation));
       if (progress) show(source.progress(), last);
     }
-    files_ = parts_.finish();
+    files_ = output_->finish();
   }
 
   [[nodiscard]] const std::map<std::string, Written>& written() const { return written_; }
@@ -92,7 +100,7 @@ class Import
 
   void write(const CObservation::Ptr& observation)
   {
-    parts_.write(*observation);
+    if (!output_->write(*observation)) return;
     Written& written = written_[observation->sensorLabel];
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
     if (written.observations++ == 0) written.first_ns = stamp_ns;
@@ -112,7 +120,7 @@ class Import
   const ImportArguments& arguments_;
   const ImportPlan& plan_;
   LabelPattern lidars_, imus_;
-  RawlogParts parts_;
+  std::unique_ptr<ImportOutput> output_;
   std::map<std::string, Written> written_;
   std::vector<OutputFile> files_;
 };
@@ -133,6 +141,7 @@ void requireHarmlessOutput(const ImportArguments& arguments)
   std::vector<FileUse> inputs;
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "input"});
+  if (!arguments.trajectory.empty()) inputs.push_back({arguments.trajectory, "--trajectory"});
   const std::string first = RawlogParts::pathOfPart(arguments.output, 0);
   requireDistinctFiles(inputs, {{first, "--output"}});
   for (const std::string& input : arguments.input_files)

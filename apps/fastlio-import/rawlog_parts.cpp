@@ -114,7 +114,7 @@ bool RawlogParts::isFull(std::int64_t stamp_ns) const
          static_cast<double>(stamp_ns - first_ns_) >= options_.split_seconds * 1e9;
 }
 
-void RawlogParts::write(const mrpt::obs::CObservation& observation)
+bool RawlogParts::write(const mrpt::obs::CObservation& observation)
 {
   const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
   if (isFull(stamp_ns)) close();
@@ -128,6 +128,7 @@ void RawlogParts::write(const mrpt::obs::CObservation& observation)
   mrpt::serialization::archiveFrom(stream).WriteObject(observation);
   file_->write(stream.getRawBufferData(), stream.getTotalBytesCount());
   bytes_ += stream.getTotalBytesCount();
+  return true;
 }
 
 void RawlogParts::close()

@@ -37,8 +37,25 @@ class RawlogFile
   virtual OutputFile commit() = 0;
 };
 
+/** Where observations go. */
+class ImportOutput
+{
+ public:
+  ImportOutput() = default;
+  virtual ~ImportOutput() = default;
+  ImportOutput(const ImportOutput&) = delete;
+  ImportOutput& operator=(const ImportOutput&) = delete;
+
+  /** \return whether it was written: not every format takes every class
+   * \exception std::runtime_error the disk refused it */
+  virtual bool write(const mrpt::obs::CObservation& observation) = 0;
+
+  /** The files. Nothing was written: there are none. */
+  [[nodiscard]] virtual std::vector<OutputFile> finish() = 0;
+};
+
 /** Each file gets its name when it is complete. */
-class RawlogParts
+class RawlogParts : public ImportOutput
 {
  public:
   struct Options
@@ -51,11 +68,8 @@ class RawlogParts
 
   explicit RawlogParts(Options options) : options_(std::move(options)) {}
 
-  /** \exception std::runtime_error the disk refused it */
-  void write(const mrpt::obs::CObservation& observation);
-
-  /** The files. Nothing was written: there are none. */
-  [[nodiscard]] std::vector<OutputFile> finish();
+  bool write(const mrpt::obs::CObservation& observation) override;
+  [[nodiscard]] std::vector<OutputFile> finish() override;
 
   /** The path of a part, counted from 0. */
   [[nodiscard]] static std::string pathOfPart(const Options& options, std::size_t part);

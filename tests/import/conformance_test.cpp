@@ -7,6 +7,7 @@
 #include "folder_writers.h"
 #include "simulated_walk.h"
 #include "wire_writer.h"
+#include <fastlio/options/number_text.h>
 
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -97,6 +98,36 @@ TEST_F(Conformance, McapOfMcapCore)
     ASSERT_EQ(written.exit_status, 0) << written.output;
     EXPECT_EQ(trajectoryOf(mcap), expected) << compression;
   }
+}
+TEST_F(Conformance, OurMcapIsReadByMcapCore)
+{
+  const char* modules = std::getenv("FASTLIO_NODE_MODULES");
+  if (modules == nullptr || run({"/usr/bin/env", "node", "--version"}).exit_status != 0 ||
+      run({"/usr/bin/env", "zstd", "--version"}).exit_status != 0)
+    GTEST_SKIP() << "needs node, zstd, and FASTLIO_NODE_MODULES: a folder with npm's @mcap/core, "
+                    "@foxglove/rosmsg and @foxglove/rosmsg2-serialization";
+  const std::string rawlog = rawlogOf({{"lidar.kind", "os64"}, {"lidar.columns", "64"}});
+  const std::string mcap = folder_.file("ours.mcap");
+  ASSERT_EQ(run({FASTLIO_IMPORT_PROGRAM, rawlog, "-o", mcap}).exit_status, 0);
+  double forces = 0;
+  std::size_t samples = 0, clouds = 0, points = 0;
+  for (const Object& object : objectsOf(rawlog))
+    if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(object.get()))
+    {
+      forces += imu->get(mrpt::obs::IMU_Z_ACC);
+      ++samples;
+    }
+    else
+    {
+      points += scanOf(*object).points.size();
+      ++clouds;
+    }
+  const auto read = run({"/usr/bin/env", "node", script("read_mcap.cjs"), mcap});
+  EXPECT_EQ(
+      read.output, "/imu sensor_msgs/msg/Imu " + std::to_string(samples) + " " +
+                       fixedText(forces, 3) + "\n/lidar sensor_msgs/msg/PointCloud2 " +
+                       std::to_string(clouds) + " " + std::to_string(points) +
+                       ".000\n/tf_static tf2_msgs/msg/TFMessage 2 2.000\n");
 }
 }  // namespace
 }  // namespace fastlio::testing

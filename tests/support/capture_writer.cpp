@@ -100,9 +100,21 @@ std::string recordOf(const std::string& frame, std::int64_t stamp_ns, const Capt
 std::string captureOf(const std::vector<SentPacket>& packets, const CaptureStyle& style)
 {
   std::string bytes = headOf(style);
+  std::vector<std::string> late;
   for (std::size_t i = 0; i < packets.size(); ++i)
+  {
+    std::size_t part = 0;
     for (const std::string& frame : framesOf(packets[i], i % 65536, style))
-      bytes += recordOf(frame, packets[i].stamp_ns, style);
+    {
+      const std::string record = recordOf(frame, packets[i].stamp_ns, style);
+      if (style.interleaved && part++ > 0)
+        late.push_back(record);
+      else
+        bytes += record;
+    }
+  }
+  for (const std::string& record : late)
+    bytes += record;
   return bytes;
 }
 

@@ -25,6 +25,7 @@ struct CaptureStyle
   std::size_t most = 65000;  //!< bytes of an IP packet's data: longer ones come in fragments
   bool vlan = false;
   bool next_generation = false;  //!< pcapng
+  bool interleaved = false;      //!< the second fragments come after all first ones
 };
 
 std::string captureOf(const std::vector<SentPacket>& packets, const CaptureStyle& style = {});

@@ -220,6 +220,34 @@ TEST_F(ImportProgram, InputsWithoutSensorsWriteNothing)
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
+TEST_F(ImportProgram, WritesMcapThatReadsBackToTheSameObservations)
+{
+  const std::string bag = file("in.bag", bagOf(messages()));
+  ASSERT_EQ(import({bag, "-o", out("a.rawlog")}).exit_status, 0);
+  const std::string poses =
+      file("run.tum", "1700000000.100000000 1 2 3 0 0 0 1\n1700000000.200000000 4 5 6 0 0 0 1\n");
+  const auto to = import({out("a.rawlog"), "-o", out("b.mcap"), "--trajectory", poses});
+  ASSERT_EQ(to.exit_status, 0) << to.output;
+  const auto list = import({out("b.mcap"), "--list"});
+  for (const char* text :
+       {"/odometry  nav_msgs/msg/Odometry: 2 messages", "pose in 'base_link'",
+        "ns after the stamp"})
+    EXPECT_TRUE(contains(list.output, text)) << text << "\n" << list.output;
+  ASSERT_EQ(import({out("b.mcap"), "-o", out("c.rawlog")}).exit_status, 0);
+  EXPECT_EQ(timesOf(out("c.rawlog")), timesOf(out("a.rawlog")));
+  const Reading first = readAll({out("a.rawlog")}), second = readAll({out("c.rawlog")});
+  EXPECT_EQ(first.seconds.size() + 2, second.seconds.size());  // and the two poses
+}
+
+TEST_F(ImportProgram, RefusesWhatMcapDoesNotHave)
+{
+  const std::string bag = file("in.bag", bagOf(messages()));
+  EXPECT_EQ(import({bag, "-o", out("a.mcap"), "--split-time", "1"}).exit_status, 1);
+  EXPECT_EQ(import({bag, "-o", out(), "--trajectory", bag}).exit_status, 1);
+  EXPECT_EQ(import({bag, "-o", out("a.mcap"), "--trajectory", bag}).exit_status, 1);
+  EXPECT_FALSE(std::filesystem::exists(out("a.mcap")));
+}
+
 TEST_F(ImportProgram, HelpNamesTheFormats)
 {
   const auto result = import({"--help"});

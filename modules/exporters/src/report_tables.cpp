@@ -65,7 +65,7 @@ std::string statusCounts(const RunStatistics& statistics)
   return text;
 }
 
-std::string openText(const OpenDirections& open)
+std::string degenerateText(const DegenerateDirections& open)
 {
   if (open.scans == 0) return "none";
   const Vec3& axis = open.weakest.axis;
@@ -112,7 +112,7 @@ std::string factsHtml(const RunSummary& run)
                       fixedText(s.health().worst(), 3) + "; " +
                       std::to_string(s.health().troubled()) + " of " +
                       std::to_string(s.health().scans()) + " scans in trouble"},
-       {"Degenerate directions", htmlText(openText(s.openDirections()))},
+       {"Degenerate directions", htmlText(degenerateText(s.degenerateDirections()))},
        {"Inertial data", htmlText(imuText(run.imu))}});
 }
 

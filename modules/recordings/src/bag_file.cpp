@@ -17,6 +17,7 @@ namespace
 const std::string kBagMagic = "#ROSBAG V";
 const std::string kBagVersion = "#ROSBAG V2.0\n";
 constexpr std::size_t kLargestHead = 65536;
+constexpr std::size_t kMostConnections = 100'000;  // more than any recorder opens
 constexpr const char* kCutOff =
     "The recording or a copy of it was cut off; everything before was read.";
 constexpr const char* kCopyAnew = "Copy the file anew, or check the medium it lies on.";
@@ -170,6 +171,8 @@ BagFile::Step BagFile::readMessage(
 {
   const auto number = fields.number("conn");
   if (!number || size > kLargestRecord) return Step::Broken;
+  if (connections_.size() >= kMostConnections && connections_.count(*number) == 0)
+    return Step::Broken;
   RosTopic& topic = connections_[*number];
   if (topic.name.empty())
   {
@@ -185,7 +188,6 @@ BagFile::Step BagFile::readMessage(
 
 BagFile::Step BagFile::readConnection(ByteSource& source, const BagFields& fields, std::size_t size)
 {
-  constexpr std::size_t kMostConnections = 100'000;
   const auto number = fields.number("conn");
   if (!number || size > kLargestRecord) return Step::Broken;
   if (!readBytes(source, size, data_)) return Step::End;

@@ -170,7 +170,7 @@ std::unique_ptr<RecordingReader> openKittiDrive(const std::string& path)
   for (const std::string& folder : {path, path + "/.."})
     if (const auto T_velodyne_imu = kittiPose(folder + "/calib_imu_to_velo.txt"))
       T_imu_velodyne = T_velodyne_imu->inverse();
-  notes.push_back(
+  notes.emplace_back(
       T_imu_velodyne ? "The pose of the LiDAR is that of calib_imu_to_velo.txt."
                      : "There is no calib_imu_to_velo.txt: the pose of the LiDAR is not known.");
   std::vector<std::unique_ptr<TimedStream>> streams;

@@ -12,6 +12,10 @@ namespace fastlio
 {
 namespace
 {
+// A power of two: what zstd itself takes without being asked for more. The data say how much they
+// need.
+constexpr int kLargestZstdWindow = 27;
+
 class Bzip2Inflater : public Inflater
 {
  public:
@@ -86,6 +90,7 @@ class ZstdInflater : public Inflater
   ZstdInflater() : stream_(ZSTD_createDStream())
   {
     if (stream_ == nullptr) throw std::bad_alloc();
+    ZSTD_DCtx_setParameter(stream_, ZSTD_d_windowLogMax, kLargestZstdWindow);
   }
   ~ZstdInflater() override { ZSTD_freeDStream(stream_); }
 

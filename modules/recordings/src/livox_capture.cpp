@@ -134,8 +134,11 @@ std::optional<LivoxPacket> secondGeneration(const UdpPacket& packet)
 
 std::optional<LivoxPacket> livoxPacketOf(const UdpPacket& packet)
 {
-  if (auto result = firstGeneration(packet)) return result;
-  return secondGeneration(packet);
+  auto result = firstGeneration(packet);
+  if (!result) result = secondGeneration(packet);
+  // Clocks that have just begun are fine; what no clock tells is no packet of a Livox.
+  const bool sane = result && result->stamp_ns >= 0 && result->stamp_ns < kLatestStamp;
+  return sane ? result : std::nullopt;
 }
 
 /** A point [m] and where its brightness is. */

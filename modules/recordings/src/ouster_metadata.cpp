@@ -64,12 +64,10 @@ Pose poseIn(const Json& object, const char* name)
   const auto found = object.find(name);
   if (found == object.end()) return pose;
   const auto numbers = found->get<std::array<double, 16>>();
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-      pose.R(row, column) = numbers.at(static_cast<std::size_t>(4 * row + column));
-    pose.p[row] = 1e-3 * numbers.at(static_cast<std::size_t>(4 * row + 3));
-  }
+  using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const Matrix T = Eigen::Map<const Matrix>(numbers.data());
+  pose.R = T.topLeftCorner<3, 3>();
+  pose.p = 1e-3 * T.topRightCorner<3, 1>();
   if (!(pose.R * pose.R.transpose()).isIdentity(1e-3))
     throw std::runtime_error(std::string(name) + " is no rotation");
   return pose;

@@ -28,6 +28,11 @@ T ousterNumber(const std::uint8_t* bytes)
   std::memcpy(&value, bytes, sizeof value);
   return value;
 }
+/** Clocks that have just begun are fine; others are damage. */
+bool isSane(std::int64_t stamp_ns)
+{
+  return stamp_ns >= 0 && stamp_ns < kLatestStamp;
+}
 }  // namespace
 
 OusterSensor::OusterSensor(OusterMetadata metadata, std::string label)
@@ -60,6 +65,7 @@ void OusterSensor::takeImu(const UdpPacket& packet, ObservationQueue& out) const
   };
   const auto stamp_ns =
       static_cast<std::int64_t>(ousterNumber<std::uint64_t>(packet.data + kGyroTime));
+  if (!isSane(stamp_ns)) return;
   auto imu = makeImu(
       label_ + "_imu", stamp_ns, kRadPerDeg * vectorAt(kRate),
       kStandardGravity * vectorAt(kAcceleration));
@@ -82,7 +88,7 @@ OusterSensor::Column OusterSensor::columnAt(const std::uint8_t* packet, std::siz
   column.valid = metadata_.isLegacy()
                      ? ousterNumber<std::uint32_t>(column.pixels + pixels) == kLegacyValid
                      : (ousterNumber<std::uint16_t>(at + kStatus) & 1U) != 0;
-  column.valid = column.valid && column.id < metadata_.columns_per_frame;
+  column.valid = column.valid && column.id < metadata_.columns_per_frame && isSane(column.stamp_ns);
   return column;
 }
 

@@ -13,6 +13,7 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kMostStreams = 10'000;
+constexpr std::size_t kMostSensorsOfACapture = 64;  // each holds a scan
 constexpr std::size_t kLooks = 20;  // packets of a stream before it counts as something else
 
 /** Sizes that Ouster's packets of 16 columns have, for a hint where the metadata is missing. */
@@ -91,7 +92,8 @@ void PcapRecording::take(const UdpPacket& packet)
   if (streams_.size() >= kMostStreams && streams_.count(key) == 0) return;
   Stream& stream = streams_[key];
   ++stream.packets;
-  if (stream.sensor == nullptr && stream.packets <= kLooks && packet.size > 0)
+  const bool room = sensors_.size() < kMostSensorsOfACapture;
+  if (stream.sensor == nullptr && stream.packets <= kLooks && packet.size > 0 && room)
     recognise(packet, stream);
   if (stream.sensor == nullptr) return;
   const bool velodyne = stream.type == "Velodyne";

@@ -15,7 +15,7 @@ namespace fastlio
 namespace
 {
 constexpr std::int64_t kNsPerSec = 1'000'000'000;
-constexpr std::int64_t kLatestSecond = 4'500'000'000;  // 2112
+constexpr std::int64_t kLatestTextSecond = 4'500'000'000;  // 2112
 
 /** Digits behind the point as nanoseconds. */
 std::optional<std::int64_t> fractionOf(std::string_view digits)
@@ -53,7 +53,7 @@ std::optional<std::int64_t> fromWhole(std::int64_t number)
 {
   std::int64_t unit_ns = 1;  // the largest in which it is a time of our days
   for (const std::int64_t unit : {kNsPerSec, std::int64_t{1'000'000}, std::int64_t{1'000}})
-    if (number <= kLatestSecond * (kNsPerSec / unit))
+    if (number <= kLatestTextSecond * (kNsPerSec / unit))
     {
       unit_ns = unit;
       break;
@@ -70,10 +70,10 @@ std::optional<std::int64_t> stampOf(std::string_view text)
   {
     if (point == std::string_view::npos) return fromWhole(*whole);
     const auto fraction = fractionOf(text.substr(point + 1));
-    if (fraction && *whole < kLatestSecond) return *whole * kNsPerSec + *fraction;
+    if (fraction && *whole < kLatestTextSecond) return *whole * kNsPerSec + *fraction;
   }
   const auto seconds = parsed<double>(text);
-  if (!seconds || !(*seconds >= 0.0 && *seconds < static_cast<double>(kLatestSecond)))
+  if (!seconds || !(*seconds >= 0.0 && *seconds < static_cast<double>(kLatestTextSecond)))
     return std::nullopt;
   return std::llround(*seconds * 1e9);
 }

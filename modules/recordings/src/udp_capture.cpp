@@ -4,6 +4,7 @@
 #include "udp_capture.h"
 
 #include "byte_source.h"
+#include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <pcap/pcap.h>
 #include <stdexcept>
+#include <string_view>
 
 namespace fastlio
 {
@@ -23,6 +25,7 @@ constexpr std::uint16_t kIp4Type = 0x0800, kIp6Type = 0x86DD, kVlanType = 0x8100
                         kQinqType = 0x88A8;
 constexpr std::size_t kMostFragmented = 64;  // packets that are put together at a time
 constexpr std::size_t kLargestPacket = 65535;
+constexpr std::int64_t kLatestSecond = kLatestStamp / 1'000'000'000;
 
 std::uint16_t bigEndian16(const std::uint8_t* bytes)
 {
@@ -33,11 +36,10 @@ std::uint16_t bigEndian16(const std::uint8_t* bytes)
 bool isCapture(const std::string& path)
 {
   const std::string head = headOf(path, 4);
-  for (const char* magic :
-       {"\xD4\xC3\xB2\xA1", "\xA1\xB2\xC3\xD4", "\x4D\x3C\xB2\xA1", "\xA1\xB2\x3C\x4D",
-        "\x0A\x0D\x0D\x0A"})
-    if (head == magic) return true;
-  return false;
+  constexpr std::array<std::string_view, 5> kMagics{
+      "\xD4\xC3\xB2\xA1", "\xA1\xB2\xC3\xD4", "\x4D\x3C\xB2\xA1", "\xA1\xB2\x3C\x4D",
+      "\x0A\x0D\x0D\x0A"};
+  return std::find(kMagics.begin(), kMagics.end(), head) != kMagics.end();
 }
 
 UdpCapture::UdpCapture(const std::string& path) : pcap_(nullptr, pcap_close)
@@ -72,7 +74,9 @@ std::optional<UdpPacket> UdpCapture::next()
     auto packet = ip->data[0] >> 4U == 4 ? udpOverIp4(*ip) : udpOverIp6(*ip);
     if (!packet) continue;
     // The file counts nanoseconds where it says microseconds: libpcap was asked for them.
-    packet->stamp_ns = std::int64_t{head->ts.tv_sec} * 1'000'000'000 + head->ts.tv_usec;
+    const std::int64_t seconds = std::clamp<std::int64_t>(head->ts.tv_sec, 0, kLatestSecond);
+    packet->stamp_ns =
+        seconds * 1'000'000'000 + std::clamp<std::int64_t>(head->ts.tv_usec, 0, 999'999'999);
     return packet;
   }
 }

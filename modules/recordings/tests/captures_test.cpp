@@ -1,110 +1,19 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "capture_writer.h"
+#include "lidar_packets.h"
 #include "ouster_metadata.h"
 #include "recording_test_support.h"
-#include "velodyne_packets.h"
 
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
-#include <numeric>
+#include <limits>
 
 namespace
 {
 using namespace fastlio;
 using namespace fastlio::testing;
 using mrpt::obs::CObservationIMU;
-
-constexpr std::int64_t kPacketNs = 1'327'104;
-
-/** Revolutions of a VLP-16: 75 packets each. */
-std::vector<SentPacket> velodynePackets(int revolutions)
-{
-  std::vector<SentPacket> packets;
-  for (int i = 0; i < 75 * revolutions; ++i)
-  {
-    const auto azimuth = static_cast<std::uint16_t>(i % 75 * 480);
-    const Packet packet = makePacket(azimuth, 40, static_cast<std::uint32_t>(i * 1327), 1000);
-    packets.push_back(
-        {kStart + i * kPacketNs, 2368,
-         std::string(reinterpret_cast<const char*>(&packet), sizeof packet)});
-  }
-  return packets;
-}
-
-WireWriter little()
-{
-  return WireWriter(Wire::Ros1);
-}
-
-/** Of the second generation, with points on the x axis, 1 m, 2 m, ... */
-std::string mid360Packet(std::int64_t stamp_ns, std::uint16_t points)
-{
-  WireWriter out = little();
-  out.number(std::uint8_t{0}).number(static_cast<std::uint16_t>(36 + 14 * points));
-  out.number(static_cast<std::uint16_t>(50 * (points - 1))).number(points);  // 5 us a point
-  out.number(std::uint16_t{0}).number(std::uint8_t{0}).number(std::uint8_t{1});
-  out.raw(std::string(17, '\0'));
-  out.number(static_cast<std::uint64_t>(stamp_ns));
-  for (std::uint16_t i = 0; i < points; ++i)
-  {
-    out.number(std::int32_t{1000 * (i + 1)}).number(std::int32_t{-500}).number(std::int32_t{250});
-    out.number(std::uint8_t{77}).number(std::uint8_t{0});
-  }
-  return out.bytes();
-}
-
-std::string aviaPacket(std::int64_t stamp_ns)
-{
-  WireWriter out = little();
-  out.number(std::uint8_t{5}).raw(std::string(7, '\0')).number(std::uint8_t{1});
-  out.number(std::uint8_t{2}).number(static_cast<std::uint64_t>(stamp_ns));
-  for (int i = 0; i < 96; ++i)
-    out.number(1000 * (i + 1)).number(0).number(0).number(std::uint8_t{9}).number(std::uint8_t{0});
-  return out.bytes();
-}
-
-std::string imuOf(const std::string& head, const std::vector<float>& values)
-{
-  WireWriter out = little();
-  out.raw(head);
-  for (const float value : values)
-    out.number(value);
-  return out.bytes();
-}
-
-/** Metadata of an Ouster of 16 beams, all level, in the newer form. */
-std::string metadataOf(const std::string& profile)
-{
-  std::string angles = "[0";
-  for (int i = 1; i < 16; ++i)
-    angles += ",0";
-  angles += "]";
-  return R"({"beam_intrinsics":{"beam_altitude_angles":)" + angles + R"(,"beam_azimuth_angles":)" +
-         angles +
-         R"(,"lidar_origin_to_beam_origin_mm":15.8},"lidar_data_format":{"columns_per_frame":512,)"
-         R"("columns_per_packet":16,"pixels_per_column":16,"udp_profile_lidar":")" +
-         profile +
-         R"("},"imu_intrinsics":{"imu_to_sensor_transform":[1,0,0,6.25,0,1,0,0,0,0,1,0,0,0,0,1]},)"
-         R"("lidar_intrinsics":{"lidar_to_sensor_transform":[-1,0,0,0,0,-1,0,0,0,0,1,36.18,0,0,0,1]},)"
-         R"("config_params":{"udp_port_lidar":7502,"udp_port_imu":7503}})";
-}
-
-/** 16 columns from \a column on, all ranges 5 m. */
-std::string ousterPacket(std::int64_t stamp_ns, std::uint16_t column)
-{
-  WireWriter out = little();
-  out.raw(std::string(32, '\0'));
-  for (std::uint16_t i = 0; i < 16; ++i)
-  {
-    out.number(static_cast<std::uint64_t>(stamp_ns + i * 195'000));
-    out.number(static_cast<std::uint16_t>(column + i)).number(std::uint16_t{1});
-    for (int k = 0; k < 16; ++k)
-      out.number(std::uint32_t{5000}).number(std::uint16_t{42}).raw(std::string(6, '\0'));
-  }
-  return out.raw(std::string(32, '\0')).bytes();
-}
 
 class Captures : public RecordingTest
 {
@@ -130,6 +39,34 @@ TEST_F(Captures, VelodynePacketsStayRawARevolutionAScan)
           static_cast<double>(i) * 75 * kPacketNs, 100);
     }
   }
+}
+
+TEST_F(Captures, OfMoreThan64PacketsInFragmentsTheOldestAreDropped)
+{
+  for (const std::size_t n : {64U, 70U})
+  {
+    auto packets = velodynePackets(1);
+    packets.resize(n);
+    const CaptureStyle interleaved{1000, false, false, true};
+    const Recorded capture = readRecording(fileOf(captureOf(packets, interleaved)));
+    // A late fragment whose packet has been dropped begins another one, and drops the next.
+    ASSERT_EQ(capture.observations.size(), n == 64 ? 1U : 0U);
+    if (n > 64) continue;
+    const auto& scan =
+        dynamic_cast<const mrpt::obs::CObservationVelodyneScan&>(*capture.observations[0]);
+    EXPECT_EQ(scan.scan_packets.size(), 64U);
+  }
+}
+
+TEST_F(Captures, SendersBeyond64AreLeftAlone)
+{
+  std::vector<SentPacket> packets;
+  for (int sender = 0; sender < 100; ++sender)
+  {
+    packets.push_back(velodynePackets(1).front());
+    packets.back().sender = static_cast<std::uint8_t>(sender);
+  }
+  EXPECT_EQ(readRecording(fileOf(captureOf(packets))).observations.size(), 64U);
 }
 
 TEST_F(Captures, TwoSendersAreTwoSensors)
@@ -263,6 +200,25 @@ TEST_F(Captures, ACutCaptureGivesAllThatIsBeforeTheCut)
   EXPECT_EQ(capture.observations.size(), 3U);
   ASSERT_EQ(capture.problems.size(), 1U);
   EXPECT_EQ(capture.problems[0].kind, ReadProblemKind::Truncated) << capture.problems[0].message;
+}
+
+TEST_F(Captures, TimesThatNoClockTellsAreNoTimes)
+{
+  const std::int64_t wild = std::numeric_limits<std::int64_t>::min() + 5;
+  std::vector<SentPacket> packets = velodynePackets(1);
+  packets.front().stamp_ns = -1;  // pcapng: 584 years
+  for (const std::int64_t stamp_ns : {kStart, wild, kStart + 480'000})
+  {
+    packets.push_back({kStart, 56301, mid360Packet(stamp_ns, 96)});
+    packets.push_back({kStart, 7502, ousterPacket(stamp_ns, 0)});
+  }
+  write(folder_.file("walk.json"), metadataOf("RNG19_RFL8_SIG16_NIR16"));
+  const Recorded capture =
+      readRecording(fileOf(captureOf(packets, {65000, false, true}), "walk.pcap"));
+  EXPECT_EQ(capture.count("livox_192.168.1.201"), 1U);
+  ASSERT_EQ(capture.count("ouster_192.168.1.201"), 2U);  // the columns count anew
+  for (const auto& observation : capture.observations)
+    EXPECT_LT(toNanoseconds(observation->timestamp), kLatestStamp + 1'000'000'000);
 }
 
 TEST_F(Captures, OtherTrafficIsListedAndLeftAlone)
