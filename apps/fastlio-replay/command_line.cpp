@@ -5,20 +5,24 @@
 
 #include <fastlio/exporters/run_summary.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/printable.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
+#include <iostream>
 #include <map>
+#include <string_view>
 
 namespace fastlio
 {
 namespace
 {
 constexpr const char* kDescription =
-    "LiDAR-inertial odometry (FAST-LIO) on recorded data: reads MRPT rawlogs with a 3D LiDAR and "
-    "an\n"
-    "IMU, writes the trajectory, states with covariances, the map, timings and a summary.";
+    "LiDAR-inertial odometry (FAST-LIO) on recordings of a 3D LiDAR and an IMU: rawlogs of MRPT,\n"
+    "bags of ROS, MCAP, captures of a network, folders. Writes the trajectory, states with\n"
+    "covariances, the map, a report, timings and a summary.";
 
 constexpr const char* kFooter =
     "Exit status:\n"
@@ -51,7 +55,7 @@ void addInputOptions(
 {
   app.add_option(
          "-c,--config", arguments.config_file,
-         "Parameters (YAML); without it, the defaults for the sensor that is found")
+         "Parameters (YAML); without it, all have their defaults")
       ->type_name("FILE.yaml");
   app.add_option(
          "recordings", positional,
@@ -63,14 +67,12 @@ void addInputOptions(
   app.add_option(
          "--set", arguments.settings,
          "Set a parameter as the configuration file would, and over it; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)  // what follows is a recording
       ->type_name("KEY=VALUE");
   app.add_option(
          "--input-rawlog", arguments.input_files,
          "A recording, too; repeated: the parts of a split one, in order")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
       ->type_name("FILE");
   app.add_option(
          "--lidar-sensor-label", arguments.lidar_sensor_label,
@@ -114,6 +116,7 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--export", arguments.exporters,
          "Files to write into --output-dir, by the names listed below; default: those without *")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME,...");
   app.add_flag(
       "--imu-rate", arguments.imu_rate,
@@ -198,6 +201,19 @@ void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& posi
         "--input-rawlog", "is given beside other recordings; give all of them in one way");
   if (!positional.empty()) arguments.input_files = positional;
 }
+/** What is left when all options have been read. */
+std::string unknownOptionText(const CLI::App& app)
+{
+  const std::vector<std::string> left = app.remaining(true);
+  const std::string seen = left.empty() ? "" : left.front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return "fastlio-replay: unknown option '" + printable(seen) + "'; did you mean '" +
+         std::string(nearestName(seen, views)) + "'? --help lists all options";
+}
 }  // namespace
 
 std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const* argv)
@@ -216,6 +232,11 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
     joinInputs(arguments, positional);
     if (arguments.quiet) arguments.verbosity = mrpt::system::LVL_ERROR;
     requireOutput(arguments);
+  }
+  catch (const CLI::ExtrasError&)
+  {
+    std::cerr << unknownOptionText(app) << '\n';
+    return static_cast<int>(ExitStatus::Usage);
   }
   catch (const CLI::ParseError& e)
   {

@@ -95,6 +95,7 @@ TEST_F(Typed, SetGoesOverTheFile)
   expectEnd(typed({"--set", "map.radius", "--dump-config"}), 1, "KEY=VALUE");
   expectEnd(typed({"--set", "map.radius=-1", "--dump-config"}), 1, "out of range");
   (void)record("a.rawlog", {});
+  expectEnd(typed({"--set", "map.radius=60", "--export", "trajectory", "a.rawlog"}), 0, "a-run/");
   expectEnd(typed({"a.rawlog", "--set", "lidar.min_range=200", "-o", "out"}), 1, "lidar.min_range");
 }
 
