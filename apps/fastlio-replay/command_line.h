@@ -17,7 +17,7 @@ namespace fastlio
 /** The command line as given. */
 struct ReplayArguments
 {
-  std::string config_file;                        //!< empty: defaults for the sensor that is found
+  std::string config_file;                        //!< empty: all have their defaults
   std::vector<std::string> input_files;           //!< recordings, in order
   bool join = false;                              //!< they are parts of one
   bool batch = false;                             //!< they are recordings of their own
