@@ -131,6 +131,8 @@ CalibrateStatus run(const CalibrateArguments& arguments)
     const Calibrator calibrator(recordingsOf(arguments), config, arguments.passes, progress);
     const auto [estimate, trial] = calibrate(calibrator, arguments.trial);
     if (progress) std::cerr << "\r\033[K";
+    for (const std::string& problem : estimate.problems)
+      std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
     const Config calibrated = calibrator.configWith(estimate.rig);
     write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
     if (!arguments.json.empty())

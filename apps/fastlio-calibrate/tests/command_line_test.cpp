@@ -98,6 +98,16 @@ TEST_F(Calibrate, QuietAndWithoutTrial)
   EXPECT_NE(textOf(yaml).find("T_vehicle_lidar"), std::string::npos);
 }
 
+TEST_F(Calibrate, ATruncatedRecordingIsUsedAndReported)
+{
+  const std::string rawlog = record("walk"), yaml = folder_.file("rig.yaml");
+  std::filesystem::resize_file(rawlog, std::filesystem::file_size(rawlog) * 3 / 4);
+  const auto result = run({rawlog, "-q", "--no-trial", "-o", yaml, "--passes", "2"});
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_NE(result.output.find("(the rest is used)"), std::string::npos) << result.output;
+  EXPECT_TRUE(std::filesystem::exists(yaml));
+}
+
 TEST_F(Calibrate, RefusesToReplaceItsInput)
 {
   const std::string rawlog = record("walk");

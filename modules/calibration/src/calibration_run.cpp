@@ -118,7 +118,10 @@ CalibrationRunResult calibrationRun(
   source.stop();
   while (const auto result = odometry.flush())
     follower.take(*result);
-  return follower.finish();
+  CalibrationRunResult result = follower.finish();
+  for (const ReadProblem& problem : source.problems())
+    result.problems.push_back(recording.name + ": " + problem.message);
+  return result;
 }
 
 }  // namespace fastlio

@@ -107,7 +107,7 @@ RigEstimate Calibrator::calibrate(
           "no scan was tracked in " + recordings.front().name + ": fastlio-replay tells why");
     return pass;
   };
-  PassFindings pass = runAll(given_, 1);
+  const PassFindings pass = runAll(given_, 1);
   const CalibrationUnknowns unknowns(config_.odometry.calibration, pass);
   AndersonIteration iteration(kRememberedSteps);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns.size());
@@ -119,7 +119,9 @@ RigEstimate Calibrator::calibrate(
     x = iteration.next(x, step.step, step.covariance);
   }
   step.covariance = iteration.covariance(step.covariance);
-  return estimateAt(unknowns, x, step);
+  RigEstimate estimate = estimateAt(unknowns, x, step);
+  estimate.problems = pass.problems;
+  return estimate;
 }
 
 RigEstimate Calibrator::estimateAt(

@@ -41,6 +41,7 @@ void PassFindings::add(const CalibrationRunResult& run)
   }
   agreement += run.agreement;
   tracked += run.tracked;
+  problems.insert(problems.end(), run.problems.begin(), run.problems.end());
 }
 
 CalibrationUnknowns::CalibrationUnknowns(const CalibrationOptions& prior, const PassFindings& pass)

@@ -21,6 +21,7 @@ struct PassFindings
   double time_information = 0.0, time_weighted = 0.0;
   RunAgreement agreement;
   std::size_t tracked = 0;
+  std::vector<std::string> problems;
 
   void add(const CalibrationRunResult& run);
 };

@@ -41,7 +41,8 @@ struct CalibrationRunResult
   double time_offset_std = 0.0;  //!< [s]; 0: it was not estimated
   RunAgreement agreement;        //!< of the scans from `measured_from` on
   std::size_t scans = 0, tracked = 0;
-  double seconds = 0.0;  //!< from the first to the last scan that was tracked
+  double seconds = 0.0;               //!< from the first to the last scan that was tracked
+  std::vector<std::string> problems;  //!< of reading, for people: the rest was used
 };
 
 /** Which scans of a recording count. */

@@ -35,6 +35,7 @@ struct RigEstimate
   /** How many times the squares of the innovations exceed their covariance; 1: as they should. */
   double innovation_scale = 1.0;
   int passes = 0;
+  std::vector<std::string> problems;  //!< of reading, for people: the rest was used
 };
 
 /** What a calibration is worth on data that it was not fitted to. */
