@@ -36,7 +36,7 @@ constexpr std::array<StatusText, 8> kStatuses = {
 
 std::size_t rankOf(int status)
 {
-  const auto found = std::find_if(
+  const auto* const found = std::find_if(
       kStatuses.begin(), kStatuses.end(),
       [status](const StatusText& s) { return s.status == status; });
   return static_cast<std::size_t>(std::distance(kStatuses.begin(), found));

@@ -110,6 +110,7 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
 {
   const RowMaker make(estimate);
   std::vector<CalibrationRow> rows;
+  rows.reserve(4 * kAxes.size() + 1);
   for (int axis = 0; axis < 3; ++axis)
     rows.push_back(make.row(
         ofAxis("LiDAR against gyro, turn about %s", axis), "deg", 1.0 / kRadPerDeg, 0.0,
