@@ -74,11 +74,11 @@ TEST(Scene, HoldsMapTrajectoryKeyFramesAndCovariances)
   // One per metre; that at 5 m has no pose, so the next ones come later, at 5.1 m and on.
   EXPECT_EQ(sizeOf(*frames), 10U);
   EXPECT_EQ(sizeOf(*covariances), 10U);
-  EXPECT_NEAR((*frames->begin())->getPoseX(), 0.0, 1e-6);
+  EXPECT_NEAR((*frames->begin())->getPose().x, 0.0, 1e-6);
   const auto ellipsoid =
       std::dynamic_pointer_cast<mrpt::opengl::CEllipsoid3D>(*std::next(covariances->begin()));
   ASSERT_TRUE(ellipsoid);
-  EXPECT_NEAR(ellipsoid->getPoseX(), 1.0, 0.11);
+  EXPECT_NEAR(ellipsoid->getPose().x, 1.0, 0.11);
   const Matrix6 covariance = poseEstimateOf(scans[0].filter, {}).covariance;
   EXPECT_NEAR(ellipsoid->getCovMatrix()(0, 1), covariance(3, 4), 1e-12);
 }
