@@ -158,6 +158,8 @@ void ScanClassifier::classify(
   context.since_ns = previous_ns_ == 0 ? result.begin_ns : previous_ns_;
   context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
   context.map_is_sparse = scans_until_dense_ > 0;
+  context.max_mounting_error = maxMountingError(options_.calibration);
+  context.max_gyro_scale_error = maxGyroScaleError(options_.calibration);
   result.health = healthOf(result, context);
   previous_ns_ = result.stamp_ns;
   if (result.status == ScanStatus::FirstScan)

@@ -28,8 +28,12 @@ inline constexpr double kMaxInnovation = 3.0;
  * explain. Healthy sensors, real and simulated, stay below 9, but for a narrow view of an
  * office: 16. */
 inline constexpr double kMaxMotionInnovation = 15.0;
-/** An estimate of the mounting from the motion is good to some tenths of a degree. */
-inline constexpr double kMaxMountingError = 0.017453292519943295;  // [rad]; 1 deg
+/** Largest error of the mounting that scans and inertial data may show [rad]: a degree, or three
+ * times what is known of the mounting. */
+[[nodiscard]] double maxMountingError(const CalibrationOptions& options);
+/** Of the gyro's scale: 2 % (datasheets of common sensors say 0.5 to 1 %), or three times what is
+ * known of it. */
+[[nodiscard]] double maxGyroScaleError(const CalibrationOptions& options);
 
 /** What the filter did with a scan, as far as its status depends on it. */
 struct ScanOutcome
@@ -70,6 +74,8 @@ struct HealthContext
   std::int64_t since_ns = 0;    //!< end of the scan before
   double inflated_ratio = 0.0;  //!< of the time since then, in which inertial data are in doubt
   bool map_is_sparse = false;   //!< few points match it yet
+  double max_mounting_error = maxMountingError({});  //!< [rad]
+  double max_gyro_scale_error = maxGyroScaleError({});
 };
 
 /** Health of a scan: the smallest of its measures, each 1/2 at its limit. */

@@ -116,11 +116,11 @@ bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
 }
 
 /** What scans correct again and again, the inertial data got wrong, or the scans' pose did. */
-void considerMotion(const ScanStatistics& s, ScanHealth& health)
+void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanHealth& health)
 {
   if (s.mounting_error)
     consider(
-        health, below(s.mounting_error->leastAngle(), kMaxMountingError),
+        health, below(s.mounting_error->leastAngle(), context.max_mounting_error),
         HealthCause::MotionDisagreement,
         [&]
         {
@@ -128,7 +128,18 @@ void considerMotion(const ScanStatistics& s, ScanHealth& health)
               "scans and inertial data show a mounting of the LiDAR that is %.1f +- %.1f deg off "
               "the one in use, surely more than %.1f",
               kDegPerRad * s.mounting_error->angle, kDegPerRad * s.mounting_error->std,
-              kDegPerRad * kMaxMountingError);
+              kDegPerRad * context.max_mounting_error);
+        });
+  if (s.gyro_scale)
+    consider(
+        health, below(s.gyro_scale->leastError(), context.max_gyro_scale_error),
+        HealthCause::MotionDisagreement,
+        [&]
+        {
+          return mrpt::format(
+              "the gyro sees %.3f +- %.3f times the turns of the scans, surely more than %g off: "
+              "wrong unit, range setting or imu.gyro_matrix?",
+              s.gyro_scale->scale(), s.gyro_scale->std, context.max_gyro_scale_error);
         });
   consider(
       health, below(s.motion_innovation, kMaxMotionInnovation), HealthCause::MotionDisagreement,
@@ -172,6 +183,18 @@ void considerInertialData(double inflated, const NavState& x, ScanHealth& health
 }
 }  // namespace
 
+double maxMountingError(const CalibrationOptions& options)
+{
+  constexpr double kDegree = 0.017453292519943295;
+  return std::max(kDegree, 3.0 * options.extrinsic_rotation_std);
+}
+
+double maxGyroScaleError(const CalibrationOptions& options)
+{
+  constexpr double kOfNoCommonGyro = 0.02;
+  return std::max(kOfNoCommonGyro, 3.0 * options.imu_scale_std);
+}
+
 ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
 {
   ScanHealth health;
@@ -189,7 +212,7 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
     // A position that is off along a degenerate direction leaves residuals wherever something
     // stands across it: they are no second cause.
     if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
-    considerMotion(result.statistics, health);
+    considerMotion(result.statistics, context, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, health);
   consider(

@@ -79,10 +79,13 @@ void Estimator::compareMotion(
   if (matched.poses || run().motion_window || in_doubt)
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
-    agreement_.add(work.before, work.predicted.state, match.update.posterior, work.explained);
+    agreement_.add(
+        work.before, work.predicted.blind_s, work.predicted.state, match.update.posterior,
+        work.explained);
   statistics.motion_innovation = agreement_.innovation();
   statistics.unexplained_motion_innovation = agreement_.unexplainedInnovation();
   statistics.mounting_error = agreement_.mountingError();
+  statistics.gyro_scale = agreement_.gyroScale();
 }
 
 }  // namespace fastlio

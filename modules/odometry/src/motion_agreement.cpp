@@ -35,8 +35,8 @@ constexpr double kVibrationAngle = 5e-4;  // [rad]
 constexpr double kVibrationShift = 1e-3;  // [m]
 constexpr double kStampJitter = 5e-4;     // [s]
 
-/** Covariance of a correction by vibration and jitter, which mean nothing is wrong. */
-Matrix6 harmless(const NavState& x)
+/** Covariance of a correction by vibration and jitter. */
+Matrix6 byVibration(const NavState& x)
 {
   const Vec3 shift = kStampJitter * x.v;
   Matrix6 C = Matrix6::Zero();
@@ -90,24 +90,24 @@ double stdAlong(const Vec3& rotation, const Mat3& axes, const Vec3& strengths, d
 }  // namespace
 
 void MotionAgreement::add(
-    const NavState& before, const FilterState& predicted, const FilterState& posterior,
-    const Matrix6& by_calibration)
+    const NavState& before, double seconds, const FilterState& predicted,
+    const FilterState& posterior, const Matrix6& by_calibration)
 {
   const StateVector correction = boxminus(posterior.x, predicted.x);
   const std::size_t slot = corrections_ % kWindow;
-  const Matrix6 by_motion = harmless(predicted.x);
-  const Matrix6 by_both = by_motion + by_calibration;
+  const Matrix6 nothing = Matrix6::Zero();
+  const Matrix6 harmless = by_calibration + byVibration(predicted.x);
   const auto at = [&](int block, const Matrix6& explained)
   { return normalized(correction, predicted, posterior, explained, block); };
-  explained_.attitude[slot] = at(kAttitude, by_both);
-  explained_.position[slot] = at(kPosition, by_both);
-  unexplained_.attitude[slot] = at(kAttitude, by_motion);
-  unexplained_.position[slot] = at(kPosition, by_motion);
+  explained_.attitude[slot] = at(kAttitude, harmless);
+  explained_.position[slot] = at(kPosition, harmless);
+  unexplained_.attitude[slot] = at(kAttitude, nothing);
+  unexplained_.position[slot] = at(kPosition, nothing);
   ++corrections_;
   const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
-  if (R_last_scan_)
-    addTurn(
-        logSO3(before.R.transpose() * predicted.x.R), logSO3(R_last_scan_->transpose() * R_scan));
+  // As the gyro measured it: the filter's bias takes in what a wrong scale does in a long turn.
+  const Vec3 inertial = logSO3(before.R.transpose() * predicted.x.R) + seconds * before.gyro_bias;
+  if (R_last_scan_) addTurn(inertial, logSO3(R_last_scan_->transpose() * R_scan));
   R_last_scan_ = R_scan;
 }
 
@@ -143,33 +143,55 @@ void MotionAgreement::addTurn(const Vec3& inertial, const Vec3& scans)
   turns_ = kForgetting * turns_ + 1.0;
 }
 
-std::optional<MountingError> MotionAgreement::mountingError() const
+std::optional<MotionAgreement::Turns> MotionAgreement::turns() const
 {
   if (turns_ < kFewestTurns) return std::nullopt;
   const double n = turns_;
-  // Without means: the bias of the gyro does not matter.
   const Mat3 products = products_ - scan_sum_ * inertial_sum_.transpose() / n;
-  const double inertial_squares = inertial_squares_ - inertial_sum_.squaredNorm() / n;
-  const double scan_squares = scan_squares_ - scan_sum_.squaredNorm() / n;
-  if (!(inertial_squares > n * kLeastTurn * kLeastTurn) || !(scan_squares > 0.0))
+  Turns turns;
+  turns.inertial_squares = inertial_squares_ - inertial_sum_.squaredNorm() / n;
+  turns.scan_squares = scan_squares_ - scan_sum_.squaredNorm() / n;
+  if (!(turns.inertial_squares > n * kLeastTurn * kLeastTurn) || !(turns.scan_squares > 0.0))
     return std::nullopt;
+  // Wahba's problem.
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
-  const Vec3 strengths = svd.singularValues();
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   const Vec3 signs(1.0, 1.0, sign);
-  const double correlation = strengths.dot(signs) / std::sqrt(inertial_squares * scan_squares);
-  if (correlation < kLeastCorrelation || strengths[1] < kLeastSecondAxis * strengths[0])
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
+  const Vec3 sizes = svd.singularValues();
+  turns.strengths = sizes.cwiseProduct(signs);
+  turns.axes = svd.matrixV();
+  turns.from_scans = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  const double common = turns.strengths.sum();
+  if (common < kLeastCorrelation * std::sqrt(turns.inertial_squares * turns.scan_squares))
     return std::nullopt;
+  const double left_over = turns.inertial_squares + turns.scan_squares - 2.0 * common;
+  turns.variance = std::max(left_over, 0.0) / (3.0 * n);
+  return turns;
+}
+
+std::optional<MountingError> MotionAgreement::mountingError() const
+{
+  const auto seen = turns();
+  if (!seen || seen->strengths[1] < kLeastSecondAxis * seen->strengths[0]) return std::nullopt;
   MountingError error;
-  error.R_true_given = Mat3(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
-  error.R_true_given.transposeInPlace();
+  error.R_true_given = seen->from_scans;
   const Vec3 rotation = logSO3(error.R_true_given);
   error.angle = rotation.norm();
-  const double left_over = inertial_squares + scan_squares - 2.0 * strengths.dot(signs);
-  error.std = stdAlong(
-      rotation, svd.matrixV(), strengths.cwiseProduct(signs), std::max(left_over, 0.0) / (3.0 * n));
+  error.std = stdAlong(rotation, seen->axes, seen->strengths, seen->variance);
   return error;
+}
+
+std::optional<GyroScale> MotionAgreement::gyroScale() const
+{
+  const auto seen = turns();
+  if (!seen) return std::nullopt;
+  GyroScale scale;
+  const double common = seen->strengths.sum();
+  scale.lower = common / seen->scan_squares;
+  scale.upper = seen->inertial_squares / common;
+  scale.std = std::sqrt(seen->variance / seen->scan_squares);
+  return scale;
 }
 
 }  // namespace fastlio

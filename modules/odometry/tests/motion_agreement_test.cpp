@@ -19,8 +19,9 @@ namespace
 class TurningPlatform
 {
  public:
-  TurningPlatform(const Mat3& R_true_given, double factor, double std = 3e-4)
-      : R_true_given_(R_true_given), factor_(factor), std_(std)
+  TurningPlatform(
+      const Mat3& R_true_given, double factor, double std = 3e-4, double gyro_scale = 1.0)
+      : R_true_given_(R_true_given), factor_(factor), std_(std), gyro_scale_(gyro_scale)
   {
   }
 
@@ -29,7 +30,7 @@ class TurningPlatform
     for (int i = 0; i < scans; ++i)
     {
       const FilterState predicted = predict(i);
-      agreement.add(before_, predicted, correct(), Matrix6::Zero());
+      agreement.add(before_, 0.1, predicted, correct(), Matrix6::Zero());
     }
   }
 
@@ -45,7 +46,7 @@ class TurningPlatform
     // What the scans see, brought to the IMU by the mounting in use.
     const Vec3 seen = R_true_given_.transpose() * turn;
     truth_ = before_.R * expSO3(seen);
-    state_.x.R = before_.R * expSO3(turn) * expSO3(factor_ * noise(std_));
+    state_.x.R = before_.R * expSO3(gyro_scale_ * turn) * expSO3(factor_ * noise(std_));
     state_.P.diagonal().head<6>().setConstant(std_ * std_);
     return state_;
   }
@@ -65,6 +66,7 @@ class TurningPlatform
 
   Mat3 R_true_given_, truth_ = Mat3::Identity();
   double factor_, std_;  // of the predictions: [rad], [m]
+  double gyro_scale_;
   NavState before_;
   FilterState state_;
   std::mt19937_64 random_{3};
@@ -146,6 +148,20 @@ TEST(MotionAgreement, NoiseAloneIsNoWrongMounting)
   EXPECT_LT(kDegPerRad * error->leastAngle(), 0.5);
 }
 
+TEST(MotionAgreement, TheScaleOfTheGyroIsFoundWithItsStandardDeviation)
+{
+  for (const double scale : {0.9, 1.0, 1.05})
+  {
+    MotionAgreement agreement;
+    TurningPlatform(Mat3::Identity(), 1.0, 3e-4, scale).addTo(agreement, 200);
+    ASSERT_TRUE(agreement.gyroScale().has_value());
+    const GyroScale found = *agreement.gyroScale();
+    EXPECT_NEAR(found.scale(), scale, 0.002);
+    EXPECT_LT(std::abs(found.scale() - scale), 5.0 * found.std);
+    EXPECT_EQ(found.leastError() > 0.02, scale != 1.0) << scale;
+  }
+}
+
 TEST(MotionAgreement, FewTurnsTellNothing)
 {
   MotionAgreement agreement;
@@ -160,7 +176,7 @@ TEST(MotionAgreement, NoTurnsTellNothing)
   predicted.P.diagonal().setConstant(2e-6);
   posterior.P.diagonal().setConstant(1e-6);
   for (int i = 0; i < 300; ++i)
-    agreement.add(NavState{}, predicted, posterior, Matrix6::Zero());
+    agreement.add(NavState{}, 0.1, predicted, posterior, Matrix6::Zero());
   EXPECT_FALSE(agreement.mountingError().has_value());
   EXPECT_EQ(agreement.innovation(), 0.0);
 }

@@ -74,6 +74,23 @@ struct MountingError
   [[nodiscard]] double leastAngle() const { return std::max(0.0, angle - 3.0 * std); }
 };
 
+/** The turns that the gyro sees over those that the scans see. */
+struct GyroScale
+{
+  /** Noise of the scans makes the ratio smaller, noise of the gyro larger: it is between these. */
+  double lower = 1.0, upper = 1.0;
+  double std = 0.0;  //!< of both, by what the turns leave over
+
+  [[nodiscard]] double scale() const { return std::sqrt(lower * upper); }
+  /** How far the scale is from 1 at least: by three standard deviations, and as far beyond the
+   * bounds as they are apart, because noise of both sensors has parts in common. */
+  [[nodiscard]] double leastError() const
+  {
+    const double doubt = 3.0 * std + upper - lower;
+    return std::max({0.0, lower - 1.0 - doubt, 1.0 - upper - doubt});
+  }
+};
+
 /** How wrong the calibration in use seems to be, by the innovations of all scans so far. */
 struct CalibrationCheck
 {
@@ -110,6 +127,7 @@ struct ScanStatistics
             //!< and vibration explain; 0: too few scans
   double unexplained_motion_innovation = 0.0;   //!< the same over what the noise alone explains
   std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
+  std::optional<GyroScale> gyro_scale;          //!< likewise
   CalibrationCheck calibration;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
