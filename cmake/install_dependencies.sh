@@ -8,7 +8,7 @@ set -eu
 
 build_packages="g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-slam-dev libeigen3-dev libnanoflann-dev robin-map-dev
-  libcli11-dev nlohmann-json3-dev zlib1g-dev libre2-dev libyaml-dev libboost-dev libgtest-dev"
+  libcli11-dev nlohmann-json3-dev zlib1g-dev libre2-dev libyaml-dev libboost-dev libgtest-dev libsqlite3-dev"
 # Inflates rawlogs 2.5 times as fast as zlib, which does it where Debian has none.
 if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
   build_packages="$build_packages libisal-dev"
