@@ -14,7 +14,7 @@ FUZZ_SECONDS ?= 600
 BUILD_DIR := build/$(PRESET)
 # Tests are of the build that packages are made of, which is the same on every machine, unless a preset is given.
 TEST_PRESET := $(if $(filter file,$(origin PRESET)),baseline,$(PRESET))
-PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info
+PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
