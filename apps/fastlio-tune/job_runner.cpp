@@ -95,10 +95,19 @@ try
   const fs::path estimate = folder.path / "t.tum";
   writeFileAtomically(config.string(), job.parameters);
   const fs::path replay = fs::read_symlink("/proc/self/exe").parent_path() / "fastlio-replay";
-  const int status = runProgram(
-      {replay.string(), "-c", config.string(), "--input-rawlog", recording, "--output-tum-path",
-       estimate.string(), "--threads", "1", "-v", "ERROR"},
-      options.timeout);
+  std::vector<std::string> words = {
+      replay.string(),
+      "--input-rawlog",
+      recording,
+      "--output-tum-path",
+      estimate.string(),
+      "--threads",
+      "1",
+      "-v",
+      "ERROR"};
+  // All defaults are an empty text, which is no configuration.
+  if (!job.parameters.empty()) words.insert(words.end(), {"-c", config.string()});
+  const int status = runProgram(words, options.timeout);
   // 3: the recording is cut short, 6: degraded; both have a trajectory to judge.
   if (status != 0 && status != 3 && status != 6)
     return {std::nullopt, "fastlio-replay ended with status " + std::to_string(status)};
