@@ -8,6 +8,7 @@ JOBS ?= $(shell nproc)
 RECORDINGS ?=
 DEMO_DIR ?= demo-output
 SCENARIOS_DIR ?= scenarios-output
+CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
 FUZZ_SECONDS ?= 600
 
@@ -18,7 +19,7 @@ PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark demo scenarios \
+  benchmark demo scenarios calibration-table \
   experiments docs format lint packages test-packages test-trixie clean
 
 help:
@@ -31,6 +32,7 @@ help:
 	@echo "make sanitize  every test with address and undefined-behaviour sanitizers, then with that of threads"
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
+	@echo "make calibration-table  errors of realistic rigs before and after fastlio-calibrate"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
 	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
 	@echo "make build   install what is missing, build            PRESET=release|baseline|debug|asan|tsan"
@@ -65,10 +67,10 @@ test: test-dependencies
 
 faults: test-dependencies
 	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
-	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_recordings
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_given_recordings
 	build/$(TEST_PRESET)/tests/faults/test_faults
 	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/outages/test_outages
-	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_recordings --gtest_filter='*Outage*'
+	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_given_recordings --gtest_filter='*Outage*'
 
 fuzz:
 	@cmake/install_dependencies.sh build fuzz
@@ -95,6 +97,9 @@ benchmark:
 demo: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
 	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)
+
+calibration-table: build
+	benchmarks/calibration_table.sh $(BUILD_DIR) $(CALIBRATION_DIR)
 
 scenarios: build
 	benchmarks/scenario_table.sh $(BUILD_DIR) $(SCENARIOS_DIR)

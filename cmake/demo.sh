@@ -30,5 +30,6 @@ step "3/3 fastlio-eval: the trajectory against the truth"
 step "Files"
 find "$output" -type f -printf '%12s bytes  %p\n' | sort -k 3
 echo
+echo "Look at the run:        $odometry/report.html (any browser)"
 echo "Look at the trajectory: $output/trajectory.svg"
 echo "Look at the map:        $odometry/map.ply (any point-cloud viewer)"

@@ -2,20 +2,24 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [lint] [benchmark] [instructions] [packages] [fuzz]
+# Usage: cmake/install_dependencies.sh [build] [test] [conformance] [lint] [benchmark] [instructions] [packages] [fuzz]
 # (default: build)
 set -eu
 
 build_packages="g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-slam-dev libeigen3-dev libnanoflann-dev robin-map-dev
-  libcli11-dev nlohmann-json3-dev zlib1g-dev libre2-dev libyaml-dev libboost-dev libgtest-dev libsqlite3-dev"
+  libcli11-dev nlohmann-json3-dev libre2-dev libyaml-dev libboost-dev libgtest-dev
+  zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpcap-dev"
 # Inflates rawlogs 2.5 times as fast as zlib, which does it where Debian has none.
 if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
   build_packages="$build_packages libisal-dev"
 fi
 benchmark_packages="libbenchmark-dev"
-# MRPT's own programs, which the tests run on our outputs; the benchmarks are tested, too.
-test_packages="mrpt-apps $benchmark_packages"
+# MRPT's own programs, which the tests run on our outputs; fastlio-eval makes PNGs by librsvg's; the benchmarks are
+# tested, too.
+test_packages="mrpt-apps librsvg2-bin $benchmark_packages"
+# Other writers of recordings, whose files the tests of the import read where they are installed.
+conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
 packages_packages="help2man dpkg-dev file"
@@ -48,13 +52,14 @@ for set in "${@:-build}"; do
   case "$set" in
     build) wanted="$wanted $build_packages" ;;
     test) wanted="$wanted $test_packages" ;;
+    conformance) wanted="$wanted $conformance_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     packages) wanted="$wanted $packages_packages" ;;
     fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, lint, benchmark, instructions, packages, fuzz" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, conformance, lint, benchmark, instructions, packages, fuzz" >&2
       exit 2
       ;;
   esac

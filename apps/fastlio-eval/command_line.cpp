@@ -44,9 +44,24 @@ void addInputOptions(CLI::App& app, EvalCommand& c)
   app.add_option("reference,-r,--reference", c.reference, "Trajectory taken as the truth")
       ->type_name("FILE")
       ->required();
-  app.add_option("estimate,-e,--estimate", c.estimate, "Trajectory to be evaluated")
-      ->type_name("FILE")
-      ->required();
+  const char* estimates =
+      "Trajectory to be evaluated, or the folder of a run; several: one row each";
+  app.add_option("estimate", c.estimates, estimates)->type_name("FILE|DIR ...");
+  // Takes one only, so that the reference may follow it.
+  app.add_option_function<std::vector<std::filesystem::path>>(
+         "-e,--estimate",
+         [&c](const auto& given)
+         { c.estimates.insert(c.estimates.end(), given.begin(), given.end()); },
+         estimates)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FILE|DIR");
+  app.final_callback(
+      [&c]
+      {
+        if (c.estimates.empty()) throw CLI::RequiredError("estimate");
+      });
   auto* times =
       app.add_option(
              "--kitti-times", c.kitti.times_file, "File with one time [s] per line for KITTI poses")
@@ -101,7 +116,9 @@ void addOutputOptions(CLI::App& app, EvalCommand& c)
          "--json", c.json_path,
          "Write the report as JSON to FILE, or with '-' instead of the table")
       ->type_name("FILE");
-  app.add_option("--plot", c.svg_path, "Write a picture (SVG): top view and errors over time")
+  app.add_option(
+         "--plot", c.svg_path,
+         "Write a picture (.svg or .png): top view, height and errors over time")
       ->type_name("FILE");
 }
 

@@ -14,7 +14,8 @@ namespace fastlio
 /** What the user asks for. */
 struct EvalCommand
 {
-  std::filesystem::path reference, estimate;
+  std::filesystem::path reference;
+  std::vector<std::filesystem::path> estimates;  //!< files, or folders of runs
   KittiTiming kitti;
   EvaluationOptions evaluation;
   GateLimits gates;

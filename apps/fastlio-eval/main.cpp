@@ -4,14 +4,17 @@
 /** \file main.cpp fastlio-eval: how far is an estimated trajectory from the truth? */
 
 #include "command_line.h"
+#include "estimates.h"
+#include "picture.h"
 #include <fastlio/evaluation/report.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/same_file.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -19,25 +22,42 @@ constexpr int kExitOk = 0;
 constexpr int kExitInput = 1;
 constexpr int kExitGate = 2;
 
-void writeReports(
-    const fastlio::EvalCommand& command, const fastlio::EvaluationReport& report,
-    const std::vector<fastlio::GateResult>& gates)
+using fastlio::EvalCommand;
+using fastlio::NamedReport;
+
+/** A single estimate is reported in full, several in a row each. */
+std::string tableOf(const std::vector<NamedReport>& reports)
+{
+  return reports.size() == 1 ? fastlio::toTable(reports.front().report, reports.front().gates)
+                             : fastlio::toTable(reports);
+}
+
+std::string jsonOf(const std::vector<NamedReport>& reports)
+{
+  return reports.size() == 1 ? fastlio::toJson(reports.front().report, reports.front().gates)
+                             : fastlio::toJson(reports);
+}
+
+void writeReports(const EvalCommand& command, const std::vector<NamedReport>& reports)
 {
   const bool json_to_stdout = command.json_path == "-";
-  std::cout << (json_to_stdout ? fastlio::toJson(report, gates) : fastlio::toTable(report, gates))
-            << std::flush;
+  std::cout << (json_to_stdout ? jsonOf(reports) : tableOf(reports)) << std::flush;
   if (!std::cout) throw std::runtime_error("standard output cannot be written");
   if (!command.json_path.empty() && !json_to_stdout)
-    fastlio::writeFileAtomically(command.json_path, fastlio::toJson(report, gates));
+    fastlio::writeFileAtomically(command.json_path, jsonOf(reports));
   if (!command.svg_path.empty())
-    fastlio::writeFileAtomically(command.svg_path, fastlio::toSvg(report));
+    fastlio::writePicture(
+        command.svg_path,
+        reports.size() == 1 ? fastlio::toSvg(reports.front().report) : fastlio::toSvg(reports));
 }
 
 /** No report may replace what it is about. */
-void requireHarmlessOutputs(const fastlio::EvalCommand& command)
+void requireHarmlessOutputs(
+    const EvalCommand& command, const std::vector<fastlio::EstimateFile>& estimates)
 {
-  std::vector<fastlio::FileUse> inputs = {
-      {command.reference.string(), "--reference"}, {command.estimate.string(), "--estimate"}};
+  std::vector<fastlio::FileUse> inputs = {{command.reference.string(), "--reference"}};
+  for (const fastlio::EstimateFile& estimate : estimates)
+    inputs.push_back({estimate.file.string(), "--estimate"});
   if (!command.kitti.times_file.empty())
     inputs.push_back({command.kitti.times_file.string(), "--kitti-times"});
   std::vector<fastlio::FileUse> outputs;
@@ -48,28 +68,57 @@ void requireHarmlessOutputs(const fastlio::EvalCommand& command)
 }
 
 /** Says on standard error which limits are not kept, with both numbers. */
-int statusOf(const std::vector<fastlio::GateResult>& gates)
+int statusOf(const std::vector<NamedReport>& reports)
 {
   int status = kExitOk;
-  for (const fastlio::GateResult& gate : gates)
-  {
-    if (gate.passed) continue;
-    std::cerr << "fastlio-eval: limit not kept: --" << gate.name << ": " << gate.measured << ' '
-              << gate.unit << ", limit " << gate.limit << '\n';
-    status = kExitGate;
-  }
+  for (const NamedReport& named : reports)
+    for (const fastlio::GateResult& gate : named.gates)
+    {
+      if (gate.passed) continue;
+      std::cerr << "fastlio-eval: " << (reports.size() > 1 ? named.name + ": " : "")
+                << "limit not kept: --" << gate.name << ": " << gate.measured << ' ' << gate.unit
+                << ", limit " << gate.limit << '\n';
+      status = kExitGate;
+    }
   return status;
 }
 
-int run(const fastlio::EvalCommand& command)
+/** One that cannot be used does not keep the others from being compared.
+ * \return whether all of several could be used \exception std::exception a single one, or all,
+ * cannot be used */
+bool evaluateAll(
+    const EvalCommand& command, const std::vector<fastlio::EstimateFile>& estimates,
+    std::vector<NamedReport>& reports)
 {
-  requireHarmlessOutputs(command);
-  const fastlio::EvaluationReport report = fastlio::evaluate(
-      fastlio::readTrajectory(command.estimate, command.kitti),
-      fastlio::readTrajectory(command.reference, command.kitti), command.evaluation);
-  const std::vector<fastlio::GateResult> gates = fastlio::checkGates(report, command.gates);
-  writeReports(command, report, gates);
-  return statusOf(gates);
+  const fastlio::Trajectory reference = fastlio::readTrajectory(command.reference, command.kitti);
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+  {
+    try
+    {
+      NamedReport named{
+          estimates[i].name, fastlio::evaluate(
+                                 fastlio::readTrajectory(estimates[i].file, command.kitti),
+                                 reference, command.evaluation)};
+      named.gates = fastlio::checkGates(named.report, command.gates);
+      reports.push_back(std::move(named));
+    }
+    catch (const std::exception& e)
+    {
+      if (reports.empty() && i + 1 == estimates.size()) throw;
+      std::cerr << "fastlio-eval: " << estimates[i].name << " is left out: " << e.what() << '\n';
+    }
+  }
+  return reports.size() == estimates.size();
+}
+
+int run(const EvalCommand& command)
+{
+  const auto estimates = fastlio::estimateFiles(command.estimates);
+  requireHarmlessOutputs(command, estimates);
+  std::vector<NamedReport> reports;
+  const bool complete = evaluateAll(command, estimates, reports);
+  writeReports(command, reports);
+  return complete ? statusOf(reports) : kExitInput;
 }
 
 }  // namespace

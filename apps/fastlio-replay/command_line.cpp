@@ -5,20 +5,24 @@
 
 #include <fastlio/exporters/run_summary.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/printable.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
+#include <iostream>
 #include <map>
+#include <string_view>
 
 namespace fastlio
 {
 namespace
 {
 constexpr const char* kDescription =
-    "LiDAR-inertial odometry (FAST-LIO) on recorded data: reads MRPT rawlogs with a 3D LiDAR and "
-    "an\n"
-    "IMU, writes the trajectory, states with covariances, the map, timings and a summary.";
+    "LiDAR-inertial odometry (FAST-LIO) on recordings of a 3D LiDAR and an IMU: rawlogs of MRPT,\n"
+    "bags of ROS, MCAP, captures of a network, folders. Writes the trajectory, states with\n"
+    "covariances, the map, a report, timings and a summary.";
 
 constexpr const char* kFooter =
     "Exit status:\n"
@@ -35,7 +39,8 @@ constexpr const char* kFooter =
     "       written\n"
     "When several apply, the order is 130, 5, 3, 4, 6.\n\n"
     "Example:\n"
-    "  fastlio-replay -c params/velodyne_vlp16.yaml --input-rawlog walk.rawlog --output-dir out";
+    "  fastlio-replay walk.rawlog\n"
+    "  fastlio-replay walk.rawlog -c params/velodyne_vlp16.yaml --set map.voxel_size=0.3 -o out";
 
 const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
 {
@@ -45,17 +50,29 @@ const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
   return names;
 }
 
-void addInputOptions(CLI::App& app, ReplayArguments& arguments)
+void addInputOptions(
+    CLI::App& app, ReplayArguments& arguments, std::vector<std::string>& positional)
 {
   app.add_option(
          "-c,--config", arguments.config_file,
-         "Parameters (YAML); without it, the defaults for the sensor that is found")
+         "Parameters (YAML); without it, all have their defaults")
       ->type_name("FILE.yaml");
   app.add_option(
+         "recordings", positional,
+         "Recordings: rawlogs, bags, MCAP, captures, folders (docs/import.md); of several, each "
+         "gets a run of its own")
+      ->type_name("RECORDING");
+  app.add_flag(
+      "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
+  app.add_option(
+         "--set", arguments.settings,
+         "Set a parameter as the configuration file would, and over it; may be repeated")
+      ->allow_extra_args(false)  // what follows is a recording
+      ->type_name("KEY=VALUE");
+  app.add_option(
          "--input-rawlog", arguments.input_files,
-         "Recording; repeat for the parts of a split one, in order")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+         "A recording, too; repeated: the parts of a split one, in order")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   app.add_option(
          "--lidar-sensor-label", arguments.lidar_sensor_label,
@@ -80,13 +97,18 @@ void addInputOptions(CLI::App& app, ReplayArguments& arguments)
 void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
 {
   app.add_option(
-         "--output-dir", arguments.output_directory,
-         "Folder for all output files (see docs/outputs.md); created when absent")
+         "-o,--output-dir", arguments.output_directory,
+         "Folder for all output files (see docs/outputs.md); created when absent; default: a new "
+         "one, named after the recording, and 'latest' is a link to it")
       ->type_name("DIR");
   app.add_option(
          "--output-tum-path", arguments.output_tum_path,
          "Write the trajectory (TUM format) to this file, with or without --output-dir")
       ->type_name("FILE");
+  app.add_option(
+         "--reference", arguments.reference,
+         "Compare with this trajectory in report.html; default: NAME.gt.tum beside NAME.rawlog")
+      ->type_name("FILE.tum");
   app.add_flag(
       "--overwrite", arguments.overwrite,
       "Replace files in --output-dir also where no earlier run has written them");
@@ -94,6 +116,7 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
          "--export", arguments.exporters,
          "Files to write into --output-dir, by the names listed below; default: those without *")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME,...");
   app.add_flag(
       "--imu-rate", arguments.imu_rate,
@@ -125,6 +148,10 @@ void addMapOptions(CLI::App& app, ReplayArguments& arguments)
 
 void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 {
+  app.add_flag(
+      "--calibrate", arguments.calibrate,
+      "First calibrate the rig with the recording, as fastlio-calibrate does; used where it is "
+      "better on data that it was not fitted to");
   app.add_option(
          "--dump-config", arguments.dump_config,
          "Print all parameters in effect as YAML, each with where it comes from, and run nothing; "
@@ -142,6 +169,7 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
   app.add_option("-v,--verbosity", arguments.verbosity, "ERROR, WARN, INFO (default) or DEBUG")
       ->transform(CLI::CheckedTransformer(verbosityNames(), CLI::ignore_case).description(""))
       ->type_name("LEVEL");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
   app.set_version_flag(
       "--version", std::string("fastlio-replay ") + FASTLIO_VERSION + " (" +
                        mrpt::system::MRPT_getVersion() + ")");
@@ -150,13 +178,41 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
 void requireOutput(const ReplayArguments& arguments)
 {
   if (!arguments.dump_config.empty()) return;
-  if (arguments.input_files.empty()) throw CLI::RequiredError("--input-rawlog");
-  if (arguments.output_directory.empty() && arguments.output_tum_path.empty())
-    throw CLI::RequiredError("--output-dir or --output-tum-path (or both)");
-  if (arguments.imu_rate && arguments.output_directory.empty())
+  if (arguments.input_files.empty())
+    throw CLI::RequiredError("a recording (fastlio-replay walk.rawlog)");
+  if (arguments.batch && !arguments.output_tum_path.empty())
+    throw CLI::ValidationError(
+        "--output-tum-path", "has one file for several recordings; use --output-dir or --join");
+  if (!arguments.output_directory.empty() || arguments.output_tum_path.empty()) return;
+  if (arguments.imu_rate)
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
-  if (!arguments.exporters.empty() && arguments.output_directory.empty())
+  if (!arguments.reference.empty())
+    throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
+  if (!arguments.exporters.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
+}
+
+/** Positional recordings are of their own, those of --input-rawlog parts of one. */
+void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& positional)
+{
+  arguments.batch = !arguments.join && positional.size() > 1;
+  if (!positional.empty() && !arguments.input_files.empty())
+    throw CLI::ValidationError(
+        "--input-rawlog", "is given beside other recordings; give all of them in one way");
+  if (!positional.empty()) arguments.input_files = positional;
+}
+/** What is left when all options have been read. */
+std::string unknownOptionText(const CLI::App& app)
+{
+  const std::vector<std::string> left = app.remaining(true);
+  const std::string seen = left.empty() ? "" : left.front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return "fastlio-replay: unknown option '" + printable(seen) + "'; did you mean '" +
+         std::string(nearestName(seen, views)) + "'? --help lists all options";
 }
 }  // namespace
 
@@ -165,14 +221,22 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
   CLI::App app(kDescription, "fastlio-replay");
   app.footer("Files (--export):\n" + exporterHelp() + "\n" + kFooter);
   ReplayArguments arguments;
-  addInputOptions(app, arguments);
+  std::vector<std::string> positional;
+  addInputOptions(app, arguments, positional);
   addOutputOptions(app, arguments);
   addMapOptions(app, arguments);
   addRunOptions(app, arguments);
   try
   {
     app.parse(argc, argv);
+    joinInputs(arguments, positional);
+    if (arguments.quiet) arguments.verbosity = mrpt::system::LVL_ERROR;
     requireOutput(arguments);
+  }
+  catch (const CLI::ExtrasError&)
+  {
+    std::cerr << unknownOptionText(app) << '\n';
+    return static_cast<int>(ExitStatus::Usage);
   }
   catch (const CLI::ParseError& e)
   {

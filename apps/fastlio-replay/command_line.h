@@ -17,8 +17,11 @@ namespace fastlio
 /** The command line as given. */
 struct ReplayArguments
 {
-  std::string config_file;                        //!< empty: defaults for the sensor that is found
-  std::vector<std::string> input_files;           //!< rawlogs, in order
+  std::string config_file;                        //!< empty: all have their defaults
+  std::vector<std::string> input_files;           //!< recordings, in order
+  bool join = false;                              //!< they are parts of one
+  bool batch = false;                             //!< they are recordings of their own
+  std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none
   bool overwrite = false;                         //!< also files that no run has written
@@ -30,11 +33,14 @@ struct ReplayArguments
   bool imu_rate = false;                          //!< sets the parameter output.imu_rate
   std::string map_in;                             //!< a saved map to start in; empty: none
   std::vector<double> initial_pose;               //!< x y z yaw pitch roll [m, deg]; empty: origin
+  std::string reference;                          //!< to compare with in the report; empty: none
+  bool calibrate = false;                         //!< the rig, with the recording, before the run
   bool no_map_update = false;                     //!< sets the parameter map.update to false
   std::string dump_config;                        //!< "all" or "main": print and run nothing
   std::string frame = "vehicle";                  //!< or "imu"
   std::optional<int> threads;                     //!< overrides the parameter `threads`
   mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;
+  bool quiet = false;  //!< nothing but errors
 };
 
 /** The arguments, or the exit status when there is nothing (more) to do: help and version have been

@@ -3,14 +3,17 @@
 
 /** \file main.cpp fastlio-replay: a recording in, trajectory and map out. */
 
+#include "batch.h"
 #include "command_line.h"
 #include "interruption.h"
 #include "replay_run.h"
+#include "run_names.h"
 #include "run_report.h"
 #include "run_setup.h"
 #include <fastlio/files/failure_text.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -61,13 +64,26 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
   return execute(run, logger);
 }
 
-int logged(const ReplayArguments& arguments)
+/** A run without outputs gets a folder of its own. */
+int runNamed(ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
+{
+  const bool own_folder = arguments.dump_config.empty() && arguments.output_directory.empty() &&
+                          arguments.output_tum_path.empty();
+  if (own_folder) arguments.output_directory = freeRunFolder(arguments.input_files.front());
+  const int status = replay(arguments, logger);
+  if (!own_folder || !std::filesystem::is_directory(arguments.output_directory)) return status;
+  if (const auto problem = linkLatest(arguments.output_directory))
+    logger.logStr(mrpt::system::LVL_WARN, *problem);
+  return status;
+}
+
+int logged(ReplayArguments& arguments)
 {
   mrpt::system::COutputLogger logger("fastlio-replay");
   logger.setMinLoggingLevel(arguments.verbosity);
   try
   {
-    return replay(arguments, logger);
+    return runNamed(arguments, logger);
   }
   catch (const SetupError& e)
   {
@@ -80,6 +96,19 @@ int logged(const ReplayArguments& arguments)
     return static_cast<int>(ExitStatus::Usage);
   }
 }
+
+/** One run, or one for each recording. */
+int all(const ReplayArguments& arguments)
+{
+  std::vector<BatchRun> runs = runsOf(arguments);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+  {
+    runs[i].status = logged(runs[i].arguments);
+    if (runs[i].status == static_cast<int>(ExitStatus::Interrupted)) runs.resize(i + 1);
+  }
+  if (arguments.batch && !arguments.quiet) std::cout << batchTable(runs);
+  return worstStatus(runs);
+}
 }  // namespace
 
 int main(int argc, char** argv)
@@ -87,7 +116,7 @@ try
 {
   const auto parsed = parseCommandLine(argc, argv);
   if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  return logged(std::get<ReplayArguments>(parsed));
+  return all(std::get<ReplayArguments>(parsed));
 }
 catch (const std::bad_alloc&)
 {

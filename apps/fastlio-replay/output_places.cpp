@@ -35,6 +35,8 @@ std::vector<FileUse> inputsOf(const ReplayArguments& arguments)
     inputs.push_back({file, "--input-rawlog"});
   if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
   if (!arguments.map_in.empty()) inputs.push_back({arguments.map_in, "--map-in"});
+  const std::string reference = referenceFor(arguments.reference, arguments.input_files);
+  if (!reference.empty()) inputs.push_back({reference, "--reference"});
   return inputs;
 }
 

@@ -96,7 +96,8 @@ ExportTarget outputOptions(const RunSetup& setup)
       setup.config.exporters,
       {setup.arguments.input_files, setup.selection, setup.plan.bridge},
       setup.config.odometry.lidar.time_offset,
-      setup.config.odometry.imu_rate};
+      setup.config.odometry.imu_rate,
+      referenceFor(setup.arguments.reference, setup.arguments.input_files)};
 }
 }  // namespace
 
@@ -280,6 +281,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.sensors = sensorTexts(setup_);
   summary.odometry = setup_.config.odometry;
   summary.options = textsOf(configTable(), setup_.config);
+  summary.defaults = textsOf(configTable(), Config{});
   summary.input_counts = inputCounts(source.statistics(), odometry_.inputStatistics());
   summary.input_counts.push_back(
       {"scans_skipped", std::min(scans_seen_, setup_.arguments.skip_first_n)});

@@ -5,20 +5,8 @@
 
 #include <mrpt/core/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 namespace fastlio
 {
-namespace
-{
-/** Counts that are no loss. */
-constexpr std::array<std::string_view, 6> kFine = {
-    "imu_samples",   "scans",         "points",
-    "other_sensors", "scans_skipped", "scans_with_synthetic_point_times"};
-}  // namespace
-
 std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputStatistics& odometry)
 {
   return {
@@ -54,19 +42,11 @@ std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputS
 std::string lostEndText(const InputStatistics& odometry)
 {
   return mrpt::format(
-      "the last %zu scans could not be processed: of all scans, %zu were without inertial data, %zu "
+      "the last %zu scans could not be processed: of all scans, %zu were without inertial data, "
+      "%zu "
       "were stamped before others, %zu had absurd stamps, %zu were empty",
       odometry.scans_after_result, odometry.scans_without_imu, odometry.scans_out_of_order,
       odometry.scans_bad_stamp, odometry.scans_empty);
-}
-
-std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)
-{
-  std::vector<NamedCount> lost;
-  for (const auto& count : counts)
-    if (count.count > 0 && std::find(kFine.begin(), kFine.end(), count.name) == kFine.end())
-      lost.push_back(count);
-  return lost;
 }
 
 }  // namespace fastlio

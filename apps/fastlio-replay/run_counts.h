@@ -16,9 +16,6 @@ namespace fastlio
 [[nodiscard]] std::vector<NamedCount> inputCounts(
     const BridgeStatistics& bridge, const InputStatistics& odometry);
 
-/** Those of inputCounts() that tell of losses, without zeros. */
-[[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
-
 /** Why there is no result for the scans after the last one, as far as the counts tell. */
 [[nodiscard]] std::string lostEndText(const InputStatistics& odometry);
 

@@ -81,7 +81,7 @@ std::string speedText(const RunSummary& run)
          fixedText(run.statistics.computeSeconds(), 2) + " s odometry)";
 }
 
-std::string openText(const OpenDirections& open)
+std::string degenerateText(const DegenerateDirections& open)
 {
   const Vec3& axis = open.weakest.axis;
   return std::to_string(open.scans) + " scans did not see a " +
@@ -175,8 +175,8 @@ std::string reportText(const RunSummary& summary)
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));
   if (!lost.empty()) text += line("Dropped", countsText(lost));
-  if (statistics.openDirections().scans > 0)
-    text += line("Open", openText(statistics.openDirections()));
+  if (statistics.degenerateDirections().scans > 0)
+    text += line("Degenerate", degenerateText(statistics.degenerateDirections()));
   text += line("IMU", imuText(summary.imu));
   text += line("Health", healthText(statistics.health()));
   for (const UntrustedStretch& stretch : statistics.health().untrusted())

@@ -3,13 +3,17 @@
 
 #include "run_setup.h"
 
+#include "calibration_first.h"
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -63,10 +67,32 @@ ConfigFile readFile(const ReplayArguments& arguments)
   }
 }
 
-/** The command line goes before the file. */
+/** Takes in --set KEY=VALUE. */
+void takeSetting(const std::string& setting, Loaded& loaded)
+{
+  const std::size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals);
+  const auto* row = findOption(configTable(), key);
+  if (equals == std::string::npos || row == nullptr)
+    throw SetupError(
+        ExitStatus::Usage,
+        "--set '" + printable(setting) + "': " +
+            (equals == std::string::npos
+                 ? "has no '='; write KEY=VALUE, for example map.voxel_size=0.3"
+                 : "unknown key; did you mean '" + nearestKey(configTable(), key) + "'?"));
+  const auto problem =
+      assign(row->value(loaded.file.config), row->unit, setting.substr(equals + 1));
+  if (problem)
+    throw SetupError(ExitStatus::Usage, "--set '" + printable(setting) + "': " + *problem);
+  loaded.origins[key] = "--set";
+}
+
+/** The command line goes before the file, and its own options before --set. */
 Loaded loadConfiguration(const ReplayArguments& arguments)
 {
   Loaded loaded{readFile(arguments), {}};
+  for (const std::string& setting : arguments.settings)
+    takeSetting(setting, loaded);
   OdometryOptions& odometry = loaded.file.config.odometry;
   SensorOptions& sensors = loaded.file.config.sensors;
   std::string& exporters = loaded.file.config.exporters.exporters;
@@ -118,10 +144,10 @@ OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config
 void requireReadable(const std::vector<std::string>& files)
 {
   for (const auto& file : files)
-    if (const auto problem = inputFileProblem(file))
+    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
       throw SetupError(
           ExitStatus::InputUnusable,
-          "input file '" + file + "' " + *problem + " (--input-rawlog takes a rawlog file)");
+          "input file '" + file + "' " + *problem + " (--input-rawlog takes a recording)");
 }
 
 /** Runs what may throw std::invalid_argument for a parameter, others for the input. */
@@ -202,16 +228,21 @@ RunSetup setUpRun(const ReplayArguments& arguments)
 {
   RunSetup setup;
   setup.config = loadConfiguration(arguments).file.config;
+  if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);
   checked([&] { requireGivenOnce(arguments.input_files); });
+  std::string calibration;
+  if (arguments.calibrate)
+    calibration = checked([&] { return calibrateFirst(arguments.input_files, setup.config); });
   const SensorOptions& sensors = setup.config.sensors;
   const SensorPatterns patterns = patternsOf(sensors);
   setup.selection = checked(
       [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
   setup.plan =
       checked([&] { return planInput(setup.selection, sensors, setup.config.odometry.lidar); });
+  if (!calibration.empty()) setup.plan.notes.push_back(calibration);
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
   setup.frame = outputFrameOf(arguments.frame, setup.plan.T_vehicle_imu);

@@ -169,6 +169,7 @@ std::vector<Seed> seedsOf(const std::string& target)
   if (target == "packets") return packetSeeds();
   if (target == "cloud") return cloudSeeds();
   if (target == "yaml") return yamlSeeds();
+  if (auto seeds = seedsOfRecordings(target); !seeds.empty()) return seeds;
   return seedsOfFiles(target);
 }
 

@@ -157,7 +157,14 @@ const std::vector<FuzzTarget>& fuzzTargets()
       {"trajectory", fuzzTrajectory},
       {"label", fuzzLabel},
       {"external", fuzzExternal},
-      {"commandline", fuzzCommandLine}};
+      {"commandline", fuzzCommandLine},
+      {"bag", fuzzRecording},
+      {"mcap", fuzzRecording},
+      {"database", fuzzRecording},
+      {"message", fuzzMessage},
+      {"capture", fuzzCapture},
+      {"metadata", fuzzMetadata},
+      {"cloudfile", fuzzCloudFile}};
   return targets;
 }
 

@@ -45,6 +45,17 @@ void fuzzExternal(const std::uint8_t* data, std::size_t size);
 /** Arguments of fastlio-replay, one a line. */
 void fuzzCommandLine(const std::uint8_t* data, std::size_t size);
 
+/** A recording of another maker in one file: what it is, the bytes say. */
+void fuzzRecording(const std::uint8_t* data, std::size_t size);
+/** A capture of a network. */
+void fuzzCapture(const std::uint8_t* data, std::size_t size);
+/** An encoding, a type and a message of it. */
+void fuzzMessage(const std::uint8_t* data, std::size_t size);
+/** Metadata of an Ouster. */
+void fuzzMetadata(const std::uint8_t* data, std::size_t size);
+/** A cloud in a file of its own, PCD or BIN. */
+void fuzzCloudFile(const std::uint8_t* data, std::size_t size);
+
 [[nodiscard]] const std::vector<FuzzTarget>& fuzzTargets();
 
 /** Small valid inputs of a target, by file name: where mutations start. */
@@ -55,5 +66,7 @@ struct Seed
 [[nodiscard]] std::vector<Seed> seedsOf(const std::string& target);
 /** Those of the targets in fuzz_files.cpp. */
 [[nodiscard]] std::vector<Seed> seedsOfFiles(const std::string& target);
+/** Those of the targets in fuzz_recordings.cpp. */
+[[nodiscard]] std::vector<Seed> seedsOfRecordings(const std::string& target);
 
 }  // namespace fastlio::testing

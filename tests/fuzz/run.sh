@@ -12,7 +12,8 @@ shift 2
 here=$(dirname "$0")
 mkdir -p "$build/fuzz"
 status=0
-for target in ${@:-rawlog packets cloud yaml ply pcd archive trajectory label external commandline}; do
+for target in ${@:-rawlog packets cloud yaml ply pcd archive trajectory label external commandline \
+  bag mcap database message capture metadata cloudfile}; do
   mkdir -p "$build/fuzz/$target"
   echo "== $target for $seconds s"
   "$build/tests/fuzz/fastlio-fuzz-$target" -max_total_time="$seconds" -rss_limit_mb=2048 \

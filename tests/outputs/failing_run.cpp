@@ -17,7 +17,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kExporters =
-    "trajectory,states,covariance,timing,untrusted,ply,metricmap,graph";
+    "trajectory,states,covariance,timing,untrusted,ply,metricmap,report,graph";
 
 /** Three seconds with so few points that a run takes a tenth of a second, and pieces of the map go
  * to files nevertheless. */

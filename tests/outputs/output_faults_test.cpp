@@ -51,6 +51,13 @@ bool isCompleteTable(const std::string& text, const std::string& like)
          std::count(text.begin(), text.end(), ',') == std::count(like.begin(), like.end(), ',');
 }
 
+/** report.html has times of the clock, too. */
+bool isWholePage(const std::string& text)
+{
+  const std::string end = "</html>\n";
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 class OutputFaults : public FailingRuns
 {
  protected:
@@ -62,6 +69,8 @@ class OutputFaults : public FailingRuns
     const std::string& wanted = complete().at(name);
     if (name == "timing.csv")
       EXPECT_TRUE(isCompleteTable(content, wanted)) << content;
+    else if (name == "report.html")
+      EXPECT_TRUE(isWholePage(content)) << content.size();
     else if (name == "summary.json")
       EXPECT_TRUE(Json::accept(content)) << content;
     else

@@ -11,9 +11,11 @@
 
 #include <cmath>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <unistd.h>
 #include <zlib.h>
+#include <zstd.h>
 
 namespace fastlio::testing
 {
@@ -57,6 +59,16 @@ std::string gzip(const std::string& bytes, int level, int strategy, gz_header* h
   deflate(&stream, Z_FINISH);
   packed.resize(stream.total_out);
   deflateEnd(&stream);
+  return packed;
+}
+
+std::string zstd(const std::string& bytes)
+{
+  std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  packed.resize(
+      ZSTD_compress2(context.get(), packed.data(), packed.size(), bytes.data(), bytes.size()));
   return packed;
 }
 

@@ -40,6 +40,9 @@ std::string gzip(
     const std::string& bytes, int level = 6, int strategy = Z_DEFAULT_STRATEGY,
     gz_header* header = nullptr);
 
+/** A frame of Zstandard with a checksum, as MRPT 2.15.7 and newer write rawlogs. */
+std::string zstd(const std::string& bytes);
+
 void write(const std::string& file, const std::string& bytes);
 
 constexpr std::int64_t kStart = 1'700'000'000'000'000'000;  // [ns]

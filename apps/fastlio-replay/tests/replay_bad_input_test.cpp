@@ -33,9 +33,9 @@ TEST_F(CommandLine, VersionIsPrinted)
 
 TEST_F(CommandLine, MistakesAreExplained)
 {
-  expectEnd(replay({}), 1, "--input-rawlog");
-  expectEnd(replay({"--input-rawlog", "x"}), 1, "--output-dir");
+  expectEnd(replay({}), 1, "fastlio-replay walk.rawlog");
   expectEnd(replayFile("x", {"--no-such-option"}), 1, "--no-such-option");
+  expectEnd(replayFile("x", {"--treads", "2"}), 1, "did you mean '--threads'");
   expectEnd(replayFile("x", {"--frame", "camera"}), 1, "vehicle");
   expectEnd(replayFile("x", {"--threads", "many"}), 1, "--threads");
   expectEnd(replayFile("x", {"-v", "LOUD"}), 1, "LOUD");

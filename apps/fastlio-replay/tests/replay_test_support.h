@@ -90,7 +90,7 @@ class ReplayTest : public ::testing::Test
   {
     for (const auto* name :
          {"trajectory.tum", "states.csv", "covariance.csv", "timing.csv", "untrusted.csv",
-          "map.ply", "map.metricmap", "summary.json"})
+          "map.ply", "map.metricmap", "report.html", "summary.json"})
       EXPECT_TRUE(std::filesystem::exists(file("out/" + std::string(name)))) << name;
     const std::string names = namesIn(file("out"));
     EXPECT_EQ(names.find(".tmp"), std::string::npos) << names;

@@ -30,16 +30,17 @@ std::string seenText(const yaml::node_t& node)
 bool isList(const OptionValue& value)
 {
   return std::holds_alternative<OptionalPoseValue>(value) ||
-         std::holds_alternative<PoseValue>(value) || std::holds_alternative<VectorValue>(value);
+         std::holds_alternative<PoseValue>(value) || std::holds_alternative<VectorValue>(value) ||
+         std::holds_alternative<NumbersValue>(value);
 }
 
-/** A list of scalars as "[a, b, c]", or nothing. */
-std::optional<std::string> listText(const yaml::node_t& node)
+/** A list of scalars, or of such lists, as "[a, b, c]", or nothing. */
+std::optional<std::string> listText(const yaml::node_t& node, bool rows)
 {
   std::string text;
   for (const auto& item : node.asSequence())
   {
-    const auto part = scalarText(item);
+    const auto part = rows && item.isSequence() ? listText(item, false) : scalarText(item);
     if (!part) return std::nullopt;
     text += (text.empty() ? "[" : ", ") + *part;
   }
@@ -64,9 +65,10 @@ std::optional<std::string> assignNode(
   if (const auto text = scalarText(node)) return assign(value, unit, *text);
   if (node.isSequence() && isList(value))
   {
-    const auto text = listText(node);
     const bool is_vector = std::holds_alternative<VectorValue>(value);
-    if (text && node.size() == (is_vector ? kVectorNumbers : kPoseNumbers))
+    const bool numbers = std::holds_alternative<NumbersValue>(value);
+    const auto text = listText(node, numbers);
+    if (text && (numbers || node.size() == (is_vector ? kVectorNumbers : kPoseNumbers)))
       return assign(value, unit, *text);
   }
   return seenText(node) + " is not a " + typeText(value) + "; allowed: " + allowedText(value, unit);

@@ -78,6 +78,15 @@ struct RandomValue
     v.member->emplace();
     (*this)(PoseValue{&**v.member});
   }
+  void operator()(const NumbersValue& v)
+  {
+    v.member->resize(v.columns * (1 + random() % v.max_rows));
+    for (double& number : *v.member)
+      number = v.columns == 9 ? 0.01 * unit() : v.limit * (2.0 * unit() - 1.0);
+    if (v.columns == 9)  // a matrix
+      for (const std::size_t diagonal : {0, 4, 8})
+        v.member->at(diagonal) += 1.0;
+  }
 };
 
 template <class Random>

@@ -268,6 +268,21 @@ TEST(ConfigYaml, EveryRemovedKeySaysWhatToDoNow)
   }
 }
 
+TEST(ConfigYaml, RowsOfNumbersAreListsOfLists)
+{
+  const Config config = fromText(
+      "imu:\n  gyro_matrix: [1, 0, 0, 0, 1, 0.01, 0, 0, 1]\n"
+      "lidar:\n  beam_offsets: [[-15, 0.01, 0], [1, -0.02, 0.1]]\n");
+  EXPECT_EQ(config.odometry.imu.gyro_matrix[5], 0.01);
+  EXPECT_EQ(
+      config.odometry.lidar.beam_offsets, (std::vector<double>{-15.0, 0.01, 0.0, 1.0, -0.02, 0.1}));
+  expectContains(problemOf("lidar:\n  beam_offsets: [[1, 2]]\n"), "has 2 numbers");
+  expectContains(problemOf("lidar:\n  beam_offsets: [[1, [2], 3]]\n"), "lidar.beam_offsets");
+  expectContains(problemOf("imu:\n  gyro_matrix: [1, 0, 0]\n"), "nine numbers");
+  expectContains(
+      problemOf("imu:\n  accel_matrix: [0, 1, 0, 1, 0, 0, 0, 0, 1]\n"), "near the identity");
+}
+
 TEST(ConfigYaml, AFileTellsTheLinesOfItsKeys)
 {
   const TemporaryFile file("threads: 2\nmap: {radius: 5}\n# comment\nlidar:\n  deskew: false\n");

@@ -82,6 +82,25 @@ NeesSummary summarizeNees(const std::vector<double>& nees, int degrees)
   return s;
 }
 
+std::vector<Deviation> deviations(
+    const AssociatedTrajectories& trajectories, NeesAlignment alignment)
+{
+  const Pose T_est_ref = worldTransform(trajectories, alignment);
+  std::vector<Deviation> result;
+  result.reserve(trajectories.estimate.size());
+  for (std::size_t i = 0; i < trajectories.estimate.size(); ++i)
+  {
+    Deviation deviation;
+    deviation.stamp_ns = trajectories.estimate[i].stamp_ns;
+    deviation.error = poseError(
+        trajectories.estimate[i].T_world_body, T_est_ref * trajectories.reference[i].T_world_body);
+    if (i < trajectories.covariances.size())
+      deviation.sigma = trajectories.covariances[i].diagonal().cwiseMax(0.0).cwiseSqrt();
+    result.push_back(deviation);
+  }
+  return result;
+}
+
 std::optional<Consistency> consistency(
     const AssociatedTrajectories& trajectories, NeesAlignment alignment)
 {

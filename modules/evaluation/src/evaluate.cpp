@@ -56,6 +56,7 @@ EvaluationReport evaluate(
   r.segments = segmentErrors(r.aligned, options.segment_lengths);
   r.segment_average = averageOf(r.segments);
   r.drift = endToEndDrift(r.aligned);
+  r.deviations = deviations(associated, options.nees_alignment);
   r.nees = consistency(associated, options.nees_alignment);
   return r;
 }

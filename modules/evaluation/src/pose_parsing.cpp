@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "pose_parsing.h"
+
 #include <fastlio/options/number_text.h>
 
 #include <Eigen/Geometry>

@@ -122,9 +122,7 @@ Json pairJson(
       {rotation, statisticsJson(s.rotation, toDegrees(1.0))}};
 }
 
-}  // namespace
-
-std::string toJson(const EvaluationReport& report, const std::vector<GateResult>& gates)
+Json reportJson(const EvaluationReport& report, const std::vector<GateResult>& gates)
 {
   const std::int64_t begin_ns = report.aligned.reference.front().stamp_ns;
   Json rpe_second = {{"span_s", report.options.rpe_seconds}};
@@ -132,21 +130,39 @@ std::string toJson(const EvaluationReport& report, const std::vector<GateResult>
   Json rpe_metre = {{"span_m", report.options.rpe_metres}};
   rpe_metre.update(
       pairJson(report.rpe_metre, "translation_percent", toPercent(1.0), "rotation_deg_per_m"));
-  return jsonText(
-      {{"estimate", report.estimate_source},
-       {"reference", report.reference_source},
-       {"association", associationJson(report.association)},
-       {"begin_s", secondsText(begin_ns)},
-       {"duration_s", report.duration},
-       {"path_length_m", report.drift.path_length},
-       {"alignment", alignmentJson(report)},
-       {"ape", pairJson(report.ape, "translation_m", 1.0, "rotation_deg")},
-       {"rpe_per_second", rpe_second},
-       {"rpe_per_metre", rpe_metre},
-       {"segments", segmentsJson(report)},
-       {"end_to_end_drift", driftJson(report.drift)},
-       {"nees", consistencyJson(report)},
-       {"gates", gatesJson(gates)}});
+  return {
+      {"estimate", report.estimate_source},
+      {"reference", report.reference_source},
+      {"association", associationJson(report.association)},
+      {"begin_s", secondsText(begin_ns)},
+      {"duration_s", report.duration},
+      {"path_length_m", report.drift.path_length},
+      {"alignment", alignmentJson(report)},
+      {"ape", pairJson(report.ape, "translation_m", 1.0, "rotation_deg")},
+      {"rpe_per_second", rpe_second},
+      {"rpe_per_metre", rpe_metre},
+      {"segments", segmentsJson(report)},
+      {"end_to_end_drift", driftJson(report.drift)},
+      {"nees", consistencyJson(report)},
+      {"gates", gatesJson(gates)}};
+}
+}  // namespace
+
+std::string toJson(const EvaluationReport& report, const std::vector<GateResult>& gates)
+{
+  return jsonText(reportJson(report, gates));
+}
+
+std::string toJson(const std::vector<NamedReport>& reports)
+{
+  Json estimates = Json::array();
+  for (const NamedReport& named : reports)
+  {
+    Json json = {{"name", named.name}};
+    json.update(reportJson(named.report, named.gates));
+    estimates.push_back(json);
+  }
+  return jsonText({{"estimates", estimates}});
 }
 
 }  // namespace fastlio

@@ -187,6 +187,21 @@ TEST(Nees, SingularCovariancesAreCountedAndLeftOut)
   EXPECT_FALSE(consistency(associate(estimate, truth, {}), NeesAlignment::None).has_value());
 }
 
+TEST(Nees, DeviationsAreTheErrorsWithTheirStandardDeviations)
+{
+  const Trajectory truth = samples::curve(20, 100'000'000);
+  Trajectory estimate = truth;
+  estimate.poses[7].T_world_body.p.z() -= 0.5;
+  const auto without = deviations(associate(estimate, truth, {}), NeesAlignment::First);
+  ASSERT_EQ(without.size(), 20U);
+  EXPECT_NEAR(without[7].error[5], 0.5, 1e-9);
+  EXPECT_LT(without[7].sigma[5], 0.0);
+  estimate.covariances.assign(20, Matrix6(0.04 * Matrix6::Identity()));
+  const auto with = deviations(associate(estimate, truth, {}), NeesAlignment::First);
+  EXPECT_NEAR(with[7].sigma[5], 0.2, 1e-12);
+  EXPECT_NEAR(with[8].error.norm(), 0.0, 1e-9);
+}
+
 TEST(Nees, SummaryNeedsSamples)
 {
   expectThrows<std::invalid_argument>([] { (void)summarizeNees({}, 3); }, {"no sample"});

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "sample_trajectories.h"
-#include "svg_plot.h"
 #include <fastlio/evaluation/report.h>
 
 #include <nlohmann/json.hpp>
@@ -148,15 +147,15 @@ TEST(Report, TableHasUnitsAndFitsTheTerminal)
     EXPECT_LE(line.size(), 100U) << line;
 }
 
-TEST(Report, SvgDrawsBothPathsAndTheErrors)
+TEST(Report, SvgDrawsBothPathsTheHeightAndTheErrors)
 {
   const std::string svg = toSvg(scaleErrorReport());
   EXPECT_EQ(svg.rfind("<svg ", 0), 0U);
   std::size_t lines = 0;
   for (auto at = svg.find("<polyline"); at != std::string::npos; at = svg.find("<polyline", at + 1))
     ++lines;
-  EXPECT_EQ(lines, 4U);
-  for (const char* part : {"reference", "x [m]", "time [s]", "[deg]", "</svg>"})
+  EXPECT_EQ(lines, 6U);
+  for (const char* part : {"reference", "start", "z [m]", "x [m]", "time [s]", "[deg]", "</svg>"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
@@ -172,19 +171,6 @@ TEST(Report, SvgOfALongRunKeepsThePeakAndStaysSmall)
   const std::string svg = toSvg(evaluate(estimate, truth, options));
   EXPECT_LT(svg.size(), 300'000U);
   EXPECT_NE(svg.find(">4<"), std::string::npos);  // a tick that only the peak reaches
-}
-
-TEST(Svg, TicksAreRoundNumbersInside)
-{
-  EXPECT_EQ(roundTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
-  EXPECT_EQ(roundTicks(-1.0, 1.0, 2), (std::vector<double>{-1, 0, 1}));
-  EXPECT_TRUE(roundTicks(1.0, 1.0, 5).empty());
-  EXPECT_TRUE(roundTicks(0.0, std::nan(""), 5).empty());
-}
-
-TEST(Svg, TextIsEscaped)
-{
-  EXPECT_EQ(escapeXml("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
 }
 
 }  // namespace

@@ -48,15 +48,17 @@ void ExporterSet::onScan(const ScanResult& result, const std::vector<ImuRateStat
 
 void ExporterSet::giveUpMap(const std::string& reason)
 {
+  map_problem_ = reason;
   for (Member& member : members_)
     if (member.exporter && member.exporter->needsMap()) giveUp(member, reason);
 }
 
 bool ExporterSet::needMap() const
 {
-  return std::any_of(
-      members_.begin(), members_.end(),
-      [](const Member& member) { return member.exporter && member.exporter->needsMap(); });
+  return map_problem_.empty() &&
+         std::any_of(
+             members_.begin(), members_.end(),
+             [](const Member& member) { return member.exporter && member.exporter->usesMap(); });
 }
 
 RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map, const SurfaceMap* surfaces)
@@ -67,7 +69,7 @@ RunSummary ExporterSet::finish(RunSummary summary, const OutputMap& map, const S
     if (!member.exporter) continue;
     try
     {
-      for (auto& file : member.exporter->finish({summary, map, surfaces}))
+      for (auto& file : member.exporter->finish({summary, map, surfaces, map_problem_}))
         summary.outputs.push_back(std::move(file));
     }
     catch (const std::exception& e)

@@ -56,7 +56,7 @@ void RunStatistics::add(const ScanResult& result)
   health_.add(result);
   compute_ms_ += result.milliseconds.total;
   if (hasPose(result.status)) addPose(result);
-  if (result.statistics.constraints.unconstrained > 0) addOpenDirections(result);
+  if (result.statistics.constraints.unconstrained > 0) addDegenerateDirections(result);
   if (result.status == ScanStatus::Initializing)
     not_initialized_ = trouble;
   else if (
@@ -65,7 +65,7 @@ void RunStatistics::add(const ScanResult& result)
     troubles_.push_back(trouble);
 }
 
-void RunStatistics::addOpenDirections(const ScanResult& result)
+void RunStatistics::addDegenerateDirections(const ScanResult& result)
 {
   const ScanConstraints& constraints = result.statistics.constraints;
   const double noise = constraints.noise_information[0];

@@ -3,8 +3,20 @@
 
 #include <fastlio/exporters/run_summary.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace fastlio
 {
+namespace
+{
+/** Counts that are no loss. */
+constexpr std::array<std::string_view, 6> kNoLoss = {
+    "imu_samples",   "scans",         "points",
+    "other_sensors", "scans_skipped", "scans_with_synthetic_point_times"};
+}  // namespace
+
 ExitStatus exitStatusOf(const RunSummary& summary)
 {
   if (summary.interrupted) return ExitStatus::Interrupted;
@@ -38,6 +50,15 @@ const char* toString(ExitStatus status)
       return "interrupted";
   }
   return "unknown";
+}
+
+std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)
+{
+  std::vector<NamedCount> lost;
+  for (const auto& count : counts)
+    if (count.count > 0 && std::find(kNoLoss.begin(), kNoLoss.end(), count.name) == kNoLoss.end())
+      lost.push_back(count);
+  return lost;
 }
 
 double realTimeFactor(const RunSummary& summary)

@@ -71,6 +71,15 @@ std::string ExportTarget::path(std::string_view file) const
   return (std::filesystem::path(directory) / file).string();
 }
 
+std::string referenceFor(const std::string& given, const std::vector<std::string>& recordings)
+{
+  if (!given.empty() || recordings.empty()) return given;
+  const std::filesystem::path beside =
+      std::filesystem::path(recordings.front()).replace_extension(".gt.tum");
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(beside, ignored) ? beside.string() : std::string();
+}
+
 const std::vector<ExporterKind>& exporterKinds()
 {
   static const std::vector<ExporterKind> kinds = {
@@ -104,6 +113,10 @@ const std::vector<ExporterKind>& exporterKinds()
       {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},
       {"graph", "poses.graph", "pose graph for MRPT", false, makeGraphExporter},
       {"g2o", "poses.g2o", "pose graph for g2o", false, makeG2oExporter},
+      {"scene", "scene.3Dscene", "map, path and uncertainty for SceneViewer3D", false,
+       makeSceneExporter},
+      // After the files whose problems it tells.
+      {"report", "report.html", "page that shows and explains the run", true, makeReportExporter},
       // The last: it lists the files before it.
       {kSummary, "summary.json", "the run: inputs, parameters, losses, speed, problems", true,
        [](const Options& o) { return makeSummaryExporter(o.path("summary.json")); }},

@@ -91,7 +91,7 @@ Json troublesJson(const RunStatistics& statistics)
   return json;
 }
 
-Json openDirectionsJson(const OpenDirections& open)
+Json degenerateDirectionsJson(const DegenerateDirections& open)
 {
   if (open.scans == 0) return {{"scans", 0}};
   return {
@@ -229,7 +229,7 @@ Json summaryJson(const RunSummary& run)
       {"points", pointsJson(run.statistics.points())},
       {"path_length_m", run.statistics.pathLength()},
       {"time", timeJson(run)},
-      {"open_directions", openDirectionsJson(run.statistics.openDirections())},
+      {"degenerate_directions", degenerateDirectionsJson(run.statistics.degenerateDirections())},
       {"calibration", calibrationJson(run)},
       {"calibration_check", calibrationCheckJson(run.statistics.calibration())},
       {"health", healthJson(run.statistics.health())},

@@ -104,9 +104,9 @@ TEST(ExporterSet, StandardFilesAreAllThere)
   EXPECT_TRUE(summary.output_problems.empty());
   for (const auto* name :
        {"trajectory.tum", "extra.tum", "states.csv", "covariance.csv", "timing.csv",
-        "untrusted.csv", "map.ply", "map.metricmap", "summary.json"})
+        "untrusted.csv", "map.ply", "map.metricmap", "report.html", "summary.json"})
     EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
-  EXPECT_EQ(summary.outputs.size(), 9U);
+  EXPECT_EQ(summary.outputs.size(), 10U);
   EXPECT_EQ(contentOf(folder.file("extra.tum")), contentOf(folder.file("trajectory.tum")));
 }
 

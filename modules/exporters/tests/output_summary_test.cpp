@@ -74,13 +74,13 @@ TEST(RunStatistics, KnowsWhereDirectionsWereOpen)
 {
   RunStatistics statistics;
   statistics.add(resultAt(0, ScanStatus::Tracking, 0, 1));
-  EXPECT_EQ(statistics.openDirections().scans, 0U);
+  EXPECT_EQ(statistics.degenerateDirections().scans, 0U);
   for (const double signal_to_noise : {4.0, 2.0, 3.0})
     statistics.add(tunnelScan(signal_to_noise));
-  EXPECT_EQ(statistics.openDirections().scans, 3U);
-  EXPECT_EQ(statistics.openDirections().signal_to_noise, 2.0);
-  EXPECT_FALSE(statistics.openDirections().weakest.is_rotation);
-  EXPECT_EQ(statistics.openDirections().weakest.axis, Vec3::UnitX());
+  EXPECT_EQ(statistics.degenerateDirections().scans, 3U);
+  EXPECT_EQ(statistics.degenerateDirections().signal_to_noise, 2.0);
+  EXPECT_FALSE(statistics.degenerateDirections().weakest.is_rotation);
+  EXPECT_EQ(statistics.degenerateDirections().weakest.axis, Vec3::UnitX());
 }
 
 Json writtenSummary(const RunSummary& run)

@@ -4,6 +4,7 @@
 #include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/math/time.h>
 
+#include <Eigen/LU>
 #include <mrpt/core/format.h>
 
 #include <algorithm>
@@ -34,12 +35,22 @@ constexpr double kSpikeGyro = 10.471975511965978;  // [rad/s]; 600 deg/s
 constexpr double kSpikeAccel = 100.0;              // [m/s^2]
 }  // namespace
 
+Mat3 sensorMatrix(const std::vector<double>& rows)
+{
+  if (rows.size() != 9) return Mat3::Identity();
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+}
+
 ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
     : parameters_(parameters),
       gravity_(gravity),
       units_{
-          siPerUnit(parameters.accel_unit), siPerUnit(parameters.gyro_unit),
-          parameters.accel_unit != AccelUnit::Auto},
+          siPerUnit(parameters.accel_unit),
+          siPerUnit(parameters.gyro_unit),
+          parameters.accel_unit != AccelUnit::Auto,
+          sensorMatrix(parameters.gyro_matrix).inverse(),
+          sensorMatrix(parameters.accel_matrix).inverse(),
+          !parameters.gyro_matrix.empty() || !parameters.accel_matrix.empty()},
       time_gate_(parameters.max_gap),
       spike_gate_(kSpikeGyro, kSpikeAccel),
       gyro_clipping_(parameters.gyro_range, kGyroFloor),
@@ -153,6 +164,11 @@ void ImuConditioner::emit(const TimedSample& timed)
     next.inflation = inflationBefore(timed);
     next.rescale_gyro = considerGyroUnit(next);
     last_ns_ = timed.sample.stamp_ns;
+  }
+  if (units_.matrices)  // last: clipping shows in the axes of the sensor
+  {
+    next.sample.gyro = (units_.gyro_inverse * next.sample.gyro).eval();
+    next.sample.accel = (units_.accel_inverse * next.sample.accel).eval();
   }
   ready_.push_back(next);
 }

@@ -50,9 +50,10 @@ void BeamErrors::add(
     const Vec3 normal = R_scan_world * point.weighted_h.tail<3>() / point.weight;
     const double along = normal.dot(beam) / range;
     const double upward = (normal.dot(up) - sine * along) / cosine;  // across the beam
-    const auto bin = static_cast<std::size_t>((sine + 1.0) * kBinsPerUnit);
+    const std::size_t bin = beamBin(sine);
     range_[bin].add(point, along);
     elevation_[bin].add(point, range * upward);
+    cross_[bin] += point.weight * along * range * upward;
   }
 }
 
@@ -87,6 +88,24 @@ double BeamErrors::rangeOffset() const
 double BeamErrors::elevationOffset() const
 {
   return std::sqrt(elevationVariance());
+}
+
+std::vector<BeamSums> BeamErrors::sums() const
+{
+  std::vector<BeamSums> all;
+  for (std::size_t bin = 0; bin < kBeamBins; ++bin)
+  {
+    const Offset &range = range_[bin], &elevation = elevation_[bin];
+    if (!(range.information > 0.0)) continue;
+    BeamSums& sums = all.emplace_back();
+    sums.elevation = beamElevation(bin);
+    sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
+    sums.weighted << range.weighted, elevation.weighted;
+    // They share the errors of the map: points tell less than their number says.
+    sums.information /= kSharedNoise;
+    sums.weighted /= kSharedNoise;
+  }
+  return all;
 }
 
 Matrix6 BeamErrors::covariance() const

@@ -6,6 +6,8 @@
 #pragma once
 
 #include "match_result.h"
+#include <fastlio/lidar/beam_corrections.h>
+#include <fastlio/odometry/calibration_sums.h>
 #include <fastlio/odometry/plane_groups.h>
 
 #include <array>
@@ -31,6 +33,8 @@ class BeamErrors
   /** Root mean square of the offsets; 0 while none is known. */
   [[nodiscard]] double rangeOffset() const;      //!< [m]
   [[nodiscard]] double elevationOffset() const;  //!< [rad]
+  /** Of all elevations that were seen, ascending. */
+  [[nodiscard]] std::vector<BeamSums> sums() const;
 
  private:
   /** An offset of the beams of one elevation. */
@@ -41,18 +45,14 @@ class BeamErrors
 
     void add(const PointMeasurement& point, double derivative);
   };
-  // Bins are as wide in the sine of the elevation as 2 deg at the horizon, where an edge is. The
-  // lasers of a VLP-16 are 2 deg apart, at odd degrees: in the middle of a bin. Denser LiDARs have
-  // several in a bin, whose mean counts.
-  static constexpr double kBinsPerUnit = 28.65;  // 1 / sin(2 deg)
-  static constexpr std::size_t kBins = 58;
-  using Offsets = std::array<Offset, kBins>;
+  using Offsets = std::array<Offset, kBeamBins>;
 
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
   [[nodiscard]] double rangeVariance() const;
   [[nodiscard]] double elevationVariance() const;
 
   Offsets range_, elevation_;
+  std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
 };
 
 }  // namespace fastlio

@@ -12,6 +12,23 @@ CalibrationErrorModel::CalibrationErrorModel()
   insertions_.reserve(kMaxInsertions);
 }
 
+void CalibrationErrorModel::start(const NavState& x, bool tilted)
+{
+  S_.setZero();
+  const Vec3 force = -(x.R.transpose() * x.g);
+  const Vec3 up = force.normalized();
+  const Mat3 along = up * up.transpose();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int column = kAccelMatrixError + 3 * axis;  // its error adds force[axis] * theta
+    S_.block<3, 3>(kAccelBias, column) = force[axis] * along;
+    if (tilted)
+      S_.block<3, 3>(kAttitude, column) = -force[axis] / force.squaredNorm() * skew(force);
+    else
+      S_.block<3, 3>(kGravity, column) = -force[axis] * x.R * (Mat3::Identity() - along);
+  }
+}
+
 void CalibrationErrorModel::propagate(const ErrorTransition& transition)
 {
   S_ = transition.times(S_);

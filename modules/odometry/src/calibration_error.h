@@ -7,6 +7,7 @@
  * theta is constant, and it does not average out: it is *considered* (Schmidt). With S = de /
  * dtheta, the steps of the filter make of it
  *
+ *     S_0: gravity as the accelerometer saw it gave tilt and bias at the start,
  *     S <- Phi S + Psi                                       on the way from scan to scan,
  *     C  = B S + B_c - L^-1 V,   S <- S - G Lambda C         in an update with the gain G,
  *
@@ -16,6 +17,7 @@
 #pragma once
 
 #include <fastlio/filter/propagation.h>
+#include <fastlio/odometry/calibration_sums.h>
 #include <fastlio/odometry/map_error.h>
 #include <fastlio/odometry/plane_groups.h>
 
@@ -24,19 +26,6 @@
 
 namespace fastlio
 {
-/** First index of each block of theta. Extrinsic: in use = true [+] theta, rotation and translation
- * as in StateBlock. Gyro and accelerometer: their matrices are I + theta (InertialSensitivity). */
-enum CalibrationErrorBlock : int
-{
-  kExtrinsicError = 0,
-  kGyroMatrixError = 6,
-  kAccelMatrixError = 15
-};
-constexpr int kCalibrationErrorDim = 24;
-
-using CalibrationErrorVector = Eigen::Matrix<double, kCalibrationErrorDim, 1, Eigen::DontAlign>;
-using CalibrationErrorMatrix =
-    Eigen::Matrix<double, kCalibrationErrorDim, kCalibrationErrorDim, Eigen::DontAlign>;
 /** Derivative of a pose by theta. */
 using PoseByCalibration = Eigen::Matrix<double, 6, kCalibrationErrorDim, Eigen::DontAlign>;
 
@@ -53,6 +42,9 @@ class CalibrationErrorModel
  public:
   CalibrationErrorModel();
 
+  /** The first state came from a mean specific force: gravity, seen by the accelerometer.
+   * \param tilted the error of its direction is in the attitude, else in the gravity */
+  void start(const NavState& x, bool tilted);
   /** From scan to scan. */
   void propagate(const ErrorTransition& transition);
   /** Through an update without a scan. \param kept I - K H */

@@ -6,19 +6,15 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
-
 namespace fastlio
 {
 namespace
 {
 using Square6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
-using SquareTheta = Eigen::Matrix<double, kCalibrationErrorDim, kCalibrationErrorDim>;
-using VecTheta = Eigen::Matrix<double, kCalibrationErrorDim, 1>;
 
-// Beside so many scans one more tells little: from then on one in so many is followed by a solution.
+// Beside so many scans one more tells little: from then on one in so many is followed by a
+// solution.
 constexpr int kScansSolvedEach = 20;
 constexpr int kScansPerSolution = 10;
 
@@ -34,17 +30,17 @@ CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
   {
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        prior_std_[first + 3 * column + row] =
+        prior_.std[first + 3 * column + row] =
             row == column ? options.imu_scale_std : options.imu_misalignment_std;
   };
   matrix(kGyroMatrixError);
   matrix(kAccelMatrixError);
   const bool estimated = options.estimate_extrinsic;  // by the filter itself
-  prior_std_.segment<3>(kExtrinsicError)
+  prior_.std.segment<3>(kExtrinsicError)
       .setConstant(estimated ? 0.0 : options.extrinsic_rotation_std);
-  prior_std_.segment<3>(kExtrinsicError + 3)
+  prior_.std.segment<3>(kExtrinsicError + 3)
       .setConstant(estimated ? 0.0 : options.extrinsic_translation_std);
-  solve();
+  estimate_ = solve(sums_, prior_);
 }
 
 void CalibrationEvidence::add(
@@ -62,37 +58,20 @@ void CalibrationEvidence::add(
   const Square6 W =
       Square6(Square6::Identity() + information * P).partialPivLu().solve(information);
   const PoseByCalibration weighted = product(W, innovation);
-  information_ += innovation.transpose() * weighted;
-  weighted_ -= innovation.transpose() * Wy;
-  squares_ += Wy.dot(information_ldlt.solve(Wy) + P * Wy);
-  count_ += 6.0;
+  sums_.information += innovation.transpose() * weighted;
+  sums_.weighted -= innovation.transpose() * Wy;
+  sums_.squares += Wy.dot(information_ldlt.solve(Wy) + P * Wy);
+  sums_.count += 6.0;
   ++scans_;
-  if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0) solve();
+  if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0)
+    estimate_ = solve(sums_, prior_);
 }
 
 Matrix6 CalibrationEvidence::byExtrinsicPrior(const PoseByCalibration& pose) const
 {
   const Matrix6 scaled =
-      pose.middleCols<6>(kExtrinsicError) * prior_std_.segment<6>(kExtrinsicError).asDiagonal();
+      pose.middleCols<6>(kExtrinsicError) * prior_.std.segment<6>(kExtrinsicError).asDiagonal();
   return scaled * scaled.transpose();
-}
-
-void CalibrationEvidence::solve()
-{
-  // In units of the prior, which may be zero: (I + Lambda)^-1.
-  const VecTheta std = prior_std_, weighted = std.asDiagonal() * weighted_;
-  const SquareTheta information = std.asDiagonal() * SquareTheta(information_) * std.asDiagonal();
-  const SquareTheta I = SquareTheta::Identity();
-  const double explained = weighted.dot((I + information).ldlt().solve(weighted));
-  // Of white noise the mean would stay below this bound in 99.9 % of all runs.
-  const double chance = 1.0 + 3.0 * std::sqrt(2.0 / std::max(count_, 1.0));
-  const double mean = (squares_ - explained) / std::max(count_, 1.0);
-  const double scale = std::max(1.0, mean / chance);
-  const SquareTheta P = (I + information / scale).llt().solve(I);
-  estimate_.innovation_scale = scale;
-  estimate_.mean = std.asDiagonal() * (P * weighted / scale);
-  estimate_.covariance = std.asDiagonal() * P * std.asDiagonal();
-  estimate_.second_moment = estimate_.covariance + estimate_.mean * estimate_.mean.transpose();
 }
 
 }  // namespace fastlio

@@ -13,17 +13,6 @@
 
 namespace fastlio
 {
-/** The error theta of the calibration in use, as the innovations show it. */
-struct CalibrationEstimate
-{
-  CalibrationErrorVector mean = CalibrationErrorVector::Zero();
-  CalibrationErrorMatrix covariance = CalibrationErrorMatrix::Zero();
-  CalibrationErrorMatrix second_moment = CalibrationErrorMatrix::Zero();  //!< E[theta theta^T]
-  /** How many times their covariance the squares of the innovations are on average, but for what
-   * theta explains; 1 when they are less. */
-  double innovation_scale = 1.0;
-};
-
 /** Least squares for theta, with a prior. */
 class CalibrationEvidence
 {
@@ -41,15 +30,11 @@ class CalibrationEvidence
   [[nodiscard]] Matrix6 byExtrinsicPrior(const PoseByCalibration& pose) const;
   /** What all scans so far tell. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
+  [[nodiscard]] const CalibrationSums& sums() const { return sums_; }
 
  private:
-  void solve();
-
-  CalibrationErrorVector prior_std_;
-  CalibrationErrorMatrix information_ = CalibrationErrorMatrix::Zero();
-  CalibrationErrorVector weighted_ = CalibrationErrorVector::Zero();
-  double squares_ = 0.0;  // of the normalised innovations
-  double count_ = 0.0;    // of their elements
+  CalibrationPrior prior_;
+  CalibrationSums sums_;
   int scans_ = 0;
   CalibrationEstimate estimate_;
 };

@@ -184,8 +184,8 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
   else if (result.status == ScanStatus::Tracking)
   {
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, health);
-    // A position that is off along an open direction leaves residuals wherever something stands
-    // across it: they are no second cause.
+    // A position that is off along a degenerate direction leaves residuals wherever something
+    // stands across it: they are no second cause.
     if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
     considerMotion(result.statistics, health);
   }

@@ -45,6 +45,7 @@ void Estimator::start(
       initializing != nullptr ? initializing->T_map_imu : std::nullopt;
   const FilterState placed = T_map_imu ? placedInMap(state, *T_map_imu) : state;
   state_ = {withCalibrationPrior(placed, options_.calibration), stamp_ns};
+  map_.startCalibrationError(placed.x, options_.initialization.align_with_gravity);
   if (T_map_imu)
     mode_ = EnteringMap{std::move(run), *T_map_imu};
   else

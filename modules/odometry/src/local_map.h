@@ -55,6 +55,8 @@ class LocalMap
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
   [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
 
+  /** The state that scans are matched with comes from a mean specific force. */
+  void startCalibrationError(const NavState& x, bool tilted) { calibration_.start(x, tilted); }
   /** What errors of map and calibration make of the state passes on from scan to scan. */
   void propagateError(const ErrorTransition& transition);
   /** The same through an update without a scan. \param kept I - K H */

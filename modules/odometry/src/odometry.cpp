@@ -62,6 +62,10 @@ std::optional<ImuRateState> Odometry::stateAtNewestSample()
 {
   return impl_->stateAtNewestSample();
 }
+CalibrationFindings Odometry::calibrationFindings() const
+{
+  return impl_->estimator_.calibrationFindings();
+}
 const OdometryOptions& Odometry::parameters() const
 {
   return impl_->options_;

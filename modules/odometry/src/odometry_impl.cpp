@@ -40,6 +40,7 @@ Odometry::Impl::Impl(const OdometryOptions& options)
     : options_(validated(options)),
       estimator_(options),
       conditioner_(options.imu, options.initialization.gravity),
+      beam_corrections_(options.lidar.beam_offsets),
       intake_(options.imu.max_gap, options.lidar.max_waiting),
       start_finder_(options),
       reinitialization_(options)
@@ -183,6 +184,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   QueuedScan queued = popScan();
   estimator_.applyCalibration(queued.scan, queued.span);
   if (!usable(queued.span)) return std::nullopt;
+  beam_corrections_.apply(queued.scan.points);
   ScanResult result = estimator_.process(queued.scan, queued.span, imu_);
   imu_.forgetBefore(queued.span.end_ns);
   const auto loss =

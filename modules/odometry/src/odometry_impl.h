@@ -11,6 +11,7 @@
 #include "scan_intake.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_conditioner.h>
+#include <fastlio/lidar/beam_corrections.h>
 #include <fastlio/lidar/range_unit.h>
 #include <fastlio/odometry/odometry.h>
 
@@ -64,6 +65,7 @@ class Odometry::Impl
   ImuConditioner conditioner_;
   ImuBuffer imu_;
   RangeUnit range_unit_;
+  BeamCorrections beam_corrections_;
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;

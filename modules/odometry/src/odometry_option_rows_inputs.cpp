@@ -6,6 +6,14 @@
 
 namespace fastlio
 {
+namespace
+{
+OptionValue matrix(std::vector<double>* rows)
+{
+  return NumbersValue{rows, 9, 1, 2.0, "nine numbers row by row, near the identity, or []"};
+}
+}  // namespace
+
 OdometryOptionRows initializationRows()
 {
   return {
@@ -160,6 +168,11 @@ OdometryOptionRows imuReadingRows()
        },
        "full scale of the accelerometer, where it clips; 0: discovered, as the value that repeats "
        "at the extreme"},
+      {"imu.gyro_matrix", "", [](auto& o) -> OptionValue { return matrix(&o.imu.gyro_matrix); },
+       "scale and axes of the gyro, row by row: reading = matrix * rate + bias; fastlio-calibrate "
+       "finds it; empty: the identity"},
+      {"imu.accel_matrix", "", [](auto& o) -> OptionValue { return matrix(&o.imu.accel_matrix); },
+       "the same of the accelerometer"},
   };
 }
 
@@ -184,6 +197,15 @@ OdometryOptionRows lidarRows()
       {"lidar.deskew", "", [](auto& o) -> OptionValue { return BooleanValue{&o.lidar.deskew}; },
        "motion compensation of every point with its own time (eq. 9-10); false only for scans "
        "without motion inside"},
+      {"lidar.beam_offsets", "",
+       [](auto& o) -> OptionValue
+       {
+         return NumbersValue{
+             &o.lidar.beam_offsets, 3, 58, 90.0,
+             "rows of [elevation in deg, offset of the range in m, of the elevation in deg]"};
+       },
+       "what the beams of an elevation measure too much, in bins of 2 deg; fastlio-calibrate finds "
+       "it"},
   };
 }
 

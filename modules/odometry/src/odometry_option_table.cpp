@@ -18,6 +18,9 @@ OdometryOptionRows allRows()
     all.insert(all.end(), rows.begin(), rows.end());
   return all;
 }
+
+// Scales are off by percents, and axes by a few degrees. Units and turned axes have other keys.
+constexpr double kLargestMatrixError = 0.5;
 }  // namespace
 
 const OptionTable<OdometryOptions>& odometryOptionTable()
@@ -31,6 +34,13 @@ std::vector<std::string> optionProblems(const OdometryOptions& options)
   auto problems = problemsOf(odometryOptionTable(), options);
   if (!(options.lidar.min_range < options.lidar.max_range))
     problems.emplace_back("lidar.min_range: must be below lidar.max_range");
+  const auto check = [&problems](const char* key, const std::vector<double>& rows)
+  {
+    if ((sensorMatrix(rows) - Mat3::Identity()).norm() > kLargestMatrixError)
+      problems.emplace_back(std::string(key) + ": the matrix must be near the identity");
+  };
+  check("imu.gyro_matrix", options.imu.gyro_matrix);
+  check("imu.accel_matrix", options.imu.accel_matrix);
   return problems;
 }
 

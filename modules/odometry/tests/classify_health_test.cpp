@@ -87,7 +87,7 @@ TEST(Classify, ADegenerateDirectionIsTroubleOnceThePositionIsUncertain)
         r.statistics.constraints.unconstrained = 1;
         r.statistics.constraints.directions.col(0) = Vector6::Unit(3);
         r.filter.P(kPosition, kPosition) = 0.6 * 0.6;
-        r.statistics.normalized_innovation = 6.6;  // of what stands across the open direction
+        r.statistics.normalized_innovation = 6.6;  // of what stands across the degenerate direction
       });
   EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
   EXPECT_LT(health.value, 0.5);

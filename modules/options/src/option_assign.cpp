@@ -130,6 +130,22 @@ Problem assignVector(const Target& target, Vec3* member)
   if (!v) return target.wrongType(wrong);
   return target.store(member, Vec3((*v)[0], (*v)[1], (*v)[2]));
 }
+/** Brackets around the whole and around its rows separate nothing: the commas do. */
+Problem assignNumbers(const Target& target, std::vector<double>* member)
+{
+  std::string text(target.text);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '[' || c == ']'; }, ' ');
+  std::vector<double> numbers;
+  if (!trimmed(text).empty())
+    for (const std::string_view part : partsOf(text))
+    {
+      const auto number = finiteNumber(part);
+      if (!number) return target.wrongType(part);
+      numbers.push_back(*number);
+    }
+  return target.store(member, numbers);
+}
 }  // namespace
 
 std::optional<std::string> assign(
@@ -161,7 +177,8 @@ std::optional<std::string> assign(
           {
             return text == "null" ? target.store(v.member, std::optional<Pose>{})
                                   : assignPose(target, v.member);
-          }},
+          },
+          [&](const NumbersValue& v) { return assignNumbers(target, v.member); }},
       value);
 }
 

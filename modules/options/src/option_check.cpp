@@ -40,6 +40,17 @@ Problem poseProblem(const Pose& pose)
   if (error > 1e-6 || pose.R.determinant() < 0.0) return "has a matrix that is not a rotation";
   return {};
 }
+Problem numbersProblem(const NumbersValue& value)
+{
+  const std::vector<double>& numbers = *value.member;
+  const std::string allowed = "; allowed: " + std::string(value.allowed);
+  if (numbers.size() % value.columns != 0 || numbers.size() > value.columns * value.max_rows)
+    return "has " + std::to_string(numbers.size()) + " numbers" + allowed;
+  for (const double number : numbers)
+    if (!(std::abs(number) <= value.limit))
+      return "has the number " + shortestText(number) + allowed;
+  return {};
+}
 }  // namespace
 
 std::optional<std::string> valueProblem(const OptionValue& value, std::string_view unit)
@@ -68,7 +79,8 @@ std::optional<std::string> valueProblem(const OptionValue& value, std::string_vi
           { return v.member->allFinite() ? Problem{} : "has a number that is not finite"; },
           [](const PoseValue& v) { return poseProblem(*v.member); },
           [](const OptionalPoseValue& v)
-          { return *v.member ? poseProblem(**v.member) : Problem{}; }},
+          { return *v.member ? poseProblem(**v.member) : Problem{}; },
+          [](const NumbersValue& v) { return numbersProblem(v); }},
       value);
 }
 

@@ -35,6 +35,19 @@ std::string vectorText(const Vec3& v)
 {
   return "[" + shortestText(v.x()) + ", " + shortestText(v.y()) + ", " + shortestText(v.z()) + "]";
 }
+std::string numbersText(const NumbersValue& value)
+{
+  const std::vector<double>& numbers = *value.member;
+  const bool rows = numbers.size() > value.columns;
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    const bool first = i % value.columns == 0;
+    if (i > 0) text += first ? "], " : ", ";
+    text += (first && rows ? "[" : "") + shortestText(numbers[i]);
+  }
+  return "[" + text + (rows ? "]]" : "]");
+}
 }  // namespace
 
 std::string valueText(const OptionValue& value)
@@ -52,7 +65,8 @@ std::string valueText(const OptionValue& value)
           [](const VectorValue& v) { return vectorText(*v.member); },
           [](const PoseValue& v) { return poseText(*v.member); },
           [](const OptionalPoseValue& v)
-          { return *v.member ? poseText(**v.member) : std::string("null"); }},
+          { return *v.member ? poseText(**v.member) : std::string("null"); },
+          [](const NumbersValue& v) { return numbersText(v); }},
       value);
 }
 
@@ -80,7 +94,8 @@ std::string allowedText(const OptionValue& value, std::string_view unit)
           [](const VectorValue&) { return std::string("[x, y, z]"); },
           [](const PoseValue&) { return std::string("[x, y, z, yaw, pitch, roll] in m and deg"); },
           [](const OptionalPoseValue&)
-          { return std::string("[x, y, z, yaw, pitch, roll] in m and deg, or null"); }},
+          { return std::string("[x, y, z, yaw, pitch, roll] in m and deg, or null"); },
+          [](const NumbersValue& v) { return std::string(v.allowed); }},
       value);
 }
 
@@ -95,7 +110,8 @@ std::string typeText(const OptionValue& value)
           [](const BooleanValue&) { return "boolean"; },
           [](const ChoiceValue&) { return "choice"; }, [](const RegexValue&) { return "text"; },
           [](const TextValue&) { return "text"; }, [](const VectorValue&) { return "vector"; },
-          [](const PoseValue&) { return "pose"; }, [](const OptionalPoseValue&) { return "pose"; }},
+          [](const PoseValue&) { return "pose"; }, [](const OptionalPoseValue&) { return "pose"; },
+          [](const NumbersValue&) { return "list of numbers"; }},
       value);
 }
 

@@ -27,6 +27,7 @@ struct Lamp
   Vec3 place = Vec3::Zero();
   Pose pose;
   std::optional<Pose> other;
+  std::vector<double> rows;
 };
 
 struct House
@@ -59,6 +60,11 @@ const OptionTable<Lamp>& lampTable()
       {"place", "m", [](Lamp& l) -> OptionValue { return VectorValue{&l.place}; }, "place"},
       {"pose", "", [](Lamp& l) -> OptionValue { return PoseValue{&l.pose}; }, "pose"},
       {"other", "", [](Lamp& l) -> OptionValue { return OptionalPoseValue{&l.other}; }, "other"},
+      {"rows", "",
+       [](Lamp& l) -> OptionValue {
+         return NumbersValue{&l.rows, 2, 3, 10.0, "rows of two"};
+       },
+       "rows"},
   };
   return table;
 }
@@ -85,7 +91,8 @@ TEST(OptionValue, EveryKindReadsBackWhatItPrints)
         Case{"lamp.seed", "18446744073709551615"}, Case{"lamp.start", "1700000000"},
         Case{"lamp.on", "false"}, Case{"colour", "green"}, Case{"place", "[1, -2, 0.5]"},
         Case{"pose", "[1, 2, 3, 90, 0, -5]"}, Case{"other", "[0, 0, 1, 0, 0, 0]"},
-        Case{"other", "null"}})
+        Case{"other", "null"}, Case{"rows", "[]"}, Case{"rows", "[1, -2.5]"},
+        Case{"rows", "[[1, 2], [3, 4]]"}})
   {
     EXPECT_EQ(assigned(lamp, key, text), "ok") << key;
     EXPECT_EQ(textOf(lamp, key), text) << key;
@@ -103,7 +110,10 @@ TEST(OptionValue, WhatIsNotAllowedIsRefusedAndChangesNothing)
   Lamp lamp;
   using Case = std::array<const char*, 3>;
   for (const auto& [key, text, part] :
-       {Case{"lamp.angle", "91", "91 is out of range; allowed: 0 to 90 deg"},
+       {Case{"rows", "[1, 2, 3]", "has 3 numbers; allowed: rows of two"},
+        Case{"rows", "1,2,3,4,5,6,7,8", "has 8 numbers"}, Case{"rows", "[1, 11]", "the number 11"},
+        Case{"rows", "[1, x]", "'x' is not a list of numbers"},
+        Case{"lamp.angle", "91", "91 is out of range; allowed: 0 to 90 deg"},
         Case{"lamp.angle", "nan", "'nan' is not a number"},
         Case{"lamp.count", "1.5", "'1.5' is not a whole number; allowed: 0 to 5"},
         Case{"lamp.count", "6", "out of range"}, Case{"lamp.seed", "-1", "not a whole number"},

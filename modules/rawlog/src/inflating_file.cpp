@@ -11,8 +11,9 @@
 namespace
 {
 constexpr std::size_t kBufferBytes = 1U << 16U;
-constexpr std::size_t kLargestStep = 1U << 30U;    // what the libraries count fits 32 bits
-constexpr unsigned char kMagic[2] = {0x1F, 0x8B};  // of a gzip member
+constexpr std::size_t kLargestStep = 1U << 30U;  // what the libraries count fits 32 bits
+constexpr std::string_view kGzipMagic = "\x1F\x8B";
+constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 }  // namespace
 
 namespace fastlio
@@ -23,11 +24,20 @@ std::unique_ptr<GzipInflater> InflatingFile::fastestInflater()
   return inflater ? std::move(inflater) : makeZlibInflater();
 }
 
-InflatingFile::InflatingFile(const std::string& path, std::unique_ptr<GzipInflater> inflater)
-    : file_(std::fopen(path.c_str(), "rb")), inflater_(std::move(inflater)), buffer_(kBufferBytes)
+InflatingFile::InflatingFile(const std::string& path, std::unique_ptr<GzipInflater> for_gzip)
+    : file_(std::fopen(path.c_str(), "rb")), buffer_(kBufferBytes)
 {
   if (!file_) throw std::runtime_error("cannot be opened");
-  if (!atMember()) inflater_.reset();
+  if (startsWith(kGzipMagic))
+  {
+    magic_ = kGzipMagic;
+    inflater_ = std::move(for_gzip);
+  }
+  else if (startsWith(kZstdMagic))
+  {
+    magic_ = kZstdMagic;
+    inflater_ = makeZstdInflater();
+  }
 }
 
 /** Fills the buffer up behind what is left in it. */
@@ -44,11 +54,11 @@ void InflatingFile::load()
   loaded_ += got;
 }
 
-bool InflatingFile::atMember()
+bool InflatingFile::startsWith(std::string_view magic)
 {
-  if (available() < sizeof kMagic) load();
-  return available() >= sizeof kMagic &&
-         std::memcmp(buffer_.data() + buffer_begin_, kMagic, sizeof kMagic) == 0;
+  if (available() < magic.size()) load();
+  return available() >= magic.size() &&
+         std::memcmp(buffer_.data() + buffer_begin_, magic.data(), magic.size()) == 0;
 }
 
 std::size_t InflatingFile::readPlain(unsigned char* data, std::size_t size)
@@ -70,7 +80,7 @@ std::size_t InflatingFile::inflate(unsigned char* data, std::size_t size)
   buffer_begin_ += step.consumed;
   if (step.status == InflateStatus::Corrupt)
     end_ = FileEnd::Corrupt;
-  else if (step.status == InflateStatus::MemberEnd && atMember())
+  else if (step.status == InflateStatus::MemberEnd && startsWith(magic_))
     inflater_->reset();
   else if (step.status == InflateStatus::MemberEnd)
     end_ = FileEnd::Clean;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file inflating_file.h A file, plain or gzip, as one run of uncompressed bytes. */
+/** \file inflating_file.h A file, plain, gzip or Zstandard, as one run of uncompressed bytes. */
 #pragma once
 
 #include "gzip_inflater.h"
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -25,13 +26,14 @@ enum class FileEnd
 };
 
 /** Reads as gzip(1) does: members one after the other are one file, what follows them and is none
- * is left alone, and a file that does not begin as one is plain. */
+ * is left alone, and a file that does not begin as one is plain. Frames of Zstandard, which MRPT
+ * 2.15.7 and newer write, are read alike. */
 class InflatingFile
 {
  public:
   /** \exception std::runtime_error the file cannot be opened */
   explicit InflatingFile(
-      const std::string& path, std::unique_ptr<GzipInflater> inflater = fastestInflater());
+      const std::string& path, std::unique_ptr<GzipInflater> for_gzip = fastestInflater());
 
   /** Of those that are built in. */
   [[nodiscard]] static std::unique_ptr<GzipInflater> fastestInflater();
@@ -51,13 +53,14 @@ class InflatingFile
   };
   [[nodiscard]] std::size_t available() const { return buffer_end_ - buffer_begin_; }
   void load();
-  [[nodiscard]] bool atMember();
+  [[nodiscard]] bool startsWith(std::string_view magic);
   [[nodiscard]] std::size_t readPlain(unsigned char* data, std::size_t size);
   [[nodiscard]] std::size_t inflate(unsigned char* data, std::size_t size);
 
   std::unique_ptr<std::FILE, Closer> file_;
-  std::unique_ptr<GzipInflater> inflater_;  // none: the file is plain
-  std::vector<unsigned char> buffer_;       // bytes of the file
+  std::unique_ptr<Inflater> inflater_;  // none: the file is plain
+  std::string_view magic_;              // of its members
+  std::vector<unsigned char> buffer_;   // bytes of the file
   std::size_t buffer_begin_ = 0, buffer_end_ = 0;
   std::uint64_t loaded_ = 0;  // bytes of the file so far
   FileEnd end_ = FileEnd::NotYet;

@@ -31,7 +31,7 @@ std::string hintFor(ReadProblemKind kind)
     case ReadProblemKind::NotFound:
       return "Check the path and the permissions.";
     case ReadProblemKind::NotARawlog:
-      return "Give a file written as an MRPT rawlog (.rawlog).";
+      return "Give an MRPT rawlog (.rawlog), or a recording of a format that docs/import.md lists.";
     case ReadProblemKind::Truncated:
       return "The recording or a copy of it was cut off; everything before was read.";
     case ReadProblemKind::Corrupt:
@@ -41,26 +41,12 @@ std::string hintFor(ReadProblemKind kind)
              "; the recording needs a newer one, or a plugin that knows the class.";
     case ReadProblemKind::ExternalFile:
       return "Keep the folder with the external files beside the rawlog.";
+    case ReadProblemKind::NotSupported:
+      return "Convert the file with a program that knows it.";
   }
   return {};
 }
 
-constexpr unsigned char kZstdMagic[] = {0x28, 0xB5, 0x2F, 0xFD};
-
-bool startsAsZstd(fastlio::ObjectStream& stream)
-{
-  unsigned char head[sizeof kZstdMagic] = {};
-  try
-  {
-    stream.Read(head, sizeof head);
-  }
-  catch (const std::runtime_error&)
-  {
-    // Shorter than the magic number.
-  }
-  stream.rewindTo(0);
-  return std::equal(std::begin(head), std::end(head), std::begin(kZstdMagic));
-}
 }  // namespace
 
 namespace fastlio
@@ -206,14 +192,6 @@ NextObject ObjectReader::fail(ReadProblem problem)
 {
   const bool at_start = index_ == 0 && object_offset_ == 0;
   stream_->rewindTo(0);
-  if (at_start && startsAsZstd(*stream_))
-  {
-    finished_ = true;
-    return makeProblem(
-        ReadProblemKind::NotARawlog, "",
-        "the file is compressed with Zstandard (MRPT 2.15.7 and newer do that), which this program "
-        "does not read; decompress it with 'zstd -d' first");
-  }
   stream_->rewindTo(problem.class_name.empty() ? 0 : 1);
   const bool found = (recover_ || at_start) && stream_->seekNextObservation();
   finished_ = !found || !recover_;

@@ -6,6 +6,7 @@
 #include "time_sorter.h"
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/recordings/recording_reader.h>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -14,22 +15,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace
 {
 using mrpt::obs::CObservation;
 
 constexpr double kNanosecondsPerSecond = 1e9;
-
-std::uint64_t sizeOf(const std::string& file)
-{
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  return error ? 0 : size;
-}
 
 // An observation is itself, a frame is what it holds; actions and others are nothing.
 std::vector<CObservation::Ptr> observationsOf(const mrpt::serialization::CSerializable::Ptr& object)
@@ -42,6 +36,29 @@ std::vector<CObservation::Ptr> observationsOf(const mrpt::serialization::CSerial
   return observations;
 }
 
+/** Stands for a recording that was recognised and cannot be opened: says why, and ends. */
+class UnreadableRecording : public fastlio::RecordingReader
+{
+ public:
+  UnreadableRecording(std::string file, const std::string& why)
+      : problem_{file, 0, 0, fastlio::ReadProblemKind::NotSupported, "", file + ": the file " + why,
+                 1}
+  {
+  }
+
+  fastlio::NextRecorded next() override
+  {
+    if (std::exchange(told_, true)) return fastlio::EndOfRecording{};
+    return problem_;
+  }
+  [[nodiscard]] std::uint64_t position() const override { return 0; }
+  [[nodiscard]] std::vector<fastlio::TopicReport> topics() const override { return {}; }
+
+ private:
+  fastlio::ReadProblem problem_;
+  bool told_ = false;
+};
+
 bool belongsInARawlog(const mrpt::serialization::CSerializable& object)
 {
   return dynamic_cast<const CObservation*>(&object) != nullptr ||
@@ -52,26 +69,6 @@ bool belongsInARawlog(const mrpt::serialization::CSerializable& object)
 
 namespace fastlio
 {
-const char* toString(ReadProblemKind kind)
-{
-  switch (kind)
-  {
-    case ReadProblemKind::NotFound:
-      return "not found";
-    case ReadProblemKind::NotARawlog:
-      return "not a rawlog";
-    case ReadProblemKind::Truncated:
-      return "truncated";
-    case ReadProblemKind::Corrupt:
-      return "corrupt";
-    case ReadProblemKind::UnknownClass:
-      return "unknown class";
-    case ReadProblemKind::ExternalFile:
-      return "external file";
-  }
-  return "unknown";
-}
-
 class RawlogSource::Impl
 {
  public:
@@ -81,7 +78,7 @@ class RawlogSource::Impl
         sorter_(std::llround(options.sorting_window * kNanosecondsPerSecond))
   {
     for (const std::string& file : files_)
-      progress_.bytes_total += sizeOf(file);
+      progress_.bytes_total += recordingBytes(file);
   }
 
   CObservation::Ptr next()
@@ -99,12 +96,16 @@ class RawlogSource::Impl
   [[nodiscard]] ReadProgress progress() const
   {
     ReadProgress now = progress_;
-    now.bytes_read = bytes_of_files_read_ + (reader_ ? reader_->compressedPosition() : 0);
+    now.bytes_read = bytes_of_files_read_ + (reader_    ? reader_->compressedPosition()
+                                             : foreign_ ? foreign_->position()
+                                                        : 0);
     return now;
   }
 
  private:
   bool readMore();
+  void open();
+  void readForeign();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void add(ReadProblem problem);
   void closeFile();
@@ -114,6 +115,7 @@ class RawlogSource::Impl
   TimeSorter sorter_;
   std::size_t file_ = 0;  // the one at hand
   std::optional<ObjectReader> reader_;
+  std::unique_ptr<RecordingReader> foreign_;  // instead of it, for a recording of another format
   std::string foreign_class_;    // of the first object in this file that belongs into no rawlog
   bool rawlog_content_ = false;  // this file has held something that does
   std::uint64_t bytes_of_files_read_ = 0;
@@ -125,7 +127,12 @@ class RawlogSource::Impl
 bool RawlogSource::Impl::readMore()
 {
   if (file_ == files_.size()) return false;
-  if (!reader_) reader_.emplace(files_[file_], options_.recover);
+  if (!reader_ && !foreign_) open();
+  if (foreign_)
+  {
+    readForeign();
+    return true;
+  }
   NextObject next = reader_->next();
   if (auto* object = std::get_if<mrpt::serialization::CSerializable::Ptr>(&next))
     take(*object);
@@ -134,6 +141,34 @@ bool RawlogSource::Impl::readMore()
   else
     closeFile();
   return true;
+}
+
+void RawlogSource::Impl::open()
+{
+  const std::string& file = files_[file_];
+  try
+  {
+    if (const RecordingFormat* format = recordingFormatOf(file)) foreign_ = format->open(file);
+  }
+  catch (const std::exception& e)
+  {
+    foreign_ = std::make_unique<UnreadableRecording>(file, e.what());
+  }
+  if (!foreign_) reader_.emplace(file, options_.recover);
+}
+
+void RawlogSource::Impl::readForeign()
+{
+  NextRecorded next = foreign_->next();
+  if (auto* observation = std::get_if<CObservation::Ptr>(&next))
+  {
+    ++progress_.objects_read;
+    sorter_.push(std::move(*observation));
+  }
+  else if (auto* problem = std::get_if<ReadProblem>(&next))
+    add(std::move(*problem));
+  else
+    closeFile();
 }
 
 void RawlogSource::Impl::take(const mrpt::serialization::CSerializable::Ptr& object)
@@ -177,8 +212,9 @@ void RawlogSource::Impl::closeFile()
          files_[file_] + ": this is not a rawlog, it holds an object of class " + foreign_class_ +
              ". Give a file with observations.",
          1});
-  bytes_of_files_read_ += sizeOf(files_[file_]);
+  bytes_of_files_read_ += recordingBytes(files_[file_]);
   reader_.reset();
+  foreign_.reset();
   foreign_class_.clear();
   rawlog_content_ = false;
   ++file_;

@@ -25,11 +25,12 @@ class RawlogSourceTest : public RawlogTest
 };
 }  // namespace
 
-TEST_F(RawlogSourceTest, ReadsPlainAndGzip)
+TEST_F(RawlogSourceTest, ReadsPlainGzipAndZstandard)
 {
   const std::string bytes = serialize(samples(10));
   for (const std::string& content :
-       {bytes, gzip(bytes), gzip(bytes.substr(0, 700)) + gzip(bytes.substr(700))})
+       {bytes, gzip(bytes), gzip(bytes.substr(0, 700)) + gzip(bytes.substr(700)), zstd(bytes),
+        zstd(bytes.substr(0, 700)) + zstd(bytes.substr(700))})
   {
     const Reading reading = readAll({fileOf(content)});
     EXPECT_EQ(reading.seconds.size(), 10U);

@@ -55,6 +55,20 @@ enum class NeesAlignment
   None    //!< both share the world frame
 };
 
+/** Truth minus estimate of one pose, and what the covariance says of it. Both: rotation [rad] in
+ * the body frame, position [m] in the estimate's world frame. */
+struct Deviation
+{
+  std::int64_t stamp_ns = 0;
+  Vector6 error = Vector6::Zero();
+  /** Standard deviations; negative without a covariance. */
+  Vector6 sigma = Vector6::Constant(-1.0);
+};
+
+/** Of every pose. */
+[[nodiscard]] std::vector<Deviation> deviations(
+    const AssociatedTrajectories& trajectories, NeesAlignment alignment);
+
 /** NEES over a trajectory. */
 struct Consistency
 {

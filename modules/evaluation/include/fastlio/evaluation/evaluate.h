@@ -45,7 +45,8 @@ struct EvaluationReport
   std::vector<SegmentError> segments;
   std::optional<SegmentError> segment_average;
   EndToEndDrift drift;
-  std::optional<Consistency> nees;  //!< when the estimate has usable covariances
+  std::vector<Deviation> deviations;  //!< of each of them, before that alignment (nees_alignment)
+  std::optional<Consistency> nees;    //!< when the estimate has usable covariances
 };
 
 /** \exception std::invalid_argument invalid trajectories or options, no common time span, or

@@ -16,7 +16,26 @@ namespace fastlio
 [[nodiscard]] std::string toJson(
     const EvaluationReport& report, const std::vector<GateResult>& gates = {});
 
-/** A self-contained SVG picture: both paths from above and the errors over time. */
+/** A self-contained SVG picture: both paths from above, the height with three standard deviations
+ * and the errors over time. */
 [[nodiscard]] std::string toSvg(const EvaluationReport& report);
+
+/** One of several estimates against one reference. */
+struct NamedReport
+{
+  std::string name;
+  EvaluationReport report;
+  std::vector<GateResult> gates = {};
+};
+
+/** A table with a row per estimate. */
+[[nodiscard]] std::string toTable(const std::vector<NamedReport>& reports);
+
+/** JSON object with the reports of all estimates, each as toJson() with its name. */
+[[nodiscard]] std::string toJson(const std::vector<NamedReport>& reports);
+
+/** One picture of all estimates.
+ * \exception std::invalid_argument there is none */
+[[nodiscard]] std::string toSvg(const std::vector<NamedReport>& reports);
 
 }  // namespace fastlio

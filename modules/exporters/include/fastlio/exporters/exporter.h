@@ -25,6 +25,7 @@ struct RunEnd
   const OutputMap& map;       //!< final map, world frame; empty unless an exporter needs it
   /** What scans were matched with, when there is something. */
   const SurfaceMap* surfaces = nullptr;
+  std::string map_problem = {};  //!< why the map is not complete, or empty
 };
 
 /** Turns a run into one or more files. Constructors open the files, so that an unwritable place is
@@ -49,6 +50,9 @@ class Exporter
   /** Whether finish() needs the map. */
   [[nodiscard]] virtual bool needsMap() const { return false; }
 
+  /** Whether finish() makes use of the map, and can do without. */
+  [[nodiscard]] virtual bool usesMap() const { return needsMap(); }
+
   /** Completes the files and gives them their final names.
    * \exception std::runtime_error the file cannot be written */
   virtual std::vector<OutputFile> finish(const RunEnd& end) = 0;
@@ -72,7 +76,7 @@ class ExporterSet
   /** Leaves out the exporters that need the map from here on, because it is not complete. */
   void giveUpMap(const std::string& reason);
 
-  /** Whether any of them needs the map: otherwise none has to be collected. */
+  /** Whether any of them uses the map: otherwise none has to be collected. */
   [[nodiscard]] bool needMap() const;
 
   /** Sentences about exporters that failed so far. */
@@ -89,6 +93,7 @@ class ExporterSet
 
   std::vector<Member> members_;
   std::vector<std::string> problems_;
+  std::string map_problem_;  //!< why the map is not complete
 };
 
 }  // namespace fastlio

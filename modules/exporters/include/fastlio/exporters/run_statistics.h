@@ -44,7 +44,7 @@ struct PointTotals
 };
 
 /** Scans that did not constrain all directions of motion. */
-struct OpenDirections
+struct DegenerateDirections
 {
   std::size_t scans = 0;
   std::int64_t first_ns = 0, last_ns = 0;  //!< stamps of the first and the last of them
@@ -86,7 +86,7 @@ class RunStatistics
 
   [[nodiscard]] const RunHealth& health() const { return health_; }
   /** Where scans left directions of motion open. */
-  [[nodiscard]] const OpenDirections& openDirections() const { return open_; }
+  [[nodiscard]] const DegenerateDirections& degenerateDirections() const { return open_; }
   /** The last pose's state and covariance: what has become of the calibration. */
   [[nodiscard]] const std::optional<FilterState>& lastState() const { return last_state_; }
   /** How wrong the calibration in use seemed at the last pose. */
@@ -96,7 +96,7 @@ class RunStatistics
 
  private:
   void addPose(const ScanResult& result);
-  void addOpenDirections(const ScanResult& result);
+  void addDegenerateDirections(const ScanResult& result);
 
   std::size_t scans_ = 0;
   std::array<std::size_t, kScanStatusCount> counts_{};
@@ -104,7 +104,7 @@ class RunStatistics
   std::optional<Vec3> last_position_;
   std::optional<FilterState> last_state_;
   CalibrationCheck calibration_;
-  OpenDirections open_;
+  DegenerateDirections open_;
   RunHealth health_;
   double path_length_ = 0;
   double compute_ms_ = 0;

@@ -40,6 +40,7 @@ struct RunSummary
   std::vector<std::string> sensors;      //!< one line per sensor in use
   OdometryOptions odometry;              //!< as used
   std::vector<OptionText> options;       //!< everything that is configured, as used
+  std::vector<OptionText> defaults;      //!< of the options; empty: not known
   std::vector<NamedCount> input_counts;  //!< observations read and dropped, by reason
   RunStatistics statistics;
   ImuReport imu;                            //!< units, rate and faults of the inertial sensor
@@ -51,6 +52,9 @@ struct RunSummary
   std::vector<std::string> output_problems;  //!< files that could not be written
   std::vector<OutputFile> outputs;           //!< files that are complete
 };
+
+/** Those that tell of dropped data, without zeros. */
+[[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
 
 /** Exit status of the programs; part of their interface, do not renumber. */
 enum class ExitStatus : int

@@ -25,6 +25,7 @@ struct ExportTarget
   RecordingAccess recording;  //!< for files that hold raw observations
   double time_offset = 0.0;   //!< added to the stamps of raw scans (lidar.time_offset) [s]
   bool imu_rate = false;      //!< also imu_rate.csv (output.imu_rate)
+  std::string reference;      //!< trajectory to compare with in the report; empty: none
 
   /** Path of a file in the directory. */
   [[nodiscard]] std::string path(std::string_view file) const;
@@ -43,6 +44,11 @@ struct ExporterKind
 
 /** Every format. A new one is a file with a class, and a row here. */
 [[nodiscard]] const std::vector<ExporterKind>& exporterKinds();
+
+/** The trajectory to compare a run with: the one that is given, or the ground truth beside the
+ * first recording (`NAME.gt.tum` for `NAME.rawlog`); empty: there is none. */
+[[nodiscard]] std::string referenceFor(
+    const std::string& given, const std::vector<std::string>& recordings);
 
 /** Lines for --help: name, file and content of each format. */
 [[nodiscard]] std::string exporterHelp();
@@ -114,6 +120,13 @@ struct ExporterKind
 
 /** `poses.g2o`: the same for g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT). */
 [[nodiscard]] std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options);
+
+/** `scene.3Dscene`: map, trajectory, key frames and ellipsoids of their covariances, for
+ * SceneViewer3D of MRPT. */
+[[nodiscard]] std::unique_ptr<Exporter> makeSceneExporter(const ExportTarget& options);
+
+/** `report.html`: a page that shows and explains the run, without any other file. */
+[[nodiscard]] std::unique_ptr<Exporter> makeReportExporter(const ExportTarget& options);
 
 /** `summary.json`: the RunSummary, with the files of the exporters added before it. */
 [[nodiscard]] std::unique_ptr<Exporter> makeSummaryExporter(const std::string& path);

@@ -28,7 +28,8 @@ struct ConditionedSample
   double rescale_gyro = 1.0;  //!< factor for the rates of all samples before: their unit was wrong
 };
 
-/** The stages: unit, stamps, spikes, gaps and clipping. Clean samples come out as they came in. */
+/** The stages: unit, stamps, spikes, gaps, clipping and the sensors' matrices. Clean samples come
+ * out as they came in. */
 class ImuConditioner
 {
  public:
@@ -53,6 +54,8 @@ class ImuConditioner
   {
     double accel_scale = 1.0, gyro_scale = 1.0;
     bool accel_known = false;
+    Mat3 gyro_inverse = Mat3::Identity(), accel_inverse = Mat3::Identity();  // of the matrices
+    bool matrices = false;
   };
 
   void decideAccelUnit();

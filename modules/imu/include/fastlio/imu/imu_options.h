@@ -7,6 +7,9 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_units.h>
+#include <fastlio/math/so3.h>
+
+#include <vector>
 
 namespace fastlio
 {
@@ -21,7 +24,12 @@ struct ImuOptions
   bool invert_acceleration = false;  //!< the sensor gives gravity, not specific force
   double gyro_range = 0.0;           //!< full scale [rad/s]; 0: found
   double accel_range = 0.0;          //!< full scale [m/s^2]; 0: found
+  /** Readings are matrix * truth + bias; row by row, nothing: the identity. */
+  std::vector<double> gyro_matrix, accel_matrix;
 };
+
+/** The matrix of nine numbers row by row, or the identity. */
+[[nodiscard]] Mat3 sensorMatrix(const std::vector<double>& rows);
 
 /** Group `rest`: standing still in the middle of a run. */
 struct RestOptions

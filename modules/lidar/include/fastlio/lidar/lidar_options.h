@@ -6,6 +6,8 @@
 
 #include <fastlio/lidar/feature_lines.h>
 
+#include <vector>
+
 namespace fastlio
 {
 /** Group `lidar`. */
@@ -18,6 +20,8 @@ struct LidarOptions
   double max_waiting = 10.0;
   double time_offset = 0.0;  //!< added to the LiDAR stamps [s]
   bool deskew = true;        //!< motion compensation (eq. 9-10)
+  /** Rows of elevation [deg], offset of the range [m] and of the elevation [deg] (YAML's units). */
+  std::vector<double> beam_offsets;
 };
 
 /** Group `downsampling`. */

@@ -9,6 +9,7 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/imu/imu_report.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/odometry/calibration_sums.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/odometry_options.h>
 #include <fastlio/odometry/scan_result.h>
@@ -93,6 +94,9 @@ class Odometry
    * predicted from the latest scan that next() has given. Call it after addImu(); nothing before
    * the start and while the pose is not trusted. Each call propagates anew from that scan. */
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
+
+  /** What the scans so far tell about the calibration that they were processed with. */
+  [[nodiscard]] CalibrationFindings calibrationFindings() const;
 
   [[nodiscard]] const OdometryOptions& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;

@@ -91,9 +91,18 @@ struct OptionalPoseValue
   std::optional<Pose>* member;
 };
 
+/** Finite numbers in rows of equal length, in the unit of the text; may be empty. */
+struct NumbersValue
+{
+  std::vector<double>* member;  //!< row by row
+  std::size_t columns, max_rows;
+  double limit;              //!< of the magnitude of a number
+  std::string_view allowed;  //!< what may stand there, for people
+};
+
 using OptionValue = std::variant<
     RealValue, IntegerValue, SeedValue, EpochValue, BooleanValue, ChoiceValue, RegexValue,
-    TextValue, VectorValue, PoseValue, OptionalPoseValue>;
+    TextValue, VectorValue, PoseValue, OptionalPoseValue, NumbersValue>;
 
 /** A member of an enumeration; names[i] stands for the enumerator with the value i. */
 template <typename Enum>
@@ -120,8 +129,8 @@ ChoiceValue choice(Enum* member, std::vector<std::string_view> names)
 [[nodiscard]] std::optional<std::string> valueProblem(
     const OptionValue& value, std::string_view unit);
 
-/** Stores the value that \a text gives. Vectors and poses are numbers separated by commas, with or
- * without brackets around.
+/** Stores the value that \a text gives. Vectors, poses and numbers are separated by commas, with or
+ * without brackets around; rows of numbers may have brackets of their own.
  * \return what is wrong with the text; the value is as before then */
 [[nodiscard]] std::optional<std::string> assign(
     const OptionValue& value, std::string_view unit, std::string_view text);

@@ -1,9 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file rawlog_source.h Observations out of rawlog files, in order of time, without ever hiding
+/** \file rawlog_source.h Observations out of recordings, in order of time, without ever hiding
  * trouble. */
 #pragma once
+
+#include <fastlio/recordings/read_problem.h>
 
 #include <mrpt/obs/CObservation.h>
 
@@ -15,31 +17,6 @@
 
 namespace fastlio
 {
-/** What went wrong while reading. */
-enum class ReadProblemKind
-{
-  NotFound,      //!< no such file, or it cannot be opened
-  NotARawlog,    //!< the content is something else, or empty
-  Truncated,     //!< the file ends inside an object or inside the compressed data
-  Corrupt,       //!< an object or the compressed data cannot be decoded
-  UnknownClass,  //!< an object of a class that this MRPT does not know
-  ExternalFile   //!< the data of an observation lie in another file that cannot be read
-};
-
-[[nodiscard]] const char* toString(ReadProblemKind kind);
-
-/** One problem; the same kind with the same class in one file is reported once and counted. */
-struct ReadProblem
-{
-  std::string file;
-  std::size_t object_index = 0;   //!< of the object concerned, counted from 0 in its file
-  std::uint64_t byte_offset = 0;  //!< where that object starts, in uncompressed bytes
-  ReadProblemKind kind = ReadProblemKind::Corrupt;
-  std::string class_name;  //!< class of the object; empty when unknown
-  std::string message;     //!< what happened, where, and what to do
-  std::size_t occurrences = 1;
-};
-
 /** How far reading has come, for progress bars. */
 struct ReadProgress
 {
@@ -59,8 +36,9 @@ struct RawlogSourceOptions
   bool recover = true;
 };
 
-/** Reads one or more rawlogs in the order given: plain or gzip, streams of observations or
- * action/sensory-frame rawlogs (frames are taken apart, actions skipped).
+/** Reads one or more recordings in the order given: rawlogs, plain or compressed, streams of
+ * observations or action/sensory-frame rawlogs (frames are taken apart, actions skipped), and the
+ * formats of recordingFormats(). The content of a file tells its format.
  *
  * next() does not throw for anything that the files contain: what cannot be read ends up in
  * problems() and everything else is delivered. Not thread-safe; see DecodeAheadSource for reading

@@ -1,0 +1,38 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file command_line.h Options of fastlio-calibrate. */
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fastlio
+{
+enum class CalibrateStatus
+{
+  Ok = 0,
+  Usage = 1,
+  Unusable = 2,  //!< a recording cannot be read, has no usable sensors, or no scan was tracked
+  NotWritten = 5,
+  NotBetter = 6  //!< written, but on data that it was not fitted to it is not better
+};
+
+struct CalibrateArguments
+{
+  std::vector<std::string> recordings;
+  bool join = false;        //!< the files are parts of one recording
+  std::string config_file;  //!< empty: defaults
+  std::string output = "calibration.yaml";
+  std::string json;  //!< empty: none
+  int passes = 8;
+  bool trial = true;
+  bool quiet = false;
+};
+
+/** The arguments, or the exit status to end with. */
+[[nodiscard]] std::variant<CalibrateArguments, int> parseCommandLine(
+    int argc, const char* const* argv);
+
+}  // namespace fastlio

@@ -1,0 +1,179 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file main.cpp fastlio-calibrate: from recordings to the calibration of a rig. */
+
+#include "command_line.h"
+#include <fastlio/calibration/calibration_report.h>
+#include <fastlio/config/config_yaml.h>
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/files/failure_text.h>
+#include <fastlio/files/same_file.h>
+
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace
+{
+using namespace fastlio;
+using Json = nlohmann::ordered_json;
+
+/** Why the program ends, and with which status. */
+struct Failure
+{
+  CalibrateStatus status;
+  std::string text;
+};
+
+/** Nothing may replace what it comes from. */
+void requireHarmlessOutputs(const CalibrateArguments& arguments)
+{
+  std::vector<FileUse> inputs, outputs{{arguments.output, "--output"}};
+  for (const std::string& file : arguments.recordings)
+    inputs.push_back({file, "recording"});
+  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
+  if (!arguments.json.empty()) outputs.push_back({arguments.json, "--json"});
+  requireDistinctFiles(inputs, outputs);
+}
+
+std::vector<CalibrationRecording> recordingsOf(const CalibrateArguments& arguments)
+{
+  const auto nameOf = [](const std::string& file)
+  { return std::filesystem::path(file).filename().string(); };
+  if (arguments.join) return {{nameOf(arguments.recordings.front()), arguments.recordings}};
+  std::vector<CalibrationRecording> recordings;
+  for (const std::string& file : arguments.recordings)
+    recordings.push_back({nameOf(file), {file}});
+  return recordings;
+}
+
+/** A line that is overwritten, on terminals only. */
+CalibrationProgress progressOf(const CalibrateArguments& arguments)
+{
+  if (arguments.quiet || isatty(STDERR_FILENO) == 0) return {};
+  return [](const std::string& what) { std::cerr << "\r\033[K" << what << std::flush; };
+}
+
+Json trialJson(const CalibrationTrial& trial)
+{
+  return {
+      {"seconds", trial.seconds},
+      {"innovation_before", trial.before.innovation()},
+      {"innovation_after", trial.after.innovation()},
+      {"map_thickness_before_m", trial.before.mapThickness()},
+      {"map_thickness_after_m", trial.after.mapThickness()},
+      {"better", trial.better()}};
+}
+
+std::string jsonText(
+    const Rig& given, const RigEstimate& estimate, const std::optional<CalibrationTrial>& trial)
+{
+  Json values;
+  for (const CalibrationRow& row : calibrationRows(given, estimate))
+    values[row.name] = {{"unit", row.unit}, {"given", row.given},          {"found", row.found},
+                        {"std", row.std},   {"std_before", row.prior_std}, {"advice", row.advice}};
+  Json beams = Json::array();
+  for (std::size_t i = 0; i < estimate.rig.beams.size() && i < estimate.beam_stds.size(); ++i)
+    beams.push_back(
+        {{"elevation_rad", estimate.rig.beams[i].elevation},
+         {"range_m", estimate.rig.beams[i].range},
+         {"range_std_m", estimate.beam_stds[i].range},
+         {"elevation_offset_rad", estimate.rig.beams[i].elevation_offset},
+         {"elevation_offset_std_rad", estimate.beam_stds[i].elevation}});
+  Json document{
+      {"passes", estimate.passes},
+      {"innovation_scale", estimate.innovation_scale},
+      {"values", values},
+      {"beams", beams}};
+  document["trial"] = trial ? trialJson(*trial) : Json();
+  return document.dump(2) + "\n";
+}
+
+void write(const std::string& path, const std::string& content)
+{
+  try
+  {
+    writeFileAtomically(path, content);
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{CalibrateStatus::NotWritten, failureText(e)};
+  }
+}
+
+struct Findings
+{
+  RigEstimate estimate;
+  std::optional<CalibrationTrial> trial;
+};
+
+Findings calibrate(const Calibrator& calibrator, bool with_trial)
+{
+  Findings findings;
+  findings.estimate = calibrator.calibrate();
+  if (with_trial) findings.trial = calibrator.tryOut();
+  return findings;
+}
+
+CalibrateStatus run(const CalibrateArguments& arguments)
+{
+  requireGivenOnce(arguments.recordings);
+  requireHarmlessOutputs(arguments);
+  Config config;
+  if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
+  try
+  {
+    const CalibrationProgress progress = progressOf(arguments);
+    const Calibrator calibrator(recordingsOf(arguments), config, arguments.passes, progress);
+    const auto [estimate, trial] = calibrate(calibrator, arguments.trial);
+    if (progress) std::cerr << "\r\033[K";
+    for (const std::string& problem : estimate.problems)
+      std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
+    const Config calibrated = calibrator.configWith(estimate.rig);
+    write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
+    if (!arguments.json.empty())
+      write(arguments.json, jsonText(calibrator.given(), estimate, trial));
+    if (!arguments.quiet)
+      std::cout << calibrationTable(calibrator.given(), estimate) << '\n'
+                << (trial ? describe(*trial) + "\n" : std::string())
+                << "Written: " << arguments.output << '\n';
+    return trial && !trial->better() ? CalibrateStatus::NotBetter : CalibrateStatus::Ok;
+  }
+  catch (const Failure&)
+  {
+    throw;
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw Failure{CalibrateStatus::Usage, failureText(e)};
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{CalibrateStatus::Unusable, failureText(e)};
+  }
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const auto parsed = parseCommandLine(argc, argv);
+  if (const auto* status = std::get_if<int>(&parsed)) return *status;
+  try
+  {
+    return static_cast<int>(run(std::get<CalibrateArguments>(parsed)));
+  }
+  catch (const Failure& failure)
+  {
+    std::cerr << "fastlio-calibrate: " << failure.text << '\n';
+    return static_cast<int>(failure.status);
+  }
+  catch (const std::exception& e)
+  {
+    std::cerr << "fastlio-calibrate: " << failureText(e) << '\n';
+    return static_cast<int>(CalibrateStatus::Usage);
+  }
+}

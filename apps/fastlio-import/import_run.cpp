@@ -1,0 +1,202 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "import_run.h"
+
+#include "import_inputs.h"
+#include "mcap_output.h"
+#include "topic_list.h"
+#include <fastlio/files/input_file.h>
+#include <fastlio/files/same_file.h>
+#include <fastlio/options/label_pattern.h>
+#include <fastlio/options/printable.h>
+#include <fastlio/recordings/recording_reader.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/point_cloud_conversion.h>
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationPointCloud;
+
+/** What was written, by label. */
+struct Written
+{
+  std::size_t observations = 0;
+  std::int64_t first_ns = 0, last_ns = 0;
+};
+
+std::unique_ptr<ImportOutput> outputOf(const ImportArguments& arguments)
+{
+  if (isMcapName(arguments.output.path))
+    return std::make_unique<McapOutput>(arguments.output.path, arguments.trajectory);
+  return std::make_unique<RawlogParts>(arguments.output);
+}
+
+class Import
+{
+ public:
+  Import(const ImportArguments& arguments, const ImportPlan& plan)
+      : arguments_(arguments),
+        plan_(plan),
+        lidars_("--lidar-topic", arguments.lidar_topic),
+        imus_("--imu-topic", arguments.imu_topic),
+        output_(outputOf(arguments))
+  {
+  }
+
+  void run(ImportInputs& source)
+  {
+    const bool progress = !arguments_.quiet && isatty(STDERR_FILENO) == 1;
+    for (int last = -1; auto observation = source.next();)
+    {
+      if (isWanted(*observation)) write(converted(observation));
+      if (progress) show(source.progress(), last);
+    }
+    files_ = output_->finish();
+  }
+
+  [[nodiscard]] const std::map<std::string, Written>& written() const { return written_; }
+  [[nodiscard]] const std::vector<OutputFile>& files() const { return files_; }
+
+ private:
+  [[nodiscard]] bool isWanted(const CObservation& observation) const
+  {
+    if (dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation) != nullptr)
+      return imus_.matches(observation.sensorLabel);
+    const bool lidar =
+        dynamic_cast<const CObservationPointCloud*>(&observation) != nullptr ||
+        dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation) != nullptr ||
+        dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation) != nullptr;
+    return !lidar || lidars_.matches(observation.sensorLabel);
+  }
+
+  // A cloud whose times are understood gets MRPT's: seconds after the stamp. A cloud that does not
+  // keep to what was found stays as it is.
+  [[nodiscard]] CObservation::Ptr converted(const CObservation::Ptr& observation) const
+  {
+    const auto cloud = std::dynamic_pointer_cast<CObservationPointCloud>(observation);
+    const auto plan = plan_.lidars.find(observation->sensorLabel);
+    if (!cloud || !cloud->pointcloud || plan == plan_.lidars.end() ||
+        plan->second.finding.verdict != PointTimeVerdict::Found)
+      return observation;
+    const CloudConversion conversion = toTimedPoints(
+        readColumns(*cloud->pointcloud), toNanoseconds(cloud->timestamp), plan->second.timing);
+    if (conversion.times == PointTimes::PerPoint) cloud->pointcloud = makeXyzirt(conversion.points);
+    return cloud;
+  }
+
+  void write(const CObservation::Ptr& observation)
+  {
+    if (!output_->write(*observation)) return;
+    Written& written = written_[observation->sensorLabel];
+    const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
+    if (written.observations++ == 0) written.first_ns = stamp_ns;
+    written.last_ns = stamp_ns;
+  }
+
+  static void show(const ReadProgress& progress, int& last)
+  {
+    const auto percent = static_cast<int>(
+        100 * progress.bytes_read / std::max<std::uint64_t>(progress.bytes_total, 1));
+    if (percent == last) return;
+    last = percent;
+    std::cerr << "\rimporting " << percent << " % " << (percent >= 100 ? "\r              \r" : "")
+              << std::flush;
+  }
+
+  const ImportArguments& arguments_;
+  const ImportPlan& plan_;
+  LabelPattern lidars_, imus_;
+  std::unique_ptr<ImportOutput> output_;
+  std::map<std::string, Written> written_;
+  std::vector<OutputFile> files_;
+};
+
+void requireInputs(const ImportArguments& arguments)
+{
+  requireGivenOnce(arguments.input_files);
+  for (const std::string& file : arguments.input_files)
+  {
+    if (recordingFormatOf(file) != nullptr) continue;
+    if (const auto problem = inputFileProblem(file))
+      throw std::invalid_argument("input '" + file + "' " + *problem);
+  }
+}
+
+void requireHarmlessOutput(const ImportArguments& arguments)
+{
+  std::vector<FileUse> inputs;
+  for (const std::string& file : arguments.input_files)
+    inputs.push_back({file, "input"});
+  if (!arguments.trajectory.empty()) inputs.push_back({arguments.trajectory, "--trajectory"});
+  const std::string first = RawlogParts::pathOfPart(arguments.output, 0);
+  requireDistinctFiles(inputs, {{first, "--output"}});
+  for (const std::string& input : arguments.input_files)
+    if (std::filesystem::is_directory(input) && isBelow(first, input))
+      throw std::invalid_argument(
+          "--output '" + first + "' is inside of the input '" + input + "'; choose another place");
+  if (std::filesystem::exists(first) && !arguments.overwrite)
+    throw std::invalid_argument(
+        "the file '" + first + "' is there already; choose another name, or give --overwrite");
+}
+
+void report(const ImportArguments& arguments, const ImportPlan& plan, const Import& import)
+{
+  if (arguments.quiet) return;
+  for (const auto& [label, written] : import.written())
+    std::cout << printable(label) << ": " << written.observations << " observations in "
+              << 1e-9 * static_cast<double>(written.last_ns - written.first_ns) << " s\n";
+  std::cout << describeTimes(plan);
+  for (const OutputFile& file : import.files())
+    std::cout << file.path << ": " << file.bytes << " bytes\n";
+}
+
+void warn(const std::vector<ReadProblem>& problems)
+{
+  for (const ReadProblem& problem : problems)
+    std::cerr << "fastlio-import: " << problem.message
+              << (problem.occurrences > 1 ? " (" + std::to_string(problem.occurrences) + " times)"
+                                          : "")
+              << '\n';
+}
+}  // namespace
+
+ImportStatus runImport(const ImportArguments& arguments)
+{
+  requireInputs(arguments);
+  if (!arguments.list) requireHarmlessOutput(arguments);
+  const ImportPlan plan = planImport(arguments);
+  if (arguments.list)
+  {
+    std::cout << listTopics(arguments, plan) << std::flush;
+    return plan.survey.sensors.empty() ? ImportStatus::Unusable : ImportStatus::Ok;
+  }
+  Import import(arguments, plan);
+  ImportInputs source(arguments.input_files, arguments.merge);
+  import.run(source);
+  const std::vector<ReadProblem> problems = source.problems();
+  warn(problems);
+  report(arguments, plan, import);
+  if (import.files().empty())
+  {
+    std::cerr << "fastlio-import: nothing to write: no input has an observation that is wanted; "
+                 "--list shows what there is\n";
+    return ImportStatus::Unusable;
+  }
+  return problems.empty() ? ImportStatus::Ok : ImportStatus::Incomplete;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,146 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "rawlog_parts.h"
+
+#include <fastlio/files/gzip_file.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <mrpt/core/format.h>
+#include <mrpt/io/CMemoryStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <zstd.h>
+
+namespace fastlio
+{
+namespace
+{
+class PlainRawlog : public RawlogFile
+{
+ public:
+  explicit PlainRawlog(const std::string& path) : file_(path) {}
+  void write(const void* data, std::size_t size) override
+  {
+    file_.write({static_cast<const char*>(data), size});
+  }
+  OutputFile commit() override { return file_.commit(); }
+
+ private:
+  AtomicFile file_;
+};
+
+class GzipRawlog : public RawlogFile
+{
+ public:
+  explicit GzipRawlog(const std::string& path) : file_(path) {}
+  void write(const void* data, std::size_t size) override { file_.Write(data, size); }
+  OutputFile commit() override { return file_.commit(); }
+
+ private:
+  GzipFile file_;
+};
+
+class ZstdRawlog : public RawlogFile
+{
+ public:
+  explicit ZstdRawlog(const std::string& path)
+      : file_(path),
+        context_(ZSTD_createCCtx(), ZSTD_freeCCtx),
+        buffer_(ZSTD_CStreamOutSize(), '\0')
+  {
+    if (!context_) throw std::bad_alloc();
+    ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
+  }
+  void write(const void* data, std::size_t size) override { compress(data, size, ZSTD_e_continue); }
+  OutputFile commit() override
+  {
+    compress(nullptr, 0, ZSTD_e_end);
+    return file_.commit();
+  }
+
+ private:
+  void compress(const void* data, std::size_t size, ZSTD_EndDirective mode)
+  {
+    ZSTD_inBuffer in{data, size, 0};
+    for (bool done = false; !done;)
+    {
+      ZSTD_outBuffer out{buffer_.data(), buffer_.size(), 0};
+      const std::size_t left = ZSTD_compressStream2(context_.get(), &out, &in, mode);
+      if (ZSTD_isError(left) != 0)
+        throw std::runtime_error(std::string("cannot compress: ") + ZSTD_getErrorName(left));
+      file_.write({buffer_.data(), out.pos});
+      done = mode == ZSTD_e_end ? left == 0 : in.pos == in.size;
+    }
+  }
+
+  AtomicFile file_;
+  std::unique_ptr<ZSTD_CCtx, std::size_t (*)(ZSTD_CCtx*)> context_;
+  std::string buffer_;
+};
+
+std::unique_ptr<RawlogFile> openRawlog(const std::string& path, RawlogCompression compression)
+{
+  switch (compression)
+  {
+    case RawlogCompression::None:
+      return std::make_unique<PlainRawlog>(path);
+    case RawlogCompression::Gzip:
+      return std::make_unique<GzipRawlog>(path);
+    case RawlogCompression::Zstd:
+      return std::make_unique<ZstdRawlog>(path);
+  }
+  throw std::logic_error("an unknown compression");
+}
+}  // namespace
+
+std::string RawlogParts::pathOfPart(const Options& options, std::size_t part)
+{
+  if (options.split_mib <= 0 && options.split_seconds <= 0) return options.path;
+  const std::filesystem::path path(options.path);
+  const std::string name = path.stem().string() + mrpt::format("_%03zu", part + 1);
+  return (path.parent_path() / (name + path.extension().string())).string();
+}
+
+bool RawlogParts::isFull(std::int64_t stamp_ns) const
+{
+  constexpr double kMib = 1024.0 * 1024.0;
+  if (!file_) return false;
+  if (options_.split_mib > 0 && static_cast<double>(bytes_) >= options_.split_mib * kMib)
+    return true;
+  return options_.split_seconds > 0 &&
+         static_cast<double>(stamp_ns - first_ns_) >= options_.split_seconds * 1e9;
+}
+
+bool RawlogParts::write(const mrpt::obs::CObservation& observation)
+{
+  const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
+  if (isFull(stamp_ns)) close();
+  if (!file_)
+  {
+    file_ = openRawlog(pathOfPart(options_, files_.size()), options_.compression);
+    first_ns_ = stamp_ns;
+    bytes_ = 0;
+  }
+  mrpt::io::CMemoryStream stream;
+  mrpt::serialization::archiveFrom(stream).WriteObject(observation);
+  file_->write(stream.getRawBufferData(), stream.getTotalBytesCount());
+  bytes_ += stream.getTotalBytesCount();
+  return true;
+}
+
+void RawlogParts::close()
+{
+  files_.push_back(file_->commit());
+  file_.reset();
+}
+
+std::vector<OutputFile> RawlogParts::finish()
+{
+  if (file_) close();
+  return files_;
+}
+
+}  // namespace fastlio

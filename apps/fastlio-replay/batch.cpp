@@ -1,0 +1,104 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "batch.h"
+
+#include "run_names.h"
+#include <fastlio/exporters/run_summary.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iterator>
+
+namespace fastlio
+{
+namespace
+{
+struct StatusText
+{
+  int status;
+  const char* text;
+};
+
+/** From the one that tells most to the one that tells least. */
+constexpr std::array<StatusText, 8> kStatuses = {
+    {{static_cast<int>(ExitStatus::Interrupted), "interrupted"},
+     {static_cast<int>(ExitStatus::OutputFailed), "outputs incomplete"},
+     {static_cast<int>(ExitStatus::Usage), "not run: usage"},
+     {static_cast<int>(ExitStatus::InputUnusable), "input unusable"},
+     {static_cast<int>(ExitStatus::InputBroken), "input damaged"},
+     {static_cast<int>(ExitStatus::OdometryFailed), "diverged"},
+     {static_cast<int>(ExitStatus::Degraded), "degraded"},
+     {static_cast<int>(ExitStatus::Ok), "ok"}}};
+
+std::size_t rankOf(int status)
+{
+  const auto* const found = std::find_if(
+      kStatuses.begin(), kStatuses.end(),
+      [status](const StatusText& s) { return s.status == status; });
+  return static_cast<std::size_t>(std::distance(kStatuses.begin(), found));
+}
+
+/** "walk", "walk-2", ... for recordings of the same name in different folders. */
+std::string folderIn(
+    const std::string& parent, const std::string& recording, const std::vector<BatchRun>& before)
+{
+  const std::string first = (std::filesystem::path(parent) / recordingName(recording)).string();
+  const auto taken = [&before](const std::string& folder)
+  {
+    return std::any_of(
+        before.begin(), before.end(),
+        [&](const BatchRun& run) { return run.arguments.output_directory == folder; });
+  };
+  std::string folder = first;
+  for (int number = 2; taken(folder); ++number)
+    folder = first + "-" + std::to_string(number);
+  return folder;
+}
+}  // namespace
+
+std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
+{
+  std::vector<BatchRun> runs;
+  if (!arguments.batch)
+  {
+    runs.push_back({arguments});
+    return runs;
+  }
+  for (const std::string& recording : arguments.input_files)
+  {
+    BatchRun run{arguments};
+    run.arguments.input_files = {recording};
+    if (!arguments.output_directory.empty())
+      run.arguments.output_directory = folderIn(arguments.output_directory, recording, runs);
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+std::string batchTable(const std::vector<BatchRun>& runs)
+{
+  std::string table = mrpt::format("\n%-32s %-20s %s\n", "recording", "status", "folder");
+  for (const BatchRun& run : runs)
+  {
+    const std::size_t rank = rankOf(run.status);
+    table += mrpt::format(
+        "%-32s %-20s %s\n", recordingName(run.arguments.input_files.front()).c_str(),
+        rank < kStatuses.size() ? kStatuses[rank].text : "?",
+        run.arguments.output_directory.c_str());
+  }
+  return table;
+}
+
+int worstStatus(const std::vector<BatchRun>& runs)
+{
+  const auto worst = std::min_element(
+      runs.begin(), runs.end(),
+      [](const BatchRun& a, const BatchRun& b) { return rankOf(a.status) < rankOf(b.status); });
+  return worst->status;
+}
+
+}  // namespace fastlio

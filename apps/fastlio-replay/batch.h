@@ -1,0 +1,32 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file batch.h Several recordings, one run each. */
+#pragma once
+
+#include "command_line.h"
+
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** A run of a batch and how it ended. */
+struct BatchRun
+{
+  ReplayArguments arguments;
+  int status = 0;
+};
+
+/** The runs that a command line asks for: one, or one for each recording. A run without any output
+ * gets a folder of its own. */
+[[nodiscard]] std::vector<BatchRun> runsOf(const ReplayArguments& arguments);
+
+/** A row per run: recording, how it ended, folder. */
+[[nodiscard]] std::string batchTable(const std::vector<BatchRun>& runs);
+
+/** The status that tells most: interrupted, not written, wrong usage, unusable, truncated,
+ * diverged, degraded, ok. */
+[[nodiscard]] int worstStatus(const std::vector<BatchRun>& runs);
+
+}  // namespace fastlio

@@ -1,0 +1,54 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "run_names.h"
+
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kLatest = "latest";
+}  // namespace
+
+std::string recordingName(const std::string& path)
+{
+  fs::path name = fs::path(path).filename();
+  if (name.empty()) name = fs::path(path).parent_path().filename();  // "folder/"
+  for (const char* suffix : {".gz", ".zst", ".zstd"})
+    if (name.extension() == suffix) name = name.stem();
+  const std::string stem = name.stem().string();
+  return stem.empty() || stem == "." || stem == ".." || stem == "-" ? "recording" : stem;
+}
+
+std::string freeRunFolder(const std::string& recording)
+{
+  const std::string first = recordingName(recording) + "-run";
+  std::string folder = first;
+  for (int number = 2; fs::symlink_status(folder).type() != fs::file_type::not_found; ++number)
+    folder = first + "-" + std::to_string(number);
+  return folder;
+}
+
+std::optional<std::string> linkLatest(const std::string& folder)
+{
+  std::error_code error;
+  const fs::file_type there = fs::symlink_status(kLatest, error).type();
+  if (there != fs::file_type::not_found && there != fs::file_type::symlink)
+    return "'latest' is no symbolic link: it stays as it is";
+  // A link gets its name when it is complete.
+  const std::string temporary = std::string(".") + kLatest + "." + std::to_string(getpid());
+  fs::create_directory_symlink(folder, temporary, error);
+  if (!error) fs::rename(temporary, kLatest, error);
+  if (!error) return std::nullopt;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  return "'latest' cannot be made a link to '" + folder + "': " + error.message();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,111 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What people type: recordings by themselves, parameters on the command line, several at once.
+
+#include "replay_test_support.h"
+
+namespace fastlio::testing
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+class Typed : public ReplayTest
+{
+ protected:
+  /** Runs in the test's folder. */
+  [[nodiscard]] ProcessResult typed(const std::vector<std::string>& arguments) const
+  {
+    std::vector<std::string> words{
+        "/bin/sh", "-c", R"(cd "$1" && shift && exec "$@")", "sh", file("")};
+    const std::vector<std::string> program = command(arguments);
+    words.insert(words.end(), program.begin(), program.end());
+    return Process(words, file("log.txt")).wait();
+  }
+};
+
+TEST_F(Typed, ARecordingAloneGetsAFolderOfItsOwn)
+{
+  (void)record("walk.rawlog", {});
+  expectEnd(typed({"walk.rawlog"}), 0, "walk-run/trajectory.tum");
+  EXPECT_TRUE(fs::exists(file("walk-run/report.html")));
+  EXPECT_EQ(fs::read_symlink(file("latest")), "walk-run");
+  const std::string first = contentOf(file("walk-run/trajectory.tum"));
+  expectEnd(typed({"walk.rawlog"}), 0, "walk-run-2/trajectory.tum");
+  EXPECT_EQ(fs::read_symlink(file("latest")), "walk-run-2");
+  EXPECT_EQ(contentOf(file("walk-run/trajectory.tum")), first);
+}
+
+TEST_F(Typed, LatestReplacesNothingThatIsNoLink)
+{
+  (void)record("walk.rawlog", {});
+  (void)write("latest", "mine");
+  expectEnd(typed({"walk.rawlog"}), 0, "'latest' is no symbolic link");
+  EXPECT_EQ(contentOf(file("latest")), "mine");
+}
+
+TEST_F(Typed, AFailedRunLeavesNoFolder)
+{
+  expectEnd(typed({"missing.rawlog"}), 2, "missing.rawlog");
+  EXPECT_FALSE(fs::exists(file("missing-run")));
+  EXPECT_FALSE(fs::is_symlink(file("latest")));
+}
+
+TEST_F(Typed, SeveralRecordingsAreABatch)
+{
+  (void)record("a.rawlog", {});
+  (void)record("b.rawlog", {});
+  const auto result = typed({"a.rawlog", "missing.rawlog", "b.rawlog", "-o", "runs"});
+  expectEnd(result, 2, "input unusable");
+  EXPECT_TRUE(fs::exists(file("runs/a/trajectory.tum")));
+  EXPECT_TRUE(fs::exists(file("runs/b/trajectory.tum"))) << "a failure does not end the batch";
+  EXPECT_FALSE(fs::exists(file("runs/missing")));
+  EXPECT_EQ(contentOf(file("runs/a/trajectory.tum")), contentOf(file("runs/b/trajectory.tum")));
+  expectEnd(typed({"a.rawlog", "b.rawlog", "--output-tum-path", "t.tum"}), 1, "--output-tum-path");
+}
+
+TEST_F(Typed, RecordingsOfTheSameNameGetDifferentFolders)
+{
+  fs::create_directory(file("x"));
+  (void)record("walk.rawlog", {});
+  (void)record("x/walk.rawlog", {});
+  expectEnd(typed({"walk.rawlog", "x/walk.rawlog", "-o", "runs"}), 0, "runs/walk-2");
+  EXPECT_TRUE(fs::exists(file("runs/walk/summary.json")));
+  EXPECT_TRUE(fs::exists(file("runs/walk-2/summary.json")));
+}
+
+TEST_F(Typed, PartsAreJoinedWhenAsked)
+{
+  (void)record("a.rawlog", {});
+  expectEnd(typed({"a.rawlog", "a.rawlog", "--join", "-o", "out"}), 1, "given twice");
+  expectEnd(typed({"a.rawlog", "--input-rawlog", "a.rawlog", "-o", "out"}), 1, "--input-rawlog");
+}
+
+TEST_F(Typed, SetGoesOverTheFile)
+{
+  const std::string config = write("c.yaml", "map:\n  radius: 50\n");
+  const auto dump = typed({"-c", config, "--set", "map.radius=60", "--dump-config"});
+  expectEnd(dump, 0, "--set");
+  EXPECT_NE(dump.output.find("radius: 60"), std::string::npos) << dump.output;
+  expectEnd(
+      typed({"--set", "map.radius=60", "--set", "map.voxel_size=0.3", "--dump-config"}), 0,
+      "voxel_size: 0.3");
+  expectEnd(typed({"--set", "map.radios=60", "--dump-config"}), 1, "did you mean 'map.radius'");
+  expectEnd(typed({"--set", "map.radius", "--dump-config"}), 1, "KEY=VALUE");
+  expectEnd(typed({"--set", "map.radius=-1", "--dump-config"}), 1, "out of range");
+  (void)record("a.rawlog", {});
+  expectEnd(typed({"--set", "map.radius=60", "--export", "trajectory", "a.rawlog"}), 0, "a-run/");
+  expectEnd(typed({"a.rawlog", "--set", "lidar.min_range=200", "-o", "out"}), 1, "lidar.min_range");
+}
+
+TEST_F(Typed, QuietSaysNothingButErrors)
+{
+  (void)record("a.rawlog", {});
+  const auto result = typed({"a.rawlog", "-q", "-o", "out"});
+  EXPECT_EQ(result.exit_status, 0);
+  EXPECT_EQ(result.output, "");
+  expectEnd(typed({"missing.rawlog", "-q", "-o", "out2"}), 2, "missing.rawlog");
+}
+}  // namespace
+}  // namespace fastlio::testing

@@ -1,0 +1,94 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file calibrator.h Finds the calibration of a rig from its recordings. */
+#pragma once
+
+#include <fastlio/calibration/calibration_run.h>
+#include <fastlio/calibration/rig.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+class CalibrationUnknowns;
+struct CalibrationStep;
+
+/** Standard deviations of the offsets of a beam. */
+struct BeamStd
+{
+  double range = 0.0;      //!< [m]
+  double elevation = 0.0;  //!< [rad]
+};
+
+/** A calibration, and how well it is known. */
+struct RigEstimate
+{
+  Rig rig;
+  CalibrationErrorVector correction = CalibrationErrorVector::Zero();  //!< theta, taken off
+  CalibrationErrorMatrix covariance = CalibrationErrorMatrix::Zero();  //!< of theta
+  CalibrationErrorVector prior_std = CalibrationErrorVector::Zero();   //!< of theta, before
+  double time_offset_std = 0.0;                                        //!< [s]
+  std::vector<BeamStd> beam_stds;                                      //!< of rig.beams
+  /** How many times the squares of the innovations exceed their covariance; 1: as they should. */
+  double innovation_scale = 1.0;
+  int passes = 0;
+  std::vector<std::string> problems;  //!< of reading, for people: the rest was used
+};
+
+/** What a calibration is worth on data that it was not fitted to. */
+struct CalibrationTrial
+{
+  RunAgreement before, after;
+  double seconds = 0.0;  //!< of those data
+  /** Innovations are smaller by a twentieth, and the map is not thicker by as much. */
+  [[nodiscard]] bool better() const;
+};
+
+/** A part of the work begins: what it is, for people. */
+using CalibrationProgress = std::function<void(const std::string& what)>;
+
+/** Repeats runs with the calibration that the runs before asked for. */
+class Calibrator
+{
+ public:
+  /** \param config its standard deviations of the calibration (calibration.*_std) are the prior
+   * \param passes runs of each recording
+   * \exception std::runtime_error a recording has no usable sensors */
+  Calibrator(
+      std::vector<CalibrationRecording> recordings, Config config, int passes,
+      CalibrationProgress progress = {});
+
+  /** From all recordings.
+   * \exception std::runtime_error a recording cannot be read, or no scan was tracked */
+  [[nodiscard]] RigEstimate calibrate() const;
+
+  /** Several recordings: each with the calibration of the others. A single one: its last part with
+   * that of the first. */
+  [[nodiscard]] CalibrationTrial tryOut() const;
+
+  /** The rig as it was given. */
+  [[nodiscard]] const Rig& given() const { return given_; }
+  /** The configuration with another rig. */
+  [[nodiscard]] Config configWith(const Rig& rig) const;
+
+ private:
+  [[nodiscard]] RigEstimate calibrate(
+      const std::vector<CalibrationRecording>& recordings, const ScanRange& range,
+      const std::string& what) const;
+  [[nodiscard]] RigEstimate estimateAt(
+      const CalibrationUnknowns& unknowns, const Eigen::VectorXd& x,
+      const CalibrationStep& step) const;
+  [[nodiscard]] CalibrationTrial tryLastPart() const;
+  void tell(const std::string& what) const;
+
+  std::vector<CalibrationRecording> recordings_;
+  Config config_;
+  int passes_;
+  CalibrationProgress progress_;
+  Rig given_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,188 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/calibration/calibration_report.h>
+#include <fastlio/config/config_document.h>
+#include <fastlio/math/angles.h>
+
+#include <mrpt/core/format.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+constexpr double kTold = 0.5;  // of what was known before
+constexpr double kMillimetres = 1e3, kPercent = 100.0;
+
+using Combination = Eigen::Matrix<double, 1, kCalibrationErrorDim>;
+
+/** The rotation of the LiDAR about an axis, less that of the gyro's axes. */
+Combination rotationAgainstGyro(int axis)
+{
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  Combination c = Combination::Zero();
+  c[kExtrinsicError + axis] = 1.0;
+  c[kGyroMatrixError + 3 * a + b] = -0.5;
+  c[kGyroMatrixError + 3 * b + a] = 0.5;
+  return c;
+}
+
+double stdOf(const Combination& c, const CalibrationErrorMatrix& covariance)
+{
+  return std::sqrt(std::max(0.0, (c * covariance * c.transpose()).value()));
+}
+
+double stdOf(const Combination& c, const CalibrationErrorVector& std)
+{
+  return std::sqrt((c.transpose().array() * std.array()).square().sum());
+}
+
+/** Makes a row of a combination of theta; found less given is minus what was taken off. */
+class RowMaker
+{
+ public:
+  explicit RowMaker(const RigEstimate& estimate) : estimate_(estimate) {}
+
+  [[nodiscard]] CalibrationRow row(
+      std::string name, std::string unit, double per_unit, double given, const Combination& c,
+      double sign, const std::string& advice) const
+  {
+    CalibrationRow row;
+    row.name = std::move(name);
+    row.unit = std::move(unit);
+    row.given = per_unit * given;
+    row.found = row.given + sign * per_unit * (c * estimate_.correction).value();
+    row.std = per_unit * stdOf(c, estimate_.covariance);
+    row.prior_std = per_unit * stdOf(c, estimate_.prior_std);
+    if (!row.told()) row.advice = advice;
+    return row;
+  }
+
+ private:
+  const RigEstimate& estimate_;
+};
+
+std::string ofAxis(const char* text, int axis)
+{
+  return mrpt::format(text, kAxes[static_cast<std::size_t>(axis)]);
+}
+
+Combination element(int index)
+{
+  Combination c = Combination::Zero();
+  c[index] = 1.0;
+  return c;
+}
+
+CalibrationRow timeRow(const Rig& given, const RigEstimate& estimate)
+{
+  CalibrationRow row;
+  row.name = "time offset (lidar.time_offset)";
+  row.unit = "ms";
+  row.given = kMillimetres * given.time_offset;
+  row.found = kMillimetres * estimate.rig.time_offset;
+  row.std = kMillimetres * estimate.time_offset_std;
+  return row;
+}
+
+/** Text as lines of a YAML comment. */
+std::string commented(const std::string& text)
+{
+  std::istringstream lines(text);
+  std::string comment;
+  for (std::string line; std::getline(lines, line);)
+    comment += line.empty() ? "#\n" : "# " + line + "\n";
+  return comment;
+}
+}  // namespace
+
+bool CalibrationRow::told() const
+{
+  return prior_std == 0.0 || std < kTold * prior_std;
+}
+
+std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate& estimate)
+{
+  const RowMaker make(estimate);
+  std::vector<CalibrationRow> rows;
+  rows.reserve(4 * kAxes.size() + 1);
+  for (int axis = 0; axis < 3; ++axis)
+    rows.push_back(make.row(
+        ofAxis("LiDAR against gyro, turn about %s", axis), "deg", 1.0 / kRadPerDeg, 0.0,
+        rotationAgainstGyro(axis), -1.0,
+        ofAxis(
+            "turn about an axis across the IMU's %s axis, back and forth for ten seconds", axis)));
+  for (int axis = 0; axis < 3; ++axis)
+    rows.push_back(make.row(
+        ofAxis("LiDAR in the IMU frame, %s", axis), "mm", kMillimetres, given.T_imu_lidar.p[axis],
+        element(kExtrinsicError + 3 + axis), -1.0,
+        ofAxis(
+            "turn about an axis across the IMU's %s axis, back and forth for ten seconds", axis)));
+  for (int axis = 0; axis < 3; ++axis)
+    rows.push_back(make.row(
+        ofAxis("gyro scale %s", axis), "%", kPercent, given.gyro_matrix(axis, axis) - 1.0,
+        element(kGyroMatrixError + 4 * axis), 1.0,
+        ofAxis("turn about the IMU's %s axis, by 90 deg and more, back and forth", axis)));
+  for (int axis = 0; axis < 3; ++axis)
+    rows.push_back(make.row(
+        ofAxis("accelerometer scale %s", axis), "%", kPercent, given.accel_matrix(axis, axis) - 1.0,
+        element(kAccelMatrixError + 4 * axis), 1.0,
+        ofAxis("hold the IMU's %s axis up for some seconds, then down", axis)));
+  rows.push_back(timeRow(given, estimate));
+  return rows;
+}
+
+std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
+{
+  std::string text =
+      mrpt::format("%-36s %10s %10s %9s %9s  unit\n", "value", "given", "found", "std", "before");
+  for (const CalibrationRow& row : calibrationRows(given, estimate))
+  {
+    const std::string before =
+        row.prior_std > 0.0 ? mrpt::format("%9.3f", row.prior_std) : "        -";
+    text += mrpt::format(
+        "%-36s %10.3f %10.3f %9.3f %s  %s%s\n", row.name.c_str(), row.given, row.found, row.std,
+        before.c_str(), row.unit.c_str(), row.told() ? "" : ("  not told: " + row.advice).c_str());
+  }
+  text += mrpt::format(
+      "\n%-36s %10s %10s %10s %10s\n", "beams by elevation [deg]", "range [mm]", "std",
+      "elev. [deg]", "std");
+  for (std::size_t i = 0; i < estimate.rig.beams.size() && i < estimate.beam_stds.size(); ++i)
+  {
+    const BeamRow& beam = estimate.rig.beams[i];
+    text += mrpt::format(
+        "%-36.1f %10.1f %10.1f %10.3f %10.3f\n", beam.elevation / kRadPerDeg,
+        kMillimetres * beam.range, kMillimetres * estimate.beam_stds[i].range,
+        beam.elevation_offset / kRadPerDeg, estimate.beam_stds[i].elevation / kRadPerDeg);
+  }
+  return text;
+}
+
+std::string describe(const CalibrationTrial& trial)
+{
+  return mrpt::format(
+             "On %.0f s of data that it was not fitted to, the normalised innovations go from %.2f "
+             "to "
+             "%.2f and the map's thickness goes from %.1f to %.1f mm: ",
+             trial.seconds, trial.before.innovation(), trial.after.innovation(),
+             kMillimetres * trial.before.mapThickness(),
+             kMillimetres * trial.after.mapThickness()) +
+         (trial.better() ? "use it." : "it is not better than what was given.");
+}
+
+std::string calibrationYaml(
+    const Config& calibrated, const Rig& given, const RigEstimate& estimate,
+    const std::optional<CalibrationTrial>& trial)
+{
+  std::string header = "# Calibration of fastlio-calibrate; see docs/calibration.md.\n";
+  if (trial) header += commented(describe(*trial));
+  header += "#\n" + commented(calibrationTable(given, estimate));
+  return toYaml(calibrated, header);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,171 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "unknowns.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+// The formal covariance takes surfaces for planes and beams for lines. Over simulated rigs with
+// realistic sensors the errors are 2.5 times as large (docs/calibration.md).
+constexpr double kSystematic = 2.5 * 2.5;
+// What data sheets admit of a laser. The prior decides where beams and inertial sensor explain the
+// same: elevations that are stretched look like a gyro with another scale.
+constexpr double kRangeStd = 0.01;        // [m]
+constexpr double kElevationStd = 0.001;   // [rad]; 0.06 deg
+constexpr double kKnown = 0.3;            // of the prior: a beam that the data tell
+constexpr std::size_t kFewestBeams = 3;   // of which constant and stretch are parts
+constexpr double kUnknownTimeStd = 0.01;  // of an offset that no run estimated [s]
+
+}  // namespace
+
+void PassFindings::add(const CalibrationRunResult& run)
+{
+  sums += run.findings.sums;
+  for (const BeamSums& more : run.findings.beams)
+  {
+    BeamSums& beam = beams[more.elevation];
+    beam.information += more.information;
+    beam.weighted += more.weighted;
+  }
+  if (run.time_offset_std > 0.0)
+  {
+    time_information += std::pow(run.time_offset_std, -2);
+    time_weighted += run.time_offset * std::pow(run.time_offset_std, -2);
+  }
+  agreement += run.agreement;
+  tracked += run.tracked;
+  problems.insert(problems.end(), run.problems.begin(), run.problems.end());
+}
+
+CalibrationUnknowns::CalibrationUnknowns(const CalibrationOptions& prior, const PassFindings& pass)
+    : prior_(prior)
+{
+  for (const auto& [elevation, sums] : pass.beams)
+    elevations_.push_back(elevation);
+}
+
+CalibrationPrior CalibrationUnknowns::prior(const Eigen::VectorXd& x) const
+{
+  CalibrationPrior prior;
+  prior.mean = -x.head<kCalibrationErrorDim>();
+  prior.std.segment<3>(kExtrinsicError).setConstant(prior_.extrinsic_rotation_std);
+  prior.std.segment<3>(kExtrinsicError + 3).setConstant(prior_.extrinsic_translation_std);
+  for (const int first : {static_cast<int>(kGyroMatrixError), static_cast<int>(kAccelMatrixError)})
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        prior.std[first + 3 * column + row] =
+            row == column ? prior_.imu_scale_std : prior_.imu_misalignment_std;
+  return prior;
+}
+
+Eigen::Index CalibrationUnknowns::size() const
+{
+  return beamIndex(elevations_.size());
+}
+
+Eigen::Index CalibrationUnknowns::beamIndex(std::size_t beam) const
+{
+  return kTimeOffsetIndex + 1 + 2 * static_cast<Eigen::Index>(beam);
+}
+
+Rig CalibrationUnknowns::rigAt(const Rig& given, const Eigen::VectorXd& x) const
+{
+  const CalibrationErrorVector error = x.head<kCalibrationErrorDim>();
+  Rig rig = corrected(given, error);
+  rig.time_offset += x[kTimeOffsetIndex];
+  std::vector<BeamRow> beams;
+  for (std::size_t i = 0; i < elevations_.size(); ++i)
+    beams.push_back({elevations_[i], x[beamIndex(i)], x[beamIndex(i) + 1]});
+  return withBeams(rig, beams);
+}
+
+CalibrationStep CalibrationUnknowns::step(const PassFindings& pass, const Eigen::VectorXd& x) const
+{
+  const CalibrationEstimate errors = solve(pass.sums, prior(x), kSystematic);
+  CalibrationStep step;
+  step.innovation_scale = errors.innovation_scale;
+  step.step = Eigen::VectorXd::Zero(size());
+  step.covariance = Eigen::MatrixXd::Zero(size(), size());
+  step.step.head<kCalibrationErrorDim>() = errors.mean;
+  step.covariance.topLeftCorner<kCalibrationErrorDim, kCalibrationErrorDim>() = errors.covariance;
+  const bool timed = pass.time_information > 0.0;
+  step.step[kTimeOffsetIndex] = timed ? pass.time_weighted / pass.time_information : 0.0;
+  step.covariance(kTimeOffsetIndex, kTimeOffsetIndex) =
+      timed ? kSystematic * errors.innovation_scale / pass.time_information
+            : std::pow(kUnknownTimeStd, 2);
+  const Eigen::Vector2d prior_information(std::pow(kRangeStd, -2), std::pow(kElevationStd, -2));
+  for (std::size_t i = 0; i < elevations_.size(); ++i)
+  {
+    const auto found = pass.beams.find(elevations_[i]);
+    const BeamSums sums = found == pass.beams.end() ? BeamSums{} : found->second;
+    Eigen::Matrix2d information = sums.information / kSystematic;
+    information.diagonal() += prior_information;
+    const Eigen::Vector2d pull = prior_information.cwiseProduct(x.segment<2>(beamIndex(i)));
+    const Eigen::Matrix2d covariance = information.inverse();
+    step.step.segment<2>(beamIndex(i)) =
+        covariance * (Eigen::Vector2d(sums.weighted) / kSystematic - pull);
+    step.covariance.block<2, 2>(beamIndex(i), beamIndex(i)) = covariance;
+  }
+  const std::vector<std::size_t> known = knownBeams(step);
+  if (known.size() >= kFewestBeams) removeCommonPart(known, x, step.step);
+  return step;
+}
+
+std::vector<std::size_t> CalibrationUnknowns::knownBeams(const CalibrationStep& step) const
+{
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < elevations_.size(); ++i)
+    if (step.covariance(beamIndex(i) + 1, beamIndex(i) + 1) < std::pow(kKnown * kElevationStd, 2))
+      known.push_back(i);
+  return known;
+}
+
+double CalibrationUnknowns::stretchStd(const CalibrationStep& step) const
+{
+  const std::vector<std::size_t> known = knownBeams(step);
+  if (known.size() < kFewestBeams) return 0.0;
+  const ElevationLever lever = leverOf(known);
+  return kElevationStd / std::sqrt(lever.squares);
+}
+
+CalibrationUnknowns::ElevationLever CalibrationUnknowns::leverOf(
+    const std::vector<std::size_t>& beams) const
+{
+  ElevationLever lever;
+  for (const std::size_t beam : beams)
+    lever.mean += elevations_[beam] / static_cast<double>(beams.size());
+  for (const std::size_t beam : beams)
+    lever.squares += std::pow(elevations_[beam] - lever.mean, 2);
+  return lever;
+}
+
+/** What all beams have in common, and what grows with the elevation, stays zero: of independent
+ * lasers it is a fraction of one's error, and no data tell it from the extrinsic and the gyro. */
+void CalibrationUnknowns::removeCommonPart(
+    const std::vector<std::size_t>& known, const Eigen::VectorXd& x, Eigen::VectorXd& step) const
+{
+  const ElevationLever lever = leverOf(known);
+  const auto count = static_cast<double>(known.size());
+  double range = 0.0, offset = 0.0, stretch = 0.0;
+  for (const std::size_t beam : known)
+  {
+    const Eigen::Vector2d total = (x + step).segment<2>(beamIndex(beam));
+    range += total[0] / count;
+    offset += total[1] / count;
+    stretch += total[1] * (elevations_[beam] - lever.mean) / lever.squares;
+  }
+  for (std::size_t i = 0; i < elevations_.size(); ++i)
+  {
+    step[beamIndex(i)] -= range;
+    step[beamIndex(i) + 1] -= offset + stretch * (elevations_[i] - lever.mean);
+  }
+}
+
+}  // namespace fastlio

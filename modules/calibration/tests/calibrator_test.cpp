@@ -1,0 +1,154 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file calibrator_test.cpp Recordings of simulated rigs whose calibration is told wrong. */
+
+#include "temporary_folder.h"
+#include <fastlio/calibration/calibration_report.h>
+#include <fastlio/config/config_yaml.h>
+#include <fastlio/simulation/recording.h>
+#include <fastlio/simulation/settings_table.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace fastlio::testing
+{
+namespace
+{
+class CalibratorTest : public ::testing::Test
+{
+ protected:
+  CalibrationRecording record(const std::string& name, double seconds, unsigned seed)
+  {
+    SimulationSettings settings = defaultSettings("office");
+    settings.duration = seconds;
+    settings.seed = seed;
+    settings.lidar.stride = 2;
+    const RecordingFiles files = writeRecording(Simulation(settings), folder_.file(name));
+    config_ = loadConfigFromFile(files.config);
+    truth_ = *config_.sensors.T_vehicle_lidar;
+    return {name, {files.rawlog}};
+  }
+
+  /** As a user tells it who measured with a ruler. */
+  [[nodiscard]] Config wronglyTold() const
+  {
+    Config config = config_;
+    const Pose error{expSO3({0.005, -0.004, 0.003}), {0.01, -0.008, 0.006}};
+    config.sensors.T_vehicle_lidar = error * truth_;
+    config.odometry.imu.gyro_matrix = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.006};
+    config.odometry.lidar.beam_offsets = {-1.0, 0.02, 0.0, 7.0, -0.02, 0.1};
+    config.odometry.lidar.time_offset = 0.004;
+    return config;
+  }
+
+  TemporaryFolder folder_;
+  Config config_;
+  Pose truth_;
+};
+
+double valueOf(const std::vector<CalibrationRow>& rows, const std::string& name)
+{
+  const auto row = std::find_if(
+      rows.begin(), rows.end(), [&](const CalibrationRow& r) { return r.name == name; });
+  return row == rows.end() ? std::nan("") : row->found;
+}
+
+TEST_F(CalibratorTest, FindsWhatWasToldWrong)
+{
+  const CalibrationRecording recording = record("walk", 25.0, 3);
+  const Calibrator calibrator({recording}, wronglyTold(), 6);
+  const RigEstimate estimate = calibrator.calibrate();
+  const Rig& rig = estimate.rig;
+  // No data tell the axes of the housing: gyro and LiDAR may turn together.
+  const std::vector<CalibrationRow> rows = calibrationRows(calibrator.given(), estimate);
+  const Pose error = rig.T_imu_lidar * truth_.inverse();
+  EXPECT_LT(error.p.head<2>().norm(), 0.004) << "m; it was 0.013";
+  EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about x"), -0.286, 0.08) << "deg";
+  EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about y"), 0.229, 0.08) << "deg";
+  EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about z"), -0.172, 0.08) << "deg";
+  EXPECT_NEAR(rig.gyro_matrix(2, 2), 1.0, 0.0015) << "it was told 1.006";
+  EXPECT_NEAR(rig.time_offset, 0.0, 0.0002) << "s; it was told 0.004";
+  for (const BeamRow& beam : rig.beams)
+    if (std::abs(beam.elevation) < 0.2)
+    {
+      EXPECT_LT(std::abs(beam.range), 0.006) << beam.elevation << " rad; they were told 0.02 m off";
+      EXPECT_LT(std::abs(beam.elevation_offset), 0.0006) << beam.elevation;
+    }
+}
+
+TEST_F(CalibratorTest, StandardDeviationsCoverTheErrors)
+{
+  const CalibrationRecording recording = record("walk", 20.0, 5);
+  const Calibrator calibrator({recording}, wronglyTold(), 5);
+  const RigEstimate estimate = calibrator.calibrate();
+  const Vec3 error = (estimate.rig.T_imu_lidar.p - truth_.p);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int k = kExtrinsicError + 3 + axis;
+    EXPECT_LT(std::abs(error[axis]), 3.0 * std::sqrt(estimate.covariance(k, k))) << axis;
+  }
+  EXPECT_LT(std::abs(estimate.rig.time_offset), 3.0 * estimate.time_offset_std);
+  EXPECT_LT(estimate.time_offset_std, 0.001);
+}
+
+TEST_F(CalibratorTest, IsTriedOutOnOtherData)
+{
+  const CalibrationRecording a = record("a", 14.0, 1), b = record("b", 14.0, 2);
+  const CalibrationTrial wrong = Calibrator({a, b}, wronglyTold(), 3).tryOut();
+  EXPECT_TRUE(wrong.better()) << describe(wrong);
+  EXPECT_GT(wrong.seconds, 15.0);
+  EXPECT_NE(describe(wrong).find("use it"), std::string::npos);
+  const CalibrationTrial single = Calibrator({a}, wronglyTold(), 3).tryOut();
+  EXPECT_TRUE(single.better()) << describe(single);
+  const CalibrationTrial right = Calibrator({a, b}, config_, 3).tryOut();
+  EXPECT_FALSE(right.better()) << "there is nothing to gain: " << describe(right);
+}
+
+TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
+{
+  const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyTold(), 2);
+  const RigEstimate estimate = calibrator.calibrate();
+  const Config calibrated = calibrator.configWith(estimate.rig);
+  const std::string file = folder_.file("rig.yaml");
+  std::ofstream(file) << calibrationYaml(
+      calibrated, calibrator.given(), estimate, CalibrationTrial{});
+  const Config back = loadConfigFromFile(file);
+  EXPECT_EQ(back.odometry.imu.gyro_matrix, calibrated.odometry.imu.gyro_matrix);
+  EXPECT_EQ(back.odometry.lidar.beam_offsets, calibrated.odometry.lidar.beam_offsets);
+  EXPECT_EQ(back.odometry.lidar.time_offset, calibrated.odometry.lidar.time_offset);
+  EXPECT_TRUE(back.sensors.T_vehicle_lidar->p.isApprox(calibrated.sensors.T_vehicle_lidar->p));
+}
+
+TEST_F(CalibratorTest, WhatTheMotionDoesNotTellIsAdvice)
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.duration = 6.0;
+  settings.rest = 5.9;
+  const RecordingFiles files = writeRecording(Simulation(settings), folder_.file("rest"));
+  const Calibrator calibrator({{"rest", {files.rawlog}}}, loadConfigFromFile(files.config), 2);
+  const RigEstimate estimate = calibrator.calibrate();
+  for (const CalibrationRow& row : calibrationRows(calibrator.given(), estimate))
+    if (row.prior_std > 0.0)
+    {
+      EXPECT_FALSE(row.told()) << row.name;
+      EXPECT_FALSE(row.advice.empty()) << row.name;
+    }
+  EXPECT_NE(
+      calibrationTable(calibrator.given(), estimate).find("not told: turn about"),
+      std::string::npos);
+}
+
+TEST_F(CalibratorTest, SaysWhichRecordingTellsNothing)
+{
+  const Calibrator calibrator({record("walk", 3.0, 1)}, config_, 2);
+  EXPECT_NO_THROW((void)calibrator.given());
+  const CalibrationRecording missing{"missing", {folder_.file("missing.rawlog")}};
+  EXPECT_THROW(Calibrator({missing}, config_, 2), std::runtime_error);
+}
+}  // namespace
+}  // namespace fastlio::testing

@@ -1,0 +1,35 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "report_figure.h"
+
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
+
+namespace fastlio
+{
+std::string htmlText(const std::string& text)
+{
+  constexpr std::size_t kLongest = 2000;  // a path or a message in full, and no page of it
+  return escapeXml(printable(text, kLongest));
+}
+
+std::string figureHtml(
+    const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
+    const std::vector<LegendEntry>& legend, const std::string& remark)
+{
+  std::string html = "<figure>\n<figcaption><b>" + htmlText(title) + "</b>";
+  for (const LegendEntry& entry : legend)
+    html += R"( <span class="key"><i style="background:)" + entry.colour + R"("></i>)" +
+            htmlText(entry.name) + "</span>";
+  html +=
+      "</figcaption>\n"
+      R"(<svg viewBox="0 0 )" +
+      fixedText(place.width, 0) + " " + fixedText(place.height, 0) +
+      R"(" role="img" aria-label=")" + htmlText(title) + "\">\n" + drawPanel(panel, place) +
+      "</svg>\n";
+  if (!remark.empty()) html += "<p>" + remark + "</p>\n";
+  return html + "</figure>\n";
+}
+
+}  // namespace fastlio

@@ -1,0 +1,28 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file report_figure.h One figure of a report (internal). */
+#pragma once
+
+#include <fastlio/plot/svg_plot.h>
+
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** A name and its colour, as CSS. */
+struct LegendEntry
+{
+  std::string name, colour;
+};
+
+/** Text of others as part of a page: printable, in full, and escaped. */
+[[nodiscard]] std::string htmlText(const std::string& text);
+
+/** A plot with its title, its legend and a remark below. \param remark is HTML */
+[[nodiscard]] std::string figureHtml(
+    const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
+    const std::vector<LegendEntry>& legend, const std::string& remark);
+
+}  // namespace fastlio

@@ -1,0 +1,52 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/lidar/beam_corrections.h>
+#include <fastlio/math/angles.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kColumns = 3;
+constexpr float kLeastCosine = 0.05F;  // of the elevation: nearer the axis it has no direction
+}  // namespace
+
+double beamElevation(std::size_t bin)
+{
+  const double sine = (static_cast<double>(bin) + 0.5 - 0.5 * kBeamBins) / kBeamBinsPerUnit;
+  return std::asin(std::clamp(sine, -1.0, 1.0));
+}
+
+BeamCorrections::BeamCorrections(const std::vector<double>& rows) : any_(!rows.empty())
+{
+  for (std::size_t i = 0; i + kColumns <= rows.size(); i += kColumns)
+  {
+    Offset& offset = offsets_[beamBin(std::sin(kRadPerDeg * rows[i]))];
+    offset.range = static_cast<float>(rows[i + 1]);
+    offset.elevation = static_cast<float>(kRadPerDeg * rows[i + 2]);
+  }
+}
+
+void BeamCorrections::apply(PointColumns& points) const
+{
+  if (!any_) return;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    float &x = points.x[i], &y = points.y[i], &z = points.z[i];
+    const float level = std::sqrt(x * x + y * y), range = std::sqrt(level * level + z * z);
+    if (!(level > kLeastCosine * range)) continue;
+    const Offset& offset = offsets_[beamBin(static_cast<double>(z / range))];
+    // Against the beam, and across it: p - dr d - de r u with u = (-z x, -z y, level^2) / (r
+    // level).
+    const float shrink = 1.0F - offset.range / range + offset.elevation * z / level;
+    z = z * (1.0F - offset.range / range) - offset.elevation * level;
+    x *= shrink;
+    y *= shrink;
+  }
+}
+
+}  // namespace fastlio

@@ -1,0 +1,299 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "plot_axes.h"
+#include <fastlio/plot/svg_plot.h>
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kLeft = 62.0, kRight = 14.0, kBottom = 42.0;  // margins [px]
+constexpr double kTop = 34.0, kBareTop = 8.0;
+constexpr double kPixelsPerXTick = 70.0, kPixelsPerYTick = 28.0;
+
+std::ostringstream classicStream()
+{
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  return out;
+}
+
+/** A coordinate; a tenth of a pixel is finer than anybody sees. */
+double pixel(double value)
+{
+  return std::round(10.0 * value) / 10.0;
+}
+
+std::string textAt(double x, double y, const std::string& content, const std::string& attributes)
+{
+  auto out = classicStream();
+  out << "<text x='" << pixel(x) << "' y='" << pixel(y) << "' " << attributes << ">"
+      << escapeXml(content) << "</text>\n";
+  return out.str();
+}
+
+std::string gridLine(double x1, double y1, double x2, double y2)
+{
+  auto out = classicStream();
+  out << "<line class='grid' x1='" << pixel(x1) << "' y1='" << pixel(y1) << "' x2='" << pixel(x2)
+      << "' y2='" << pixel(y2) << "'/>\n";
+  return out.str();
+}
+
+std::string gridOf(const PlotAxes& a)
+{
+  const PlotRectangle& r = a.inner;
+  std::string out;
+  for (const double v : roundTicks(a.x.low, a.x.high, static_cast<int>(r.width / kPixelsPerXTick)))
+    out += gridLine(a.px(v), r.y, a.px(v), r.y + r.height) +
+           textAt(a.px(v), r.y + r.height + 16.0, tickText(v), "text-anchor='middle'");
+  for (const double v : roundTicks(a.y.low, a.y.high, static_cast<int>(r.height / kPixelsPerYTick)))
+    out += gridLine(r.x, a.py(v), r.x + r.width, a.py(v)) +
+           textAt(r.x - 6.0, a.py(v) + 4.0, tickText(v), "text-anchor='end'");
+  return out;
+}
+
+bool isFinite(const PlotPoint& p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
+
+std::string polylinesOf(const PlotSeries& series, const PlotAxes& axes)
+{
+  auto out = classicStream();
+  bool open = false;
+  for (const PlotPoint& point : series.points)
+  {
+    if (!isFinite(point))
+    {
+      if (open) out << "'/>\n";
+      open = false;
+      continue;
+    }
+    if (!open)
+      out << "<polyline fill='none' stroke-width='" << series.width
+          << "' style='stroke:" << series.colour << "' points='";
+    open = true;
+    out << pixel(axes.px(point.x)) << ',' << pixel(axes.py(point.y)) << ' ';
+  }
+  if (open) out << "'/>\n";
+  return out.str();
+}
+
+/** One closed area per unbroken part. */
+std::string polygonsOf(const PlotBand& band, const PlotAxes& axes)
+{
+  auto out = classicStream();
+  auto back = classicStream();
+  std::vector<std::string> lower;
+  const auto close = [&]
+  {
+    if (lower.empty()) return;
+    for (auto point = lower.rbegin(); point != lower.rend(); ++point)
+      out << *point;
+    out << "'/>\n";
+    lower.clear();
+  };
+  for (const PlotInterval& i : band.intervals)
+  {
+    if (!isFinite({i.x, i.low}) || !std::isfinite(i.high))
+    {
+      close();
+      continue;
+    }
+    if (lower.empty())
+      out << "<polygon stroke='none' style='fill:" << band.colour << ";fill-opacity:0.18' points='";
+    const double x = pixel(axes.px(i.x));
+    out << x << ',' << pixel(axes.py(i.high)) << ' ';
+    back.str({});
+    back << x << ',' << pixel(axes.py(i.low)) << ' ';
+    lower.push_back(back.str());
+  }
+  close();
+  return out.str();
+}
+
+std::string stretchOf(const PlotStretch& stretch, const PlotAxes& axes)
+{
+  constexpr double kLeastWidth = 1.5;  // [px]: a single scan has to be seen
+  const PlotRectangle& r = axes.inner;
+  const auto inside = [&r](double x) { return std::clamp(x, r.x, r.x + r.width); };
+  const double from = inside(axes.px(stretch.from));
+  const double to = inside(std::max(axes.px(stretch.to), from + kLeastWidth));
+  auto out = classicStream();
+  out << "<rect x='" << pixel(from) << "' y='" << r.y << "' width='" << pixel(to - from)
+      << "' height='" << r.height << "' style='fill:" << stretch.colour << ";fill-opacity:0.3'>"
+      << "<title>" << escapeXml(stretch.title) << "</title></rect>\n";
+  return out.str();
+}
+
+/** Cells of a row that touch become one stroke. */
+std::string cellsOf(const PlotCells& cells, const PlotAxes& axes)
+{
+  if (cells.centres.empty() || !(cells.size > 0.0)) return {};
+  std::vector<PlotPoint> centres;
+  std::copy_if(cells.centres.begin(), cells.centres.end(), std::back_inserter(centres), isFinite);
+  std::sort(
+      centres.begin(), centres.end(),
+      [](const PlotPoint& a, const PlotPoint& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+  const double size = axes.px(axes.x.low + cells.size) - axes.inner.x;
+  auto out = classicStream();
+  out << "<path fill='none' stroke-width='" << pixel(size + 0.1)
+      << "' style='stroke:" << cells.colour << ";stroke-opacity:" << cells.opacity << "' d='";
+  for (std::size_t i = 0; i < centres.size();)
+  {
+    std::size_t end = i + 1;
+    while (end < centres.size() && centres[end].y == centres[i].y &&
+           centres[end].x - centres[end - 1].x < 1.5 * cells.size)
+      ++end;
+    out << 'M' << pixel(axes.px(centres[i].x) - 0.5 * size) << ' ' << pixel(axes.py(centres[i].y))
+        << 'h' << pixel(static_cast<double>(end - i) * size);
+    i = end;
+  }
+  out << "'/>\n";
+  return out.str();
+}
+
+std::string markOf(const PlotMark& mark, const PlotAxes& axes)
+{
+  if (!isFinite(mark.at)) return {};
+  constexpr double kRoom = 70.0;  // [px] for the name
+  const double x = axes.px(mark.at.x), y = axes.py(mark.at.y);
+  const bool left = x > axes.inner.x + axes.inner.width - kRoom;
+  auto out = classicStream();
+  out << "<circle cx='" << pixel(x) << "' cy='" << pixel(y) << "' r='4' style='fill:" << mark.colour
+      << "'/>\n";
+  return out.str() +
+         textAt(
+             left ? x - 7.0 : x + 7.0, y - 5.0, mark.name,
+             std::string(left ? "text-anchor='end'" : "") + " style='fill:" + mark.colour + "'");
+}
+
+std::string labelsOf(const PlotPanel& panel, const PlotRectangle& inner)
+{
+  const double middle = inner.y + 0.5 * inner.height;
+  const double x = inner.x - 48.0;
+  auto turned = classicStream();
+  turned << "text-anchor='middle' transform='rotate(-90 " << pixel(x) << " " << pixel(middle)
+         << ")'";
+  const std::string title =
+      panel.bare ? "" : textAt(inner.x, inner.y - 12.0, panel.title, "font-weight='bold'");
+  return title +
+         textAt(
+             inner.x + 0.5 * inner.width, inner.y + inner.height + 34.0, panel.x_label,
+             "text-anchor='middle'") +
+         textAt(x, middle, panel.y_label, turned.str());
+}
+
+/** Names at the upper right, above the axes, in the series' colours; a single
+ * series is named by the title. */
+std::string legendOf(const PlotPanel& panel, const PlotRectangle& inner)
+{
+  if (panel.bare || panel.series.size() < 2) return {};
+  std::string out;
+  double x = inner.x + inner.width;
+  for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series)
+  {
+    if (series->name.empty()) continue;
+    out += textAt(
+        x, inner.y - 12.0, series->name, "text-anchor='end' style='fill:" + series->colour + "'");
+    x -= 8.0 * static_cast<double>(series->name.size()) + 16.0;
+  }
+  return out;
+}
+
+std::string frameOf(const PlotRectangle& r)
+{
+  auto out = classicStream();
+  out << "<rect class='frame' x='" << r.x << "' y='" << r.y << "' width='" << r.width
+      << "' height='" << r.height << "' fill='none'/>\n";
+  return out.str();
+}
+}  // namespace
+
+std::string tickText(double value)
+{
+  auto out = classicStream();
+  out << (std::abs(value) < 1e-12 ? 0.0 : value);
+  return out.str();
+}
+
+std::vector<double> roundTicks(double low, double high, int count)
+{
+  const double raw = (high - low) / std::max(count, 1);
+  if (!(raw > 0.0) || !std::isfinite(raw)) return {};
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  const double mantissa = raw / power;
+  const double step = power * (mantissa <= 1.0   ? 1.0
+                               : mantissa <= 2.0 ? 2.0
+                               : mantissa <= 5.0 ? 5.0
+                                                 : 10.0);
+  const auto first = std::ceil(low / step);
+  const auto steps = static_cast<int>(std::floor(high / step) - first);
+  std::vector<double> ticks;
+  for (int i = 0; i <= steps; ++i)
+    ticks.push_back((first + i) * step);
+  return ticks;
+}
+
+std::string drawPanel(const PlotPanel& panel, const PlotRectangle& place)
+{
+  const double top = panel.bare ? kBareTop : kTop;
+  const PlotRectangle inner{
+      place.x + kLeft, place.y + top, place.width - kLeft - kRight, place.height - top - kBottom};
+  const PlotAxes axes = axesOf(panel, inner);
+  std::string out;
+  for (const PlotStretch& stretch : panel.stretches)
+    out += stretchOf(stretch, axes);
+  out += gridOf(axes) + frameOf(inner) + labelsOf(panel, inner) + legendOf(panel, inner);
+  for (const PlotCells& cells : panel.cells)
+    out += cellsOf(cells, axes);
+  for (const PlotBand& band : panel.bands)
+    out += polygonsOf(band, axes);
+  for (const PlotSeries& series : panel.series)
+    out += polylinesOf(series, axes);
+  for (const PlotMark& mark : panel.marks)
+    out += markOf(mark, axes);
+  return out;
+}
+
+std::string escapeXml(const std::string& text)
+{
+  std::string out;
+  for (const char c : text)
+  {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t')
+      out += c;
+  }
+  return out;
+}
+
+std::string svgDocument(double width, double height, const std::string& elements)
+{
+  auto out = classicStream();
+  out << "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 " << width << ' ' << height
+      << "' width='" << width << "' height='" << height
+      << "' font-family='sans-serif' font-size='12'>\n"
+      << "<style>.grid{stroke:#dddddd}.frame{stroke:#888888}</style>\n"
+      << "<rect width='100%' height='100%' fill='white'/>\n"
+      << elements << "</svg>\n";
+  return out.str();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,89 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/plot/svg_plot.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+std::size_t countOf(const std::string& text, const std::string& part)
+{
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+PlotPanel panelOf(PlotSeries series)
+{
+  PlotPanel panel;
+  panel.series = {std::move(series)};
+  return panel;
+}
+
+constexpr PlotRectangle kPlace{0.0, 0.0, 400.0, 200.0};
+
+TEST(Svg, TicksAreRoundNumbersInside)
+{
+  EXPECT_EQ(roundTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+  EXPECT_EQ(roundTicks(-1.0, 1.0, 2), (std::vector<double>{-1, 0, 1}));
+  EXPECT_TRUE(roundTicks(1.0, 1.0, 5).empty());
+  EXPECT_TRUE(roundTicks(0.0, std::nan(""), 5).empty());
+}
+
+TEST(Svg, TextIsEscaped)
+{
+  EXPECT_EQ(escapeXml("a<b>&\"c\"'d'\x01"), "a&lt;b&gt;&amp;&quot;c&quot;&#39;d&#39;");
+}
+
+TEST(Svg, ALineBreaksWhereThereIsNoNumber)
+{
+  const double nan = std::nan("");
+  const std::string svg =
+      drawPanel(panelOf({"", "red", {{0, 0}, {1, 1}, {2, nan}, {3, INFINITY}, {4, 1}}}), kPlace);
+  EXPECT_EQ(countOf(svg, "<polyline"), 2U);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Svg, ABandBreaksWhereThereIsNoNumber)
+{
+  PlotPanel panel;
+  panel.bands = {{"red", {{0, -1, 1}, {1, -1, 1}, {2, std::nan(""), 1}, {3, -1, 1}}}};
+  const std::string svg = drawPanel(panel, kPlace);
+  EXPECT_EQ(countOf(svg, "<polygon"), 2U);
+  EXPECT_EQ(
+      countOf(svg, "'/>"),
+      countOf(svg, "<polygon") + countOf(svg, "<line") + countOf(svg, "<rect"));
+}
+
+TEST(Svg, CellsThatTouchAreOneStroke)
+{
+  PlotPanel panel;
+  panel.cells = {{"red", 1.0, 1.0, {{0, 0}, {2, 0}, {1, 0}, {5, 0}, {0, 1}}}};
+  const std::string svg = drawPanel(panel, kPlace);
+  EXPECT_EQ(countOf(svg, "M"), 3U) << svg;
+}
+
+TEST(Svg, AStretchOfAMomentIsSeen)
+{
+  PlotPanel panel = panelOf({"", "red", {{0, 0}, {1000, 1}}});
+  panel.stretches = {{500, 500, "blue", "<why>"}};
+  const std::string svg = drawPanel(panel, kPlace);
+  EXPECT_NE(svg.find("width='1.5'"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("<title>&lt;why&gt;</title>"), std::string::npos) << svg;
+}
+
+TEST(Svg, AnEmptyPanelHasAxes)
+{
+  const std::string svg = drawPanel({}, kPlace);
+  EXPECT_NE(svg.find(">0.5<"), std::string::npos) << svg;
+}
+
+}  // namespace
+}  // namespace fastlio

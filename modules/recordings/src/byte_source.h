@@ -1,0 +1,109 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file byte_source.h Bytes of a file, and bytes that a stretch of a file inflates to. */
+#pragma once
+
+#include <fastlio/recordings/inflater.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+using Bytes = std::vector<std::uint8_t>;
+
+/** Of a message or another record [bytes]; as of the objects of a rawlog. */
+inline constexpr std::size_t kLargestRecord = std::size_t{256} << 20U;
+
+/** Bytes in their order. */
+class ByteSource
+{
+ public:
+  ByteSource() = default;
+  virtual ~ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  /** Fewer than \a size: the source has ended. */
+  virtual std::size_t read(std::uint8_t* data, std::size_t size) = 0;
+
+  /** \return whether there were so many */
+  virtual bool skip(std::uint64_t size);
+};
+
+/** Reads \a size bytes in pieces, so that memory is taken for what is there only.
+ * \return whether all were there; \a bytes holds what was */
+[[nodiscard]] bool readBytes(ByteSource& source, std::size_t size, Bytes& bytes);
+
+/** A whole file. */
+class FileBytes : public ByteSource
+{
+ public:
+  /** \exception std::runtime_error it cannot be opened; the message goes on behind "the file" */
+  explicit FileBytes(const std::string& path);
+
+  std::size_t read(std::uint8_t* data, std::size_t size) override;
+  bool skip(std::uint64_t size) override;
+  void seek(std::uint64_t position);
+
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::uint64_t left() const { return size_ - position_; }
+
+ private:
+  struct Closer
+  {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Closer> file_;
+  std::uint64_t size_ = 0, position_ = 0;
+};
+
+/** A stretch of a file, inflated; without an inflater as it is. */
+class StretchBytes : public ByteSource
+{
+ public:
+  /** Begins at the file's position. The file must outlive it. */
+  StretchBytes(
+      FileBytes& file, std::uint64_t size, std::unique_ptr<Inflater> inflater,
+      bool with_checksum = false);
+
+  std::size_t read(std::uint8_t* data, std::size_t size) override;
+  bool skip(std::uint64_t size) override;
+
+  /** The compressed data are damaged. */
+  [[nodiscard]] bool corrupt() const { return corrupt_; }
+  /** The file ends inside the stretch. */
+  [[nodiscard]] bool truncated() const { return truncated_; }
+
+  /** The checksum (CRC-32) of all bytes; nothing when some were not looked at, or nobody
+   * asked for it. */
+  [[nodiscard]] std::optional<std::uint32_t> checksum() const;
+
+ private:
+  void load();
+  std::size_t inflate(std::uint8_t* data, std::size_t size);
+  std::size_t takeReady(std::uint8_t* data, std::size_t size);
+
+  FileBytes& file_;
+  std::uint64_t left_;
+  std::unique_ptr<Inflater> inflater_;
+  bool with_checksum_;
+  Bytes buffer_;  // compressed
+  std::size_t begin_ = 0, end_ = 0;
+  Bytes ready_;  // inflated, for small reads
+  std::size_t ready_begin_ = 0;
+  bool ended_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
+  std::uint32_t checksum_ = 0;
+};
+
+/** The first bytes of a file, fewer when it is shorter; none when it is no readable file. */
+[[nodiscard]] std::string headOf(const std::string& path, std::size_t size);
+
+}  // namespace fastlio

@@ -1,0 +1,46 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file packet_sensor.h Packets of one sensor to observations: one class per maker. */
+#pragma once
+
+#include "udp_capture.h"
+
+#include <mrpt/obs/CObservation.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fastlio
+{
+using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
+
+/** Collects the packets of a scan, and gives it when it is complete. */
+class PacketSensor
+{
+ public:
+  PacketSensor() = default;
+  virtual ~PacketSensor() = default;
+  PacketSensor(const PacketSensor&) = delete;
+  PacketSensor& operator=(const PacketSensor&) = delete;
+
+  /** A packet that the sensor's kind was recognised by, or another one of that size. */
+  virtual void take(const UdpPacket& packet, ObservationQueue& out) = 0;
+
+  /** What is left at the end. */
+  virtual void flush(ObservationQueue& out) = 0;
+};
+
+/** \name By maker. The functions that recognise look at the packet alone.
+ * @{ */
+[[nodiscard]] bool isVelodynePacket(const UdpPacket& packet);
+[[nodiscard]] std::unique_ptr<PacketSensor> makeVelodyneSensor(const std::string& label);
+
+[[nodiscard]] bool isLivoxPacket(const UdpPacket& packet);
+[[nodiscard]] bool isLivoxImu(const UdpPacket& packet);
+[[nodiscard]] std::unique_ptr<PacketSensor> makeLivoxSensor(const std::string& label);
+/** @} */
+
+}  // namespace fastlio

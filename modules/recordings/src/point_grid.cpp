@@ -1,0 +1,143 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "point_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+namespace fastlio
+{
+namespace
+{
+
+constexpr std::array<std::size_t, 11> kFieldSizes{0, 1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
+
+// First those that can mean nothing else.
+constexpr std::array<std::string_view, 15> kTimeNames{
+    "t",          "time",       "timestamp",   "time_stamp",    "timeStamp",
+    "timeOffset", "timeoffset", "time_offset", "offset_time",   "offsetTime",
+    "point_time", "time_ns",    "t_offset",    "relative_time", "stamp"};
+constexpr std::array<std::string_view, 6> kRingNames{"ring", "line",     "channel",
+                                                     "row",  "laser_id", "scan_line"};
+constexpr std::array<std::string_view, 4> kIntensityNames{
+    "intensity", "reflectivity", "i", "signal"};
+
+template <typename T>
+double valueAt(const std::uint8_t* bytes, bool swap)
+{
+  std::array<std::uint8_t, sizeof(T)> raw{};
+  for (std::size_t i = 0; i < sizeof(T); ++i)
+    raw[i] = bytes[swap ? sizeof(T) - 1 - i : i];
+  T value{};
+  std::memcpy(&value, raw.data(), sizeof(T));
+  return static_cast<double>(value);
+}
+
+using ValueReader = double (*)(const std::uint8_t*, bool);
+
+ValueReader valueReaderOf(std::uint8_t type)
+{
+  constexpr std::array<ValueReader, 11> kReaders{
+      nullptr,
+      valueAt<std::int8_t>,
+      valueAt<std::uint8_t>,
+      valueAt<std::int16_t>,
+      valueAt<std::uint16_t>,
+      valueAt<std::int32_t>,
+      valueAt<std::uint32_t>,
+      valueAt<float>,
+      valueAt<double>,
+      valueAt<std::int64_t>,
+      valueAt<std::uint64_t>};
+  return kReaders.at(type);
+}
+
+/** Numbers of lines may be stored in any type; what is no such number is line 0. */
+template <typename Wanted>
+Wanted as(double value)
+{
+  if constexpr (!std::is_floating_point_v<Wanted>)
+    if (!(value >= 0.0 && value <= std::numeric_limits<Wanted>::max())) return Wanted{0};
+  return static_cast<Wanted>(value);
+}
+
+template <typename Wanted>
+std::vector<Wanted> columnOf(const PointGrid& grid, const PointField& field)
+{
+  const ValueReader read = valueReaderOf(field.type);
+  std::vector<Wanted> values;
+  values.reserve(grid.width * grid.height);
+  for (std::size_t row = 0; row < grid.height; ++row)
+  {
+    const std::uint8_t* point = grid.data + row * grid.row_step + field.offset;
+    for (std::size_t i = 0; i < grid.width; ++i, point += grid.step)
+      values.push_back(as<Wanted>(read(point, grid.swap)));
+  }
+  return values;
+}
+
+/** Null: there is none of these names that lies within a point. */
+template <std::size_t Count>
+const PointField* fieldOf(
+    const std::vector<PointField>& fields, const std::array<std::string_view, Count>& names,
+    std::size_t step)
+{
+  for (const std::string_view name : names)
+    for (const PointField& field : fields)
+      if (field.name == name && field.type >= kInt8 && field.type <= kUint64 &&
+          field.offset + kFieldSizes.at(field.type) <= step)
+        return &field;
+  return nullptr;
+}
+
+template <std::size_t Count>
+const PointField& requireField(
+    const std::vector<PointField>& fields, const std::array<std::string_view, Count>& names,
+    std::size_t step)
+{
+  if (const PointField* field = fieldOf(fields, names, step)) return *field;
+  throw std::runtime_error("the cloud has no field '" + std::string(names[0]) + "'");
+}
+
+void requireInside(const PointGrid& grid, std::size_t bytes)
+{
+  constexpr std::size_t kMostPoints = std::size_t{1} << 28U;  // a message has fewer bytes
+  const bool sane = grid.step > 0 && grid.width <= kMostPoints && grid.height <= kMostPoints &&
+                    grid.width * grid.step <= grid.row_step;
+  const bool inside = sane && grid.row_step <= bytes &&
+                      grid.height <= bytes / std::max<std::size_t>(grid.row_step, 1);
+  if (!inside && grid.width * grid.height != 0)
+    throw std::runtime_error(
+        "the cloud claims " + std::to_string(grid.height) + " rows of " +
+        std::to_string(grid.width) + " points of " + std::to_string(grid.step) +
+        " bytes, and has " + std::to_string(bytes) + " bytes");
+}
+}  // namespace
+
+CloudColumns columnsOf(
+    const PointGrid& grid, std::size_t bytes, const std::vector<PointField>& fields)
+{
+  requireInside(grid, bytes);
+  CloudColumns columns;
+  columns.x = columnOf<float>(grid, requireField<1>(fields, {"x"}, grid.step));
+  columns.y = columnOf<float>(grid, requireField<1>(fields, {"y"}, grid.step));
+  columns.z = columnOf<float>(grid, requireField<1>(fields, {"z"}, grid.step));
+  if (const PointField* intensity = fieldOf(fields, kIntensityNames, grid.step))
+    columns.intensity = columnOf<float>(grid, *intensity);
+  if (const PointField* ring = fieldOf(fields, kRingNames, grid.step))
+    columns.ring = columnOf<std::uint16_t>(grid, *ring);
+  if (const PointField* time = fieldOf(fields, kTimeNames, grid.step))
+  {
+    columns.time = columnOf<double>(grid, *time);
+    columns.single_precision_time = time->type == kFloat32;
+  }
+  return columns;
+}
+
+}  // namespace fastlio

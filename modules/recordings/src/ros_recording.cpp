@@ -1,0 +1,238 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "ros_recording.h"
+
+#include "ros_types.h"
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <algorithm>
+#include <iterator>
+#include <new>
+
+namespace fastlio
+{
+namespace
+{
+// How much of a recording is looked through for transforms: a second or so of any vehicle. They are
+// latched, and recorders write them first.
+constexpr std::size_t kLookMessages = 5000;
+constexpr std::uint64_t kLookBytes = std::uint64_t{64} << 20U;
+
+bool isWanted(const RosTopic& topic)
+{
+  return topic.trouble.empty() && rosTypeOf(topic.type).isTaken();
+}
+
+// Bags of ROS 2 may compress each message by itself; CDR never begins like that.
+constexpr std::uint8_t kZstdMessage[] = {0x28, 0xB5, 0x2F, 0xFD};
+
+bool isCompressed(const RosMessage& message)
+{
+  return message.topic->format == WireFormat::Cdr && message.data->size() >= sizeof kZstdMessage &&
+         std::equal(std::begin(kZstdMessage), std::end(kZstdMessage), message.data->begin());
+}
+
+Bytes inflated(const Bytes& packed)
+{
+  constexpr std::size_t kPiece = std::size_t{1} << 18U;
+  const auto inflater = makeZstdInflater();
+  Bytes bytes;
+  for (std::size_t done = 0;;)
+  {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kPiece);
+    const auto step = inflater->step(
+        packed.data() + done, static_cast<std::uint32_t>(packed.size() - done), bytes.data() + size,
+        kPiece);
+    done += step.consumed;
+    bytes.resize(size + step.produced);
+    if (step.status == InflateStatus::MemberEnd) return bytes;
+    if (step.status == InflateStatus::Corrupt || (step.consumed == 0 && step.produced == 0))
+      throw std::runtime_error("its compressed data are damaged");
+    if (bytes.size() > kLargestRecord) throw std::runtime_error("it is larger than 256 MiB");
+  }
+}
+
+bool tellsOfOthers(const RosTopic& topic)
+{
+  const RosRole role = rosTypeOf(topic.type).role;
+  return topic.trouble.empty() && (role == RosRole::Transforms || role == RosRole::Text);
+}
+
+bool isStatic(const RosTopic& topic)
+{
+  return topic.name.find("static") != std::string::npos;
+}
+}  // namespace
+
+RosRecording::RosRecording(std::string path, OpenMessages open)
+    : path_(std::move(path)), open_(std::move(open))
+{
+  lookAhead();
+  messages_ = open_();
+}
+
+void RosRecording::lookAhead()
+{
+  messages_ = open_();
+  for (std::size_t i = 0; i < kLookMessages && messages_->position() < kLookBytes; ++i)
+  {
+    const NextMessage next = messages_->next(tellsOfOthers);
+    if (std::holds_alternative<EndOfRecording>(next)) return;
+    if (const auto* message = std::get_if<RosMessage>(&next)) lookAt(*message);
+  }
+}
+
+void RosRecording::lookAt(const RosMessage& message)
+{
+  if (message.data == nullptr || !tellsOfOthers(*message.topic)) return;
+  try
+  {
+    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
+    const Bytes& data = own.empty() ? *message.data : own;
+    WireReader in(data.data(), data.size(), message.topic->format);
+    if (rosTypeOf(message.topic->type).role == RosRole::Text)
+      ouster_.takeMetadata(message.topic->name, in);
+    else
+      for (const RosTransform& transform : readTransforms(in))
+        isStatic(*message.topic) ? transforms_.addFixed(transform)
+                                 : transforms_.addMoving(transform);
+  }
+  catch (const std::runtime_error&)
+  {
+    // A pose less; the run says which poses it uses.
+  }
+}
+
+NextRecorded RosRecording::next()
+{
+  for (;;)
+  {
+    if (!queue_.empty())
+    {
+      auto observation = std::move(queue_.front());
+      queue_.pop_front();
+      return observation;
+    }
+    NextMessage next = messages_->next(isWanted);
+    if (auto* problem = std::get_if<ReadProblem>(&next)) return std::move(*problem);
+    if (std::holds_alternative<EndOfRecording>(next))
+    {
+      ouster_.flush(queue_);
+      if (queue_.empty()) return EndOfRecording{};
+      continue;
+    }
+    const auto& message = std::get<RosMessage>(next);
+    ++index_;
+    ++counts_[message.topic->name].messages;
+    if (message.data != nullptr)
+    {
+      if (auto broken = convert(message)) return std::move(*broken);
+      continue;
+    }
+    const bool lost = !message.topic->trouble.empty() &&
+                      (message.topic->type.empty() || rosTypeOf(message.topic->type).isTaken());
+    if (lost && refused_.insert(message.topic->name).second)
+    {
+      ReadProblem problem = problemOf(message, message.topic->trouble);
+      problem.kind = ReadProblemKind::NotSupported;
+      return problem;
+    }
+  }
+}
+
+// Its observations are in the queue then.
+std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
+{
+  const RosTopic& topic = *message.topic;
+  try
+  {
+    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
+    const Bytes& data = own.empty() ? *message.data : own;
+    WireReader in(data.data(), data.size(), topic.format);
+    const RosType& type = rosTypeOf(topic.type);
+    if (type.role == RosRole::OusterPackets)
+      ouster_.takePacket(topic.name, in, queue_);
+    else
+    {
+      RosObservation result = type.read(in, topic.name);
+      setPose(*result.observation, result.frame);
+      queue_.push_back(std::move(result.observation));
+    }
+    ++counts_[topic.name].taken;
+    return std::nullopt;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return problemOf(message, "it asks for more memory than there is");
+  }
+  catch (const std::exception& e)
+  {
+    return problemOf(message, e.what());
+  }
+}
+
+ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string& what) const
+{
+  const std::string& known = message.topic->type;
+  const std::string type = (known.empty() ? "unknown type" : known) + " on " + message.topic->name;
+  return {
+      path_,
+      index_ - 1,
+      message.offset,
+      ReadProblemKind::Corrupt,
+      printable(type),
+      path_ + ": message " + std::to_string(index_ - 1) + " (" + printable(type) + ") at byte " +
+          std::to_string(message.offset) + ": " + printable(what, 1000) + ".",
+      1};
+}
+
+void RosRecording::setPose(mrpt::obs::CObservation& observation, const std::string& frame)
+{
+  const auto known = frames_.find(observation.sensorLabel);
+  if (vehicle_.empty()) vehicle_ = transforms_.vehicleFrameOf(frame).value_or("");
+  std::optional<Pose> pose;
+  if (!vehicle_.empty()) pose = transforms_.poseOf(frame, vehicle_);
+  if (pose) observation.setSensorPose(toMrptPose(*pose));
+  if (known != frames_.end()) return;
+  frames_[observation.sensorLabel] =
+      "'" + printable(frame) + "'" +
+      (pose ? ", pose in '" + printable(vehicle_) + "' " + poseText(*pose, 6) + " by tf"
+            : ", no pose is recorded");
+}
+
+std::vector<TopicReport> RosRecording::topics() const
+{
+  std::vector<TopicReport> reports;
+  for (const RosTopic* topic : messages_->topics())
+  {
+    const bool there = std::any_of(
+        reports.begin(), reports.end(),
+        [&](const TopicReport& report) { return report.name == topic->name; });
+    if (there) continue;
+    TopicReport report{topic->name, topic->type, 0, 0, rosTypeOf(topic->type).meaning};
+    if (!topic->trouble.empty()) report.reason = "not read: " + topic->trouble;
+    if (const auto counts = counts_.find(topic->name); counts != counts_.end())
+    {
+      report.messages = counts->second.messages;
+      report.taken = counts->second.taken;
+    }
+    if (const auto frame = frames_.find(topic->name); frame != frames_.end())
+      report.reason += "; frame " + frame->second;
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+std::vector<std::string> RosRecording::notes() const
+{
+  std::vector<std::string> notes;
+  for (const auto& [label, text] : frames_)
+    notes.push_back("'" + printable(label) + "': frame " + text + ".");
+  return notes;
+}
+
+}  // namespace fastlio

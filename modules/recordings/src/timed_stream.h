@@ -1,0 +1,117 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file timed_stream.h The sensors of a folder, each with its own files and stamps. */
+#pragma once
+
+#include <fastlio/math/pose.h>
+#include <fastlio/recordings/recording_reader.h>
+#include <fastlio/sensors/xyzirt_access.h>
+
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fastlio
+{
+/** Observations of one sensor in the order of their stamps. */
+class TimedStream
+{
+ public:
+  TimedStream() = default;
+  virtual ~TimedStream() = default;
+  TimedStream(const TimedStream&) = delete;
+  TimedStream& operator=(const TimedStream&) = delete;
+
+  /** Of the observation at hand [ns]; nothing behind the last one. */
+  [[nodiscard]] virtual std::optional<std::int64_t> stamp() const = 0;
+  /** The observation at hand, or why it cannot be read; goes on to the next one. */
+  [[nodiscard]] virtual NextRecorded take() = 0;
+  [[nodiscard]] virtual TopicReport report() const = 0;
+  /** Bytes that have been read. */
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+};
+
+/** A file and its stamp. */
+struct TimedFile
+{
+  std::int64_t stamp_ns = 0;
+  std::string path;
+};
+
+/** One cloud a file. */
+class CloudStream : public TimedStream
+{
+ public:
+  /** \param pose of the sensor in the vehicle, if the folder tells it */
+  CloudStream(
+      std::string label, std::vector<TimedFile> files, std::string reason,
+      const std::optional<Pose>& pose = {});
+
+  [[nodiscard]] std::optional<std::int64_t> stamp() const override;
+  [[nodiscard]] NextRecorded take() override;
+  [[nodiscard]] TopicReport report() const override;
+  [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+
+ private:
+  std::string label_, reason_;
+  std::vector<TimedFile> files_;
+  std::optional<Pose> pose_;
+  std::size_t next_ = 0, taken_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+/** A table of inertial samples: time, angular rate, specific force, one sample a line. A first line
+ * with names tells the columns; without one they are time, three rates, three accelerations. */
+class ImuTable : public TimedStream
+{
+ public:
+  /** \exception std::runtime_error it cannot be opened, or its first line names no such columns */
+  explicit ImuTable(const std::string& path);
+
+  [[nodiscard]] std::optional<std::int64_t> stamp() const override;
+  [[nodiscard]] NextRecorded take() override;
+  [[nodiscard]] TopicReport report() const override;
+  [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+
+ private:
+  void readNames(const std::string& line);
+  void advance();
+  [[nodiscard]] bool parseLine(std::string_view line);
+
+  std::string path_;
+  std::ifstream in_;
+  std::vector<std::size_t> columns_;  // of time, three rates, three accelerations
+  std::optional<std::int64_t> stamp_ns_;
+  std::vector<double> values_;  // three rates, three accelerations
+  std::size_t lines_ = 0, taken_ = 0, bad_ = 0;
+  bool told_ = false;  // that some lines are bad
+  std::uint64_t bytes_ = 0;
+};
+
+/** One file of KITTI's OXTS a sample: acceleration, rate and position. */
+class OxtsStream : public TimedStream
+{
+ public:
+  explicit OxtsStream(std::vector<TimedFile> files) : files_(std::move(files)) {}
+
+  [[nodiscard]] std::optional<std::int64_t> stamp() const override;
+  [[nodiscard]] NextRecorded take() override;
+  [[nodiscard]] TopicReport report() const override;
+  [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
+
+ private:
+  std::vector<TimedFile> files_;
+  std::size_t next_ = 0, taken_ = 0;
+  std::uint64_t bytes_ = 0;
+};
+
+/** Files of a folder with one of the extensions (".bin"), by name. */
+[[nodiscard]] std::vector<std::string> filesIn(
+    const std::string& folder, const std::vector<std::string>& extensions);
+
+}  // namespace fastlio

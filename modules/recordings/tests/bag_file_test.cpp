@@ -1,0 +1,183 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "recording_test_support.h"
+
+namespace
+{
+using namespace fastlio;
+using namespace fastlio::testing;
+
+class BagFileTest : public RecordingTest
+{
+};
+
+TEST_F(BagFileTest, ReadsEveryCompressionWithAndWithoutIndex)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  for (const char* compression : {"none", "bz2", "lz4"})
+    for (const bool index : {true, false})
+    {
+      const Recorded bag = readRecording(fileOf(bagOf(messages, {compression, 50, index})));
+      ASSERT_EQ(bag.observations.size(), messages.size()) << compression << ' ' << index;
+      EXPECT_TRUE(bag.problems.empty()) << bag.problems.front().message;
+      for (std::size_t i = 0; i < messages.size(); ++i)
+      {
+        EXPECT_EQ(bag.observations[i]->sensorLabel, messages[i].topic);
+        EXPECT_EQ(toNanoseconds(bag.observations[i]->timestamp), messages[i].stamp_ns);
+      }
+    }
+}
+
+TEST_F(BagFileTest, TopicsTellWhatIsTakenAndWhatIsNot)
+{
+  auto messages = smallRecording(Wire::Ros1, 2);
+  messages.push_back({"/camera", "sensor_msgs/Image", kStart, std::string(5000, 'x')});
+  const Recorded bag = readRecording(fileOf(bagOf(messages)));
+  ASSERT_EQ(bag.topics.size(), 3U);
+  EXPECT_EQ(bag.topic("/lidar")->messages, 2U);
+  EXPECT_EQ(bag.topic("/lidar")->taken, 2U);
+  EXPECT_EQ(bag.topic("/camera")->messages, 1U);
+  EXPECT_EQ(bag.topic("/camera")->taken, 0U);
+  EXPECT_TRUE(contains(bag.topic("/camera")->reason, "not read"));
+  EXPECT_TRUE(contains(bag.topic("/imu")->reason, "IMU"));
+}
+
+TEST_F(BagFileTest, PosesOfSensorsComeFromTheTransforms)
+{
+  Pose T_base_lidar, T_base_imu;
+  T_base_lidar.p = Vec3(0.5, 0.0, 1.5);
+  T_base_imu.p = Vec3(0.1, 0.2, 0.3);
+  T_base_imu.R = expSO3(Vec3(0, 0, 0.5));
+  auto messages = smallRecording(Wire::Ros1, 2);
+  const auto transform = [](const char* child, const Pose& T)
+  {
+    return TopicMessage{
+        "/tf_static", "tf2_msgs/TFMessage", kStart,
+        transformMessage(Wire::Ros1, "base_link", child, T)};
+  };
+  messages.insert(
+      messages.begin() + 7, {transform("/lidar", T_base_lidar), transform("imu", T_base_imu)});
+  const Recorded bag = readRecording(fileOf(bagOf(messages)));
+  for (const auto& observation : bag.observations)
+  {
+    mrpt::poses::CPose3D pose;
+    observation->getSensorPose(pose);
+    const Pose& truth = observation->sensorLabel == "/lidar" ? T_base_lidar : T_base_imu;
+    EXPECT_LT((toPose(pose).p - truth.p).norm(), 1e-12);
+    EXPECT_LT((toPose(pose).R - truth.R).norm(), 1e-12);
+  }
+  ASSERT_EQ(bag.notes.size(), 2U);
+  EXPECT_TRUE(contains(bag.notes[1], "base_link")) << bag.notes[1];
+}
+
+TEST_F(BagFileTest, ACutBagGivesAllThatIsBeforeTheCut)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  for (const char* compression : {"none", "bz2", "lz4"})
+  {
+    const std::string whole = bagOf(messages, {compression, 20, false});
+    std::size_t before = 0;
+    for (std::size_t size = 5000; size < whole.size(); size += 997)
+    {
+      const Recorded bag = readRecording(fileOf(whole.substr(0, size)));
+      EXPECT_GE(bag.observations.size(), before) << size;
+      before = bag.observations.size();
+      if (bag.problems.empty()) continue;  // cut between two chunks
+      EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::Truncated) << bag.problems[0].message;
+      EXPECT_EQ(bag.problems.size(), 1U);
+    }
+    EXPECT_GT(before, messages.size() / 2) << compression;
+  }
+}
+
+TEST_F(BagFileTest, ADamagedChunkCostsItsOwnMessagesOnly)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  for (const char* compression : {"bz2", "lz4"})
+  {
+    std::string bytes = bagOf(messages, {compression, 20, true});
+    for (std::size_t at = 4400; at < 4500; ++at)
+      bytes[at] = static_cast<char>(~bytes[at]);
+    const Recorded bag = readRecording(fileOf(bytes));
+    EXPECT_GE(bag.observations.size(), messages.size() - 60) << compression;
+    EXPECT_LT(bag.observations.size(), messages.size()) << compression;
+    ASSERT_FALSE(bag.problems.empty());
+    EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::Corrupt) << bag.problems[0].message;
+  }
+}
+
+TEST_F(BagFileTest, ReadingGoesOnAtTheNextChunkBehindGarbage)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  const std::string bytes = bagOf(messages, {"none", 20, false});
+  const std::size_t second = bytes.find("compression=none", bytes.find("compression=none") + 1);
+  const std::string broken =
+      bytes.substr(0, second - 8) + std::string(100'000, '\x55') + bytes.substr(second - 8);
+  const Recorded bag = readRecording(fileOf(broken));
+  EXPECT_EQ(bag.observations.size(), messages.size());
+  ASSERT_EQ(bag.problems.size(), 1U);
+  EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::Corrupt) << bag.problems[0].message;
+}
+
+TEST_F(BagFileTest, AnUnknownCompressionIsNamedAndTheRestIsRead)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  std::string bytes = bagOf(messages, {"none", 20, true});
+  const std::string name = "compression=none";
+  bytes.replace(bytes.find(name), name.size(), "compression=zpaq");
+  const Recorded bag = readRecording(fileOf(bytes));
+  EXPECT_EQ(bag.observations.size(), messages.size() - 20);
+  ASSERT_EQ(bag.problems.size(), 1U);
+  EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::NotSupported);
+  EXPECT_TRUE(contains(bag.problems[0].message, "zpaq")) << bag.problems[0].message;
+}
+
+TEST_F(BagFileTest, MessagesWhoseConnectionIsLostAreNotLostInSilence)
+{
+  std::string bytes = bagOf(smallRecording(Wire::Ros1), {"none", 20, false});
+  const std::string name = "compression=none";
+  bytes.replace(bytes.find(name), name.size(), "compression=zpaq");
+  const Recorded bag = readRecording(fileOf(bytes));
+  EXPECT_TRUE(bag.observations.empty());
+  ASSERT_EQ(bag.problems.size(), 3U);  // the chunk, and each of two connections
+  EXPECT_TRUE(contains(bag.problems[1].message, "connection")) << bag.problems[1].message;
+}
+
+TEST_F(BagFileTest, AMessageOfAnotherTypeThanItSaysIsCountedAsAProblem)
+{
+  auto messages = smallRecording(Wire::Ros1, 2);
+  messages.push_back({"/wrong", "sensor_msgs/Imu", kStart, "not an IMU"});
+  const Recorded bag = readRecording(fileOf(bagOf(messages)));
+  EXPECT_EQ(bag.observations.size(), messages.size() - 1);
+  ASSERT_EQ(bag.problems.size(), 1U);
+  EXPECT_TRUE(contains(bag.problems[0].message, "/wrong")) << bag.problems[0].message;
+}
+
+TEST_F(BagFileTest, OtherVersionsAreRefusedByName)
+{
+  const std::string file = fileOf("#ROSBAG V1.2\nwhatever");
+  try
+  {
+    (void)recordingFormatOf(file)->open(file);
+    FAIL();
+  }
+  catch (const std::runtime_error& e)
+  {
+    EXPECT_TRUE(contains(e.what(), "V1.2")) << e.what();
+  }
+}
+
+TEST_F(BagFileTest, NoDamageThrowsOrRunsAway)
+{
+  const std::string whole = bagOf(smallRecording(Wire::Ros1, 2), {"lz4", 20, true});
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i)
+  {
+    std::string wrong = whole;
+    for (int k = 0; k < 5; ++k)
+      wrong[13 + random() % (wrong.size() - 13)] = static_cast<char>(random());
+    (void)readRecording(fileOf(wrong));
+  }
+}
+}  // namespace
