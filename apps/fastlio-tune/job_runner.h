@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file job_runner.h Runs jobs of the store as processes of fastlio-replay. */
+/** \file job_runner.h Workers that take jobs of a store until there are none. */
 #pragma once
 
 #include <fastlio/tuning/job_store.h>
@@ -14,17 +14,24 @@ namespace fastlio
 struct RunnerOptions
 {
   std::string store;
-  std::string measure = "ape";  //!< ape or rpe
-  int jobs = 1;                 //!< at the same time
-  double timeout = 3600.0;      //!< a longer run counts as failed [s]
+  int jobs = 1;             //!< at the same time; 0: others run them
+  double timeout = 3600.0;  //!< a longer run counts as failed [s]
+  double wait = 0.0;        //!< a worker without a job waits this long for one to be added [s]
 };
 
-/** Names measure, path and state of a recording, so that a changed file is another job. */
-[[nodiscard]] std::string recordingId(const std::string& measure, const std::string& path);
+/** Ctrl-C or SIGTERM: finished runs are stored, the others given back. */
+struct Interrupted
+{
+};
 
-/** The truth beside NAME.rawlog: NAME.gt.tum. */
-[[nodiscard]] std::string truthOf(const std::string& recording);
+/** Runs jobs until those of the search are finished, also by other processes that share the store.
+ * \exception Interrupted */
+void runSearch(const RunnerOptions& options, const std::string& search);
 
-/** Runs jobs until those given have results, also by other processes that share the store. */
-void runJobs(const RunnerOptions& options, const std::vector<Job>& wanted);
+/** Runs jobs of any search of this version until all are finished and none is added any more.
+ * \exception Interrupted */
+void runAny(const RunnerOptions& options);
+
+/** The version of the program, which names the jobs that it may run. */
+[[nodiscard]] std::string programVersion();
 }  // namespace fastlio

@@ -59,7 +59,8 @@ struct CmaConstants
       : lambda(4 + static_cast<std::size_t>(3.0 * std::log(n))), weights(lambda / 2)
   {
     for (Eigen::Index i = 0; i < weights.size(); ++i)
-      weights[i] = std::log(0.5 * static_cast<double>(lambda + 1)) - std::log(static_cast<double>(i + 1));
+      weights[i] =
+          std::log(0.5 * static_cast<double>(lambda + 1)) - std::log(static_cast<double>(i + 1));
     weights /= weights.sum();
     mu_eff = 1.0 / weights.squaredNorm();
     c_sigma = (mu_eff + 2) / (n + mu_eff + 5);

@@ -5,51 +5,97 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace fastlio
 {
 namespace
 {
-constexpr double kWorse = 1.05;   // a recording got worse
-constexpr double kBetter = 0.95;  // the mean over recordings got better
+constexpr double kWorse = 1.05;       // a recording got worse
+constexpr double kBetter = 0.95;      // the mean over recordings got better
+constexpr double kLeastError = 1e-9;  // so that ratios are finite [m]
 
-/** The best of those that make no recording worse; the base always is one. */
-std::size_t choose(const Ratios& ratios, std::optional<std::size_t> without)
+std::vector<std::size_t> allOf(const JudgedRuns& runs)
 {
-  std::size_t best = 0;
-  double best_mean = 1.0;
-  for (std::size_t c = 0; c < ratios.size(); ++c)
-  {
-    std::vector<double> used = ratios[c];
-    if (without) used.erase(used.begin() + static_cast<std::ptrdiff_t>(*without));
-    if (*std::max_element(used.begin(), used.end()) > kWorse) continue;
-    const double mean = meanRatio(used);
-    if (mean < best_mean) best = c, best_mean = mean;
-  }
-  return best;
+  std::vector<std::size_t> indices(runs.size());
+  std::iota(indices.begin(), indices.end(), std::size_t{0});
+  return indices;
+}
+
+/** Whether runs are better than those of the base: in their states, or by 5 % in their errors. */
+bool isBetter(const JudgedRuns& base, const JudgedRuns& runs)
+{
+  Score limit = scoreOf(base, base, allOf(base));
+  limit.mean_ratio = kBetter;
+  return scoreOf(base, runs, allOf(base)) < limit;
 }
 }  // namespace
 
-double meanRatio(const std::vector<double>& ratios)
+bool Score::operator<(const Score& other) const
 {
-  double sum = 0.0;
-  for (const double ratio : ratios)
-    sum += std::log(ratio);
-  return std::exp(sum / static_cast<double>(ratios.size()));
+  return std::tie(failed, lost, incomplete, mean_ratio) <
+         std::tie(other.failed, other.lost, other.incomplete, other.mean_ratio);
 }
 
-Verdict leaveOneOut(const Ratios& ratios)
+std::optional<double> ratioOf(const Judged& base, const Judged& trial)
 {
-  Verdict verdict;
-  verdict.best = choose(ratios, std::nullopt);
-  const std::size_t recordings = ratios.front().size();
-  if (recordings < 2) return verdict;
-  for (std::size_t r = 0; r < recordings; ++r)
-    verdict.left_out.push_back(ratios[choose(ratios, r)][r]);
-  verdict.recommended =
-      verdict.best != 0 && meanRatio(verdict.left_out) < kBetter &&
-      *std::max_element(verdict.left_out.begin(), verdict.left_out.end()) <= kWorse;
-  return verdict;
+  if (!base.error || !trial.error) return std::nullopt;
+  return std::max(*trial.error, kLeastError) / std::max(*base.error, kLeastError);
+}
+
+Score scoreOf(
+    const JudgedRuns& base, const JudgedRuns& trial, const std::vector<std::size_t>& recordings)
+{
+  Score score;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const std::size_t r : recordings)
+  {
+    const RunState state = trial[r].state;
+    if (state == RunState::Failed)
+      ++score.failed;
+    else if (state == RunState::Lost)
+      ++score.lost;
+    else if (state != RunState::Complete)
+      ++score.incomplete;
+    if (const auto ratio = ratioOf(base[r], trial[r])) sum += std::log(*ratio), count += 1.0;
+  }
+  if (count > 0.0) score.mean_ratio = std::exp(sum / count);
+  return score;
+}
+
+bool isWorse(const Judged& base, const Judged& trial)
+{
+  if (trial.state != base.state) return trial.state > base.state;
+  const auto ratio = ratioOf(base, trial);
+  return ratio && *ratio > kWorse;
+}
+
+std::size_t bestTrial(
+    const std::vector<JudgedRuns>& trials, const std::vector<std::size_t>& recordings)
+{
+  const JudgedRuns& base = trials.front();
+  std::size_t best = 0;
+  Score best_score = scoreOf(base, base, recordings);
+  for (std::size_t i = 1; i < trials.size(); ++i)
+  {
+    const bool worse = std::any_of(
+        recordings.begin(), recordings.end(),
+        [&](std::size_t r) { return isWorse(base[r], trials[i][r]); });
+    const Score score = scoreOf(base, trials[i], recordings);
+    if (!worse && score < best_score) best = i, best_score = score;
+  }
+  return best;
+}
+
+Conclusion concludeFrom(const JudgedRuns& base, const JudgedRuns& best, const JudgedRuns& left_out)
+{
+  if (base.size() < 2) return Conclusion::TooFewRecordings;
+  if (!isBetter(base, best)) return Conclusion::NothingBetter;
+  for (std::size_t r = 0; r < base.size(); ++r)
+    if (isWorse(base[r], left_out[r])) return Conclusion::WorseOnLeftOut;
+  return isBetter(base, left_out) ? Conclusion::Better : Conclusion::NothingBetter;
 }
 
 }  // namespace fastlio

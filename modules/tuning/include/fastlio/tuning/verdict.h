@@ -1,8 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file verdict.h Whether the best parameters also hold on recordings that did not choose them. */
+/** \file verdict.h Which trial is best, and whether it also holds on recordings that did not choose
+ * it. */
 #pragma once
+
+#include <fastlio/tuning/run_outcome.h>
 
 #include <cstddef>
 #include <optional>
@@ -10,21 +13,52 @@
 
 namespace fastlio
 {
-/** Error divided by that of the base, per candidate and recording. */
-using Ratios = std::vector<std::vector<double>>;
-
-struct Verdict
+/** What counts of a run: its state and its error. */
+struct Judged
 {
-  std::size_t best =
-      0;  //!< candidate with the smallest geometric mean, of those that are worse on none
-  std::vector<double> left_out;  //!< per recording: ratio of the candidate that the others choose
-  bool recommended = false;      //!< better on the recordings left out, worse on none of them
+  RunState state = RunState::Failed;
+  std::optional<double> error;
 };
 
-/** Geometric mean. */
-[[nodiscard]] double meanRatio(const std::vector<double>& ratios);
+/** One per recording. */
+using JudgedRuns = std::vector<Judged>;
 
-/** Candidate 0 is the base (all ratios 1). With one recording nothing is recommended. */
-[[nodiscard]] Verdict leaveOneOut(const Ratios& ratios);
+/** How good a trial is over recordings. Runs that are not complete rank behind all that are,
+ * whatever their error, and a run without an error takes no part in the mean. */
+struct Score
+{
+  std::size_t failed = 0, lost = 0, incomplete = 0;  //!< runs that ended so (see RunState)
+  double mean_ratio = 1.0;  //!< geometric mean of error by error of the base
+
+  [[nodiscard]] bool operator<(const Score& other) const;
+};
+
+/** \param recordings indices of those that count */
+[[nodiscard]] Score scoreOf(
+    const JudgedRuns& base, const JudgedRuns& trial, const std::vector<std::size_t>& recordings);
+
+/** Error by error of the base; nothing where one of them is missing. */
+[[nodiscard]] std::optional<double> ratioOf(const Judged& base, const Judged& trial);
+
+/** Whether a run is worse than that of the base: in its state, or by more than 5 % in its error. */
+[[nodiscard]] bool isWorse(const Judged& base, const Judged& trial);
+
+/** The trial with the best score among those that make none of the recordings worse. Trial 0 is the
+ * base, which always is one of them. */
+[[nodiscard]] std::size_t bestTrial(
+    const std::vector<JudgedRuns>& trials, const std::vector<std::size_t>& recordings);
+
+enum class Conclusion
+{
+  Better,           //!< also on recordings that did not choose
+  NothingBetter,    //!< the base is the best, or gains less than 5 %
+  WorseOnLeftOut,   //!< better where chosen, worse on a recording that was left out
+  TooFewRecordings  //!< one recording leaves none out
+};
+
+/** \param best of all recordings, which is to be recommended
+ * \param left_out per recording, the run on it of the trial that was chosen without it */
+[[nodiscard]] Conclusion concludeFrom(
+    const JudgedRuns& base, const JudgedRuns& best, const JudgedRuns& left_out);
 
 }  // namespace fastlio

@@ -1,18 +1,15 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/tuning/job_store.h>
 #include <fastlio/tuning/search.h>
 #include <fastlio/tuning/search_space.h>
-#include <fastlio/tuning/verdict.h>
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 #include <unistd.h>
 
 namespace fastlio
@@ -99,56 +96,6 @@ TEST(Search, GridHasAllCombinations)
   const auto search = gridSearch({2, 3});
   EXPECT_EQ(search->ask().size(), 6U);
   EXPECT_TRUE(search->ask().empty());
-}
-
-TEST(JobStore, ThousandJobsNoneLostNoneTwice)
-{
-  const std::string path = pathOf("jobs.sqlite");
-  JobStore store(path);
-  constexpr int kJobs = 1000;
-  for (int i = 0; i < kJobs; ++i)
-    store.add({std::to_string(i), "r"});
-  std::vector<std::atomic<int>> runs(kJobs);
-  const auto work = [&](const std::string& owner)
-  {
-    JobStore own(path);
-    while (const auto job = own.claim(owner, 600))
-    {
-      ++runs[std::stoul(job->parameters)];
-      EXPECT_TRUE(own.finish(owner, *job, {std::stod(job->parameters), ""}));
-    }
-  };
-  std::thread a(work, "a");
-  std::thread b(work, "b");
-  a.join();
-  b.join();
-  for (int i = 0; i < kJobs; ++i)
-  {
-    EXPECT_EQ(runs[static_cast<std::size_t>(i)], 1);
-    EXPECT_EQ(store.result({std::to_string(i), "r"})->error, i);
-  }
-}
-
-TEST(JobStore, JobOfKilledOwnerIsTakenAfterItsLease)
-{
-  JobStore store(pathOf("lease.sqlite"));
-  store.add({"p", "r"});
-  ASSERT_TRUE(store.claim("killed", -1.0));
-  const auto job = store.claim("next", 600);
-  ASSERT_TRUE(job);
-  EXPECT_FALSE(store.claim("third", 600));
-  EXPECT_FALSE(store.finish("killed", *job, {1.0, ""}));
-  EXPECT_FALSE(store.result(*job));
-  EXPECT_TRUE(store.finish("next", *job, {std::nullopt, "diverged"}));
-  EXPECT_EQ(store.result(*job)->message, "diverged");
-}
-
-TEST(Verdict, RecommendsWhatHoldsOnRecordingsLeftOut)
-{
-  EXPECT_TRUE(leaveOneOut({{1, 1, 1}, {0.5, 0.6, 0.5}}).recommended);
-  EXPECT_EQ(leaveOneOut({{1, 1, 1}, {0.5, 0.6, 0.5}}).best, 1U);
-  EXPECT_FALSE(leaveOneOut({{1, 1, 1}, {0.1, 0.9, 1.5}}).recommended);
-  EXPECT_FALSE(leaveOneOut({{1}, {0.5}}).recommended);
 }
 }  // namespace
 }  // namespace fastlio

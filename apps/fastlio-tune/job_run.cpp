@@ -1,0 +1,146 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "job_run.h"
+
+#include "child_process.h"
+
+#include <fastlio/evaluation/evaluate.h>
+#include <fastlio/evaluation/trajectory_io.h>
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/tuning/run_measures.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+constexpr double kLeastCoverage = 0.9;  // of the truth, below which a trajectory is truncated
+// Finer than the default, so that the thickness of surfaces shows.
+constexpr const char* kMapSpacing = "map.output_spacing=0.05";
+
+/** A folder that is removed at the end. */
+struct ScratchFolder
+{
+  ScratchFolder()
+  {
+    std::string name = (fs::temp_directory_path() / "fastlio-tune-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error("cannot make folder '" + name + "'; is TMPDIR full?");
+    path = name;
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  fs::path path;
+};
+
+std::string lastLineOf(const fs::path& file)
+{
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) last = line;
+  return last.empty() ? "" : ": " + last;
+}
+
+std::vector<std::string> wordsOf(const Job& job, const fs::path& folder)
+{
+  std::vector<std::string> words = {
+      replayProgram(), "--input-rawlog", job.recording, "-o", (folder / "run").string(),
+      "--export", "trajectory,states,timing,ply", "--set", kMapSpacing, "--frame", job.frame,
+      "--threads", "1", "-q"};
+  // All defaults are an empty text, which is no configuration.
+  if (!job.parameters.empty())
+  {
+    const std::string config = (folder / "parameters.yaml").string();
+    writeFileAtomically(config, job.parameters);
+    words.insert(words.end(), {"-c", config});
+  }
+  return words;
+}
+
+/** The state that an exit status of fastlio-replay stands for. */
+RunState stateOf(int status)
+{
+  if (status == 0) return RunState::Complete;
+  if (status == 3) return RunState::Truncated;
+  if (status == 4) return RunState::Lost;
+  if (status == 6) return RunState::Degraded;
+  return RunState::Failed;
+}
+
+/** Adds the errors against the truth; a trajectory that covers little of it is truncated. */
+void addErrors(const Job& job, const fs::path& run, RunOutcome& outcome)
+{
+  const auto report = evaluate(readTum(run / "trajectory.tum"), readTum(job.truth));
+  if (report.association.coverage < kLeastCoverage)
+    outcome.state = std::max(outcome.state, RunState::Truncated);
+  outcome.measures["coverage"] = report.association.coverage;
+  outcome.measures["ape"] = report.ape.translation.rmse;
+  if (report.rpe_second.translation.count > 0)
+    outcome.measures["rpe"] = report.rpe_second.translation.rmse;
+}
+
+void measure(const Job& job, const fs::path& run, RunOutcome& outcome)
+try
+{
+  const Measures of_run = measuresOfRun(run.string());
+  outcome.measures.insert(of_run.begin(), of_run.end());
+  if (!job.truth.empty()) addErrors(job, run, outcome);
+}
+catch (const std::exception& e)
+{
+  // A run that was lost may have left nothing to measure; it stays lost, without an error.
+  if (outcome.state < RunState::Lost) outcome.state = RunState::Failed;
+  outcome.message = e.what();
+}
+
+RunOutcome outcomeOf(
+    const Job& job, const ChildEnd& end, double timeout, const ScratchFolder& folder)
+{
+  RunOutcome outcome;
+  if (end.kind == ChildEnd::Kind::TimedOut)
+    outcome.message = "longer than " + std::to_string(static_cast<long>(timeout)) + " s (--timeout)";
+  else if (end.kind == ChildEnd::Kind::Killed)
+    outcome.message = "fastlio-replay was ended by signal " + std::to_string(end.status) +
+                      lastLineOf(folder.path / "errors");
+  else if (outcome.state = stateOf(end.status); outcome.state == RunState::Failed)
+    outcome.message = "fastlio-replay ended with status " + std::to_string(end.status) +
+                      lastLineOf(folder.path / "errors");
+  else
+    measure(job, folder.path / "run", outcome);
+  return outcome;
+}
+}  // namespace
+
+std::string replayProgram()
+{
+  return (fs::read_symlink("/proc/self/exe").parent_path() / "fastlio-replay").string();
+}
+
+std::optional<RunOutcome> runJob(
+    const Job& job, double timeout, const std::function<bool()>& go_on)
+{
+  const auto start = Clock::now();
+  const ScratchFolder folder;
+  const ChildEnd end =
+      runChild(wordsOf(job, folder.path), (folder.path / "errors").string(), timeout, go_on);
+  if (end.kind == ChildEnd::Kind::Stopped) return std::nullopt;
+  RunOutcome outcome = outcomeOf(job, end, timeout, folder);
+  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return outcome;
+}
+}  // namespace fastlio
