@@ -74,7 +74,8 @@ ChildEnd runChild(
   arguments.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error(std::string("cannot start a run: ") + std::strerror(errno));
+  if (child < 0)
+    throw std::runtime_error(std::string("cannot start a run: ") + std::strerror(errno));
   if (child == 0) becomeProgram(arguments.data(), error_file.c_str(), parent);
   const auto start = Clock::now();
   auto pause = std::chrono::duration_cast<Clock::duration>(kFirstPoll);

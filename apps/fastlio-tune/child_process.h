@@ -23,8 +23,8 @@ struct ChildEnd
   int status = 0;  //!< exit status, or the signal
 };
 
-/** Standard output is dropped, standard error goes to a file. The child is killed by the system when
- * this process ends, however it ends.
+/** Standard output is dropped, standard error goes to a file. The child is killed by the system
+ * when this process ends, however it ends.
  * \param go_on asked some fifty times a second while the child runs
  * \exception std::runtime_error the program cannot be started or waited for */
 [[nodiscard]] ChildEnd runChild(

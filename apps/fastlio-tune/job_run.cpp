@@ -4,7 +4,6 @@
 #include "job_run.h"
 
 #include "child_process.h"
-
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/files/atomic_file.h>
@@ -16,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace fastlio
 {
@@ -24,6 +24,7 @@ namespace
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 constexpr double kLeastCoverage = 0.9;  // of the truth, below which a trajectory is truncated
+constexpr std::size_t kLongestComplaint = 500;
 // Finer than the default, so that the thickness of surfaces shows.
 constexpr const char* kMapSpacing = "map.output_spacing=0.05";
 
@@ -47,21 +48,39 @@ struct ScratchFolder
   fs::path path;
 };
 
-std::string lastLineOf(const fs::path& file)
+/** What the run said on standard error, in one line, without what differs from run to run. */
+std::string complaintOf(const ScratchFolder& folder)
 {
-  std::ifstream in(file);
-  std::string last;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) last = line;
-  return last.empty() ? "" : ": " + last;
+  std::ifstream in(folder.path / "errors");
+  std::string text;
+  for (std::string line; text.size() < kLongestComplaint && std::getline(in, line);)
+  {
+    if (const auto log_prefix = line.find("|fastlio-replay] "); log_prefix != std::string::npos)
+      line.erase(0, log_prefix + std::string_view("|fastlio-replay] ").size());
+    if (const auto place = line.find(folder.path.string() + "/"); place != std::string::npos)
+      line.erase(place, folder.path.string().size() + 1);
+    if (!line.empty()) text += (text.empty() ? ": " : "; ") + line;
+  }
+  return text.substr(0, kLongestComplaint);
 }
 
 std::vector<std::string> wordsOf(const Job& job, const fs::path& folder)
 {
   std::vector<std::string> words = {
-      replayProgram(), "--input-rawlog", job.recording, "-o", (folder / "run").string(),
-      "--export", "trajectory,states,timing,ply", "--set", kMapSpacing, "--frame", job.frame,
-      "--threads", "1", "-q"};
+      replayProgram(),
+      "--input-rawlog",
+      job.recording,
+      "-o",
+      (folder / "run").string(),
+      "--export",
+      "trajectory,states,timing,ply",
+      "--set",
+      kMapSpacing,
+      "--frame",
+      job.frame,
+      "--threads",
+      "1",
+      "-q"};
   // All defaults are an empty text, which is no configuration.
   if (!job.parameters.empty())
   {
@@ -113,13 +132,14 @@ RunOutcome outcomeOf(
 {
   RunOutcome outcome;
   if (end.kind == ChildEnd::Kind::TimedOut)
-    outcome.message = "longer than " + std::to_string(static_cast<long>(timeout)) + " s (--timeout)";
+    outcome.message =
+        "longer than " + std::to_string(static_cast<long>(timeout)) + " s (--timeout)";
   else if (end.kind == ChildEnd::Kind::Killed)
-    outcome.message = "fastlio-replay was ended by signal " + std::to_string(end.status) +
-                      lastLineOf(folder.path / "errors");
+    outcome.message =
+        "fastlio-replay was ended by signal " + std::to_string(end.status) + complaintOf(folder);
   else if (outcome.state = stateOf(end.status); outcome.state == RunState::Failed)
-    outcome.message = "fastlio-replay ended with status " + std::to_string(end.status) +
-                      lastLineOf(folder.path / "errors");
+    outcome.message =
+        "fastlio-replay ended with status " + std::to_string(end.status) + complaintOf(folder);
   else
     measure(job, folder.path / "run", outcome);
   return outcome;
@@ -131,8 +151,7 @@ std::string replayProgram()
   return (fs::read_symlink("/proc/self/exe").parent_path() / "fastlio-replay").string();
 }
 
-std::optional<RunOutcome> runJob(
-    const Job& job, double timeout, const std::function<bool()>& go_on)
+std::optional<RunOutcome> runJob(const Job& job, double timeout, const std::function<bool()>& go_on)
 {
   const auto start = Clock::now();
   const ScratchFolder folder;

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <iostream>
 #include <stdexcept>
 #include <thread>
 
@@ -18,10 +19,11 @@ namespace fastlio
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr double kLease = 120.0;  // without a sign of life of another host [s]
-constexpr double kRenew = 20.0;   // [s]
-constexpr auto kPoll = std::chrono::milliseconds(50);
-constexpr auto kOthersPoll = std::chrono::milliseconds(500);
+constexpr double kLease = 120.0;    // without a sign of life of another host [s]
+constexpr double kRenew = 20.0;     // [s]
+constexpr double kProgress = 10.0;  // [s]
+constexpr auto kIdle = std::chrono::milliseconds(50);
+constexpr auto kOthersIdle = std::chrono::milliseconds(500);
 
 double secondsSince(Clock::time_point start)
 {
@@ -34,6 +36,23 @@ struct Crew
   RunnerOptions options;
   ClaimFilter filter;
   std::atomic<bool> failed{false};
+};
+
+/** Says now and then how many jobs are left; of one worker only. */
+class Progress
+{
+ public:
+  explicit Progress(bool wanted) : wanted_(wanted) {}
+  void say(std::size_t left)
+  {
+    if (!wanted_ || left == 0 || secondsSince(said_) < kProgress) return;
+    std::cerr << "fastlio-tune: " << left << " runs left\n";
+    said_ = Clock::now();
+  }
+
+ private:
+  bool wanted_;
+  Clock::time_point said_ = Clock::now();
 };
 
 /** Runs a claimed job, and tells the store now and then that it still does. */
@@ -70,25 +89,28 @@ void work(const Crew& crew, int number)
 {
   JobStore store(crew.options.store);
   const Worker worker{thisProcess(), number};
+  Progress progress(crew.options.progress && number == 0);
   auto last_job = Clock::now();
   while (!interrupted() && !crew.failed)
   {
-    const auto job = crew.options.jobs > 0 ? store.claim(worker, crew.filter, kLease) : std::nullopt;
+    const auto job =
+        crew.options.jobs > 0 ? store.claim(worker, crew.filter, kLease) : std::nullopt;
+    if (job) runClaimed(crew, store, worker, *job);
+    const std::size_t left = store.unfinished(crew.filter);
+    progress.say(left);
     if (job)
-      runClaimed(crew, store, worker, *job);
-    else if (store.unfinished(crew.filter) == 0 && secondsSince(last_job) >= crew.options.wait)
+      last_job = Clock::now();
+    else if (left == 0 && secondsSince(last_job) >= crew.options.wait)
       return;
     else
-      std::this_thread::sleep_for(crew.options.jobs > 0 ? kPoll : kOthersPoll);
-    if (job) last_job = Clock::now();
+      std::this_thread::sleep_for(crew.options.jobs > 0 ? kIdle : kOthersIdle);
   }
 }
 
 void runCrew(const RunnerOptions& options, const std::string& search)
 {
   Crew crew{options, {programVersion(), search}, {}};
-  std::vector<std::exception_ptr> failures(
-      static_cast<std::size_t>(std::max(1, options.jobs)));
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::max(1, options.jobs)));
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < failures.size(); ++i)
     threads.emplace_back(

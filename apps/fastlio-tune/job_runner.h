@@ -16,6 +16,7 @@ struct RunnerOptions
   std::string store;
   int jobs = 1;             //!< at the same time; 0: others run them
   double timeout = 3600.0;  //!< a longer run counts as failed [s]
+  bool progress = false;    //!< says now and then on standard error how many are left
   double wait = 0.0;        //!< a worker without a job waits this long for one to be added [s]
 };
 

@@ -1,24 +1,16 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file tuning_run.h A whole search, and what it says at the end. */
+/** \file tuning_run.h A whole search, and its conclusion. */
 #pragma once
 
-#include "job_runner.h"
-
-#include <cstdint>
+#include "tuning_result.h"
 
 namespace fastlio
 {
-struct TuneCommand
-{
-  RunnerOptions runner;
-  std::string space, base, output = "tuned.yaml", method = "cmaes";
-  std::vector<std::string> recordings;
-  std::size_t budget = 60;
-  std::uint64_t seed = 1;
-};
+/** Searches, prints the table and writes the files. */
+[[nodiscard]] Conclusion tune(const TuneCommand& command);
 
-/** \return whether better parameters were written */
-bool tune(const TuneCommand& command);
+/** Prints how well the proxy ranks parameter sets: correlation of ranks with the true error. */
+void rankProxy(const TuneCommand& command);
 }  // namespace fastlio

@@ -158,7 +158,6 @@ Config configured(const Config& base, const SearchSpace& space, const Candidate&
     if (const auto problem = assign(row->value(config), row->unit, candidate[i]))
       fail(space[i].key, *problem);
   }
-  validate(config);
   return config;
 }
 

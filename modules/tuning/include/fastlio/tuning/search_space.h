@@ -37,8 +37,8 @@ using Candidate = std::vector<std::string>;
 /** The candidate at the places (0 to 1) of all keys. */
 [[nodiscard]] Candidate candidateAt(const SearchSpace& space, const std::vector<double>& places);
 
-/** \a base with the values of a candidate.
- * \exception std::invalid_argument the values contradict each other or the base */
+/** \a base with the values of a candidate. They may contradict each other or the base: validate()
+ * tells. \exception std::invalid_argument a value is out of its own range */
 [[nodiscard]] Config configured(
     const Config& base, const SearchSpace& space, const Candidate& candidate);
 
