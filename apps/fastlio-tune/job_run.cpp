@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 constexpr double kLeastCoverage = 0.9;  // of the truth, below which a trajectory is truncated
 constexpr std::size_t kLongestComplaint = 500;
-// Finer than the default, so that the thickness of surfaces shows.
-constexpr const char* kMapSpacing = "map.output_spacing=0.05";
 
 /** A folder that is removed at the end. */
 struct ScratchFolder
@@ -73,9 +71,7 @@ std::vector<std::string> wordsOf(const Job& job, const fs::path& folder)
       "-o",
       (folder / "run").string(),
       "--export",
-      "trajectory,states,timing,ply",
-      "--set",
-      kMapSpacing,
+      "trajectory,states,timing",
       "--frame",
       job.frame,
       "--threads",

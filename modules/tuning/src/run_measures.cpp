@@ -1,185 +1,113 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/options/number_text.h>
-#include <fastlio/tuning/map_thickness.h>
+#include "run_table.h"
 #include <fastlio/tuning/run_measures.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace fastlio
 {
 namespace
 {
-using Row = std::vector<std::string>;
+constexpr double kSpan = 0.45;       // [s]: half a second, whatever the jitter of the scans
+constexpr double kLongestGap = 1.0;  // [s]: the run was re-initialised in between
+constexpr double kExponent = 0.03;   // of the information in the proxy
+constexpr double kLeast = 1e-12;     // logarithms stay finite
 
-Row split(const std::string& line)
+/** Positions minus the integral of the velocities since the first scan. */
+struct Slip
 {
-  Row row(1);
-  for (const char c : line)
-    if (c == ',')
-      row.emplace_back();
-    else
-      row.back() += c;
-  return row;
-}
-
-/** A table of a run by the names of its columns. */
-class Table
-{
- public:
-  explicit Table(const std::string& path) : path_(path)
-  {
-    std::ifstream in(path);
-    for (std::string line; std::getline(in, line);)
-      if (line.empty() || line[0] == '#')
-        continue;
-      else if (names_.empty())
-        names_ = split(line);
-      else
-        rows_.push_back(split(line));
-    if (names_.empty()) throw std::runtime_error("'" + path + "' is no table");
-  }
-  [[nodiscard]] std::size_t size() const { return rows_.size(); }
-  [[nodiscard]] const std::string& text(std::size_t row, const std::string& name) const
-  {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) throw std::runtime_error("'" + path_ + "' has no column " + name);
-    return rows_.at(row).at(static_cast<std::size_t>(found - names_.begin()));
-  }
-  [[nodiscard]] double number(std::size_t row, const std::string& name) const
-  {
-    return parsed<double>(text(row, name)).value_or(NAN);
-  }
-  [[nodiscard]] Vec3 vector(
-      std::size_t row, const std::string& x, const std::string& y, const std::string& z) const
-  {
-    return {number(row, x), number(row, y), number(row, z)};
-  }
-
- private:
-  std::string path_;
-  Row names_;
-  std::vector<Row> rows_;
+  std::vector<double> times;  //!< since the first scan [s]
+  std::vector<Vec3> slips;    //!< [m]
 };
 
-void addTiming(const Table& t, Measures& m)
+Slip slipOf(const RunTable& states)
 {
-  double residual = 0, effective = 0, points = 0, nis = 0, n = 0, iterations = 0, info = 0,
-         loglik = 0;
-  for (std::size_t i = 0; i < t.size(); ++i)
+  Slip slip;
+  std::int64_t first = 0;
+  Vec3 position = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero();
+  for (std::size_t i = 0; i < states.size(); ++i)
   {
-    if (t.text(i, "status") != "tracking") continue;
-    n += 1;
-    const double r = t.number(i, "residual_rms");
-    const double z = t.number(i, "normalized_innovation");
-    residual += r * r;
-    nis += z;
-    loglik += std::log(std::max(1e-12, r * r / std::max(1e-12, z))) + z;
-    effective += t.number(i, "points_effective");
-    points += t.number(i, "points_downsampled");
-    iterations += t.number(i, "iterations");
-    info += std::log(std::max(1e-9, t.number(i, "information_min")));
+    // Nanoseconds since 1970 do not fit into a double.
+    const std::int64_t stamp = std::stoll(states.text(i, "stamp_ns"));
+    if (i == 0) first = stamp;
+    const double time = 1e-9 * static_cast<double>(stamp - first);
+    const Vec3 next_position = states.vector(i, {"x", "y", "z"});
+    const Vec3 next_velocity = states.vector(i, {"vx", "vy", "vz"});
+    Vec3 step = Vec3::Zero();
+    if (i > 0)
+      step =
+          next_position - position - 0.5 * (time - slip.times.back()) * (velocity + next_velocity);
+    slip.slips.push_back(i == 0 ? step : Vec3(slip.slips.back() + step));
+    slip.times.push_back(time);
+    position = next_position;
+    velocity = next_velocity;
   }
-  if (n < 1) return;
-  m["residual"] = std::sqrt(residual / n);
-  m["nis"] = nis / n;
-  m["nis_off"] = std::abs(std::log(std::max(1e-9, nis / n)));
-  m["likelihood"] = loglik / n;
-  m["outliers"] = 1 - effective / points;
-  m["iterations"] = iterations / n;
-  m["uninformed"] = -info / n;
+  return slip;
 }
 
-void addStates(const Table& t, Measures& m)
+/** RMS of slip by time over spans; nothing when none fits. */
+std::optional<double> rmsOverSpans(const Slip& slip)
 {
-  double correction = 0, n = 0, gyro = 0, accel = 0, jerk = 0, acc = 0;
-  Vec3 last_mismatch = Vec3::Zero();
-  double white = 0;
-  for (std::size_t i = 1; i < t.size(); ++i)
+  double squares = 0.0;
+  double count = 0.0;
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < slip.times.size(); ++begin)
   {
-    const double dt = 1e-9 * (t.number(i, "stamp_ns") - t.number(i - 1, "stamp_ns"));
-    if (!(dt > 0) || dt > 0.5) continue;
-    const Vec3 p0 = t.vector(i - 1, "x", "y", "z"), p1 = t.vector(i, "x", "y", "z");
-    const Vec3 v0 = t.vector(i - 1, "vx", "vy", "vz"), v1 = t.vector(i, "vx", "vy", "vz");
-    const Vec3 mismatch = (p1 - p0) / dt - 0.5 * (v0 + v1);
-    correction += mismatch.squaredNorm();
-    white += mismatch.dot(last_mismatch);
-    jerk += (mismatch - last_mismatch).squaredNorm();
-    last_mismatch = mismatch;
-    gyro += (t.vector(i, "bgx", "bgy", "bgz") - t.vector(i - 1, "bgx", "bgy", "bgz")).squaredNorm();
-    accel +=
-        (t.vector(i, "bax", "bay", "baz") - t.vector(i - 1, "bax", "bay", "baz")).squaredNorm();
-    acc += ((v1 - v0) / dt).squaredNorm();
-    n += 1;
+    while (end < slip.times.size() && slip.times[end] < slip.times[begin] + kSpan)
+      ++end;
+    if (end == slip.times.size()) break;
+    const double span = slip.times[end] - slip.times[begin];
+    if (span > kLongestGap) continue;
+    squares += ((slip.slips[end] - slip.slips[begin]) / span).squaredNorm();
+    count += 1.0;
   }
-  if (n < 1) return;
-  m["correction"] = std::sqrt(correction / n);
-  m["jerk"] = std::sqrt(jerk / n);
-  m["white"] = white / correction;
-  m["gyro_bias"] = std::sqrt(gyro / n);
-  m["accel_bias"] = std::sqrt(accel / n);
-  m["acc"] = std::sqrt(acc / n);
+  if (count == 0.0) return std::nullopt;
+  return std::sqrt(squares / count);
 }
 
-/** Displacement over a span minus the integral of the velocity. */
-void addSpan(const Table& t, double span, const std::string& name, Measures& m)
+/** Adds what is a mean over tracked scans. */
+void addMeans(const RunTable& timing, Measures& measures)
 {
-  std::vector<double> time;
-  std::vector<Vec3> mismatch(1, Vec3::Zero());
-  for (std::size_t i = 0; i < t.size(); ++i)
+  double scans = 0.0;
+  double squares = 0.0;
+  double innovation = 0.0;
+  double information = 0.0;
+  double matched = 0.0;
+  double points = 0.0;
+  for (std::size_t i = 0; i < timing.size(); ++i)
   {
-    time.push_back(1e-9 * (t.number(i, "stamp_ns") - t.number(0, "stamp_ns")));
-    if (i == 0) continue;
-    const double dt = time[i] - time[i - 1];
-    const Vec3 step = t.vector(i, "x", "y", "z") - t.vector(i - 1, "x", "y", "z") -
-                      0.5 * dt * (t.vector(i, "vx", "vy", "vz") + t.vector(i - 1, "vx", "vy", "vz"));
-    mismatch.push_back(mismatch.back() + step);
+    if (timing.text(i, "status") != "tracking") continue;
+    scans += 1.0;
+    squares += std::pow(timing.number(i, "residual_rms"), 2);
+    innovation += timing.number(i, "normalized_innovation");
+    information += std::log(std::max(kLeast, timing.number(i, "information_min")));
+    matched += timing.number(i, "points_effective");
+    points += timing.number(i, "points_downsampled");
   }
-  double sum = 0, n = 0;
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < time.size(); ++i)
-  {
-    while (j < time.size() && time[j] < time[i] + span) ++j;
-    if (j == time.size()) break;
-    sum += ((mismatch[j] - mismatch[i]) / (time[j] - time[i])).squaredNorm();
-    n += 1;
-  }
-  if (n > 0) m[name] = std::sqrt(sum / n);
+  if (scans == 0.0 || points == 0.0) return;
+  measures["residual"] = std::sqrt(squares / scans);
+  measures["inliers"] = matched / points;
+  // H^T H / r with the configured noise r, by z^2/r: the choice of r cancels.
+  measures["information"] = information / scans - std::log(std::max(kLeast, innovation / scans));
 }
 }  // namespace
 
 Measures measuresOfRun(const std::string& folder)
 {
-  Measures m;
-  addTiming(Table(folder + "/timing.csv"), m);
-  const Table states(folder + "/states.csv");
-  addStates(states, m);
-  addSpan(states, 0.45, "span05", m);
-  addSpan(states, 0.95, "span1", m);
-  addSpan(states, 1.95, "span2", m);
-  addSpan(states, 4.95, "span5", m);
-  const auto points = readRunMap(folder + "/map.ply");
-  const MapSharpness map = mapSharpness(points);
-  for (const double size : {0.4, 0.6, 1.2})
-  {
-    const MapSharpness other = mapSharpness(points, size);
-    const std::string n = std::to_string(static_cast<int>(10 * size + 0.5));
-    m["thickness" + n] = other.thickness;
-    m["entropy" + n] = other.entropy;
-    m["revisit" + n] = other.revisit;
-  }
-  m["thickness"] = map.thickness;
-  m["revisit"] = map.revisit;
-  m["entropy"] = map.entropy;
-  m["volume"] = map.cells;
-  m["surfaces"] = map.surfaces;
-  m["per_point"] = map.surfaces > 0 ? map.cells / map.surfaces : 0;
-  return m;
+  Measures measures;
+  addMeans(RunTable(folder + "/timing.csv"), measures);
+  const auto slip = rmsOverSpans(slipOf(RunTable(folder + "/states.csv")));
+  if (!slip || measures.count("information") == 0) return measures;
+  measures["slip"] = *slip;
+  measures["proxy"] = *slip * std::exp(-kExponent * measures.at("information"));
+  return measures;
 }
 
 }  // namespace fastlio

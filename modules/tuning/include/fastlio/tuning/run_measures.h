@@ -10,18 +10,19 @@
 
 namespace fastlio
 {
-/** Measures of the run in a folder, from timing.csv, states.csv and map.ply:
+/** Measures of the run in a folder, from its timing.csv and states.csv:
  *
- * | name | unit | |
- * |---|---|---|
- * | `thickness` | m | of the surfaces of the map: see mapThickness() |
- * | `volume` | - | cells that the map occupies: grows when it is blurred or doubled |
- * | `residual` | m | RMS of the residuals of matched points |
- * | `outliers` | - | points that were not matched, by all |
- * | `correction` | m/s | what a scan changes of the predicted motion: RMS of displacement by time
- * minus velocity |
- * | `bias` | - | movement of the biases from scan to scan |
+ * - `slip` [m/s]: how far positions move against the integral of the velocities. Positions follow
+ *   the scans at once, velocities the inertial samples: where noise, clocks or the map are wrong,
+ *   the corrections of successive scans have one direction, and the two part. RMS over spans of
+ *   half a second, so that white corrections cancel.
+ * - `information`: mean logarithm of what scans tell in their weakest direction, with the noise
+ * that the residuals show instead of the one that is configured; else small noise would look good.
+ * - `proxy`: slip / exp(information)^0.03. The exponent is the one that ranks true errors best on
+ *   recordings with ground truth (docs/tuning.md).
+ * - `residual` [m], `inliers`: RMS of the residuals, points that were matched by all.
  *
+ * A run with too few scans to tell has none of them.
  * \exception std::exception a file cannot be read; the message names it */
 [[nodiscard]] Measures measuresOfRun(const std::string& folder);
 
