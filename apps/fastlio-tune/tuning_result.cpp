@@ -35,12 +35,14 @@ std::string textOf(const Judged& run)
   return fixedText(*run.error, kErrorDecimals) + (state.empty() ? "" : " " + state);
 }
 
-/** "0.512", with a word where the state is another than that of the base. */
+/** "0.512", with the state where it is another than that of the base; that alone without a number.
+ */
 std::string ratioText(const Judged& base, const Judged& run)
 {
   const auto ratio = ratioOf(base, run);
-  const std::string number = ratio ? fixedText(*ratio, kRatioDecimals) : "-";
-  return run.state == base.state ? number : number + " " + std::string(toText(run.state));
+  const std::string number = ratio ? fixedText(*ratio, kRatioDecimals) : "";
+  if (run.state == base.state) return ratio ? number : "-";
+  return (ratio ? number + " " : "") + std::string(toText(run.state));
 }
 
 std::string fileNameOf(const std::string& path)
@@ -61,6 +63,12 @@ std::string changesText(
   return text.empty() ? indent + "none\n" : text;
 }
 
+std::string effectsTitle(const TuneCommand& command)
+{
+  return std::string("largest by smallest mean error; mean error per values, 1: of ") +
+         (command.search.method == "each" ? "the base" : "all sets");
+}
+
 std::string effectsText(const TuningResult& result, const std::string& indent)
 {
   std::string text;
@@ -70,7 +78,7 @@ std::string effectsText(const TuningResult& result, const std::string& indent)
             (effect.certain ? "" : " (may be chance)") + ";";
     for (const KeyLevel& level : effect.levels)
       text += (&level == &effect.levels.front() ? " " : ", ") + level.values + ": " +
-              fixedText(level.mean_ratio, 2);
+              (std::isfinite(level.mean_ratio) ? fixedText(level.mean_ratio, 2) : "lost");
     text += "\n";
   }
   return text;
@@ -137,13 +145,15 @@ std::vector<KeyEffect> eachEffects(const SearchInputs& inputs, const Trials& tri
       if (others[k] == base[k]) continue;
       const std::string value = std::exchange(others[k], base[k]);
       const Score score = scoreOf(trials.runs[0], trials.runs[i], all);
-      if (others != base || score.failed > 0 || score.lost > 0) continue;
-      effect.levels.push_back({value, 1, score.mean_ratio});
+      if (others != base) continue;
+      const bool lost = score.failed > 0 || score.lost > 0;
+      effect.levels.push_back({value, 1, lost ? INFINITY : score.mean_ratio});
     }
     double low = 1.0;
     double high = 1.0;
     for (const KeyLevel& level : effect.levels)
-      low = std::min(low, level.mean_ratio), high = std::max(high, level.mean_ratio);
+      if (std::isfinite(level.mean_ratio))
+        low = std::min(low, level.mean_ratio), high = std::max(high, level.mean_ratio);
     effect.effect = high / low;
     effects.push_back(effect);
   }
@@ -215,8 +225,8 @@ std::string toTable(
         printable(inputs.recordings[r].path) + "\n";
   text += "\nBest of " + std::to_string(result.trials.sets.size()) +
           " parameter sets, and what it changes:\n" + changesText(inputs, result, "  ") +
-          "\nEffect of each key: largest by smallest mean error; and mean ratio per values:\n" +
-          effectsText(result, "  ") + "\n" + failuresText(result) + costText(inputs, result);
+          "\nEffect of each key: " + effectsTitle(command) + "\n" + effectsText(result, "  ") +
+          "\n" + failuresText(result) + costText(inputs, result);
   return text + conclusionText(command, result);
 }
 
@@ -237,8 +247,7 @@ std::string toParameterFile(
             padded(ratioText(base[r], result.left_out[r]), kRatioColumn) +
             fileNameOf(inputs.recordings[r].path) + "\n";
   text += "# Changes:\n" + changesText(inputs, result, "#   ") +
-          "# Effect of each key in the search: largest by smallest mean error; mean ratios:\n" +
-          effectsText(result, "#   ");
+          "# Effect of each key: " + effectsTitle(command) + "\n" + effectsText(result, "#   ");
   return text + result.trials.sets[result.best].yaml;
 }
 

@@ -107,7 +107,8 @@ std::pair<double, double> meanOf(const Group& group)
   return {mean, n > 1.0 ? squares / (n - 1.0) / n : INFINITY};
 }
 
-KeyEffect effectOf(const SearchKey& key, std::size_t k, const std::vector<Group>& groups)
+KeyEffect effectOf(
+    const SearchKey& key, std::size_t k, const std::vector<Group>& groups, double mean)
 {
   KeyEffect effect{key.key, {}, 1.0, false};
   std::vector<std::pair<double, double>> means;
@@ -118,7 +119,7 @@ KeyEffect effectOf(const SearchKey& key, std::size_t k, const std::vector<Group>
     const std::string& last = group.back()->values[k];
     effect.levels.push_back(
         {first == last ? first : first + " to " + last, group.size(),
-         std::exp(means.back().first)});
+         std::exp(means.back().first - mean)});
   }
   if (means.empty()) return effect;
   const auto [low, high] = std::minmax_element(means.begin(), means.end());
@@ -139,11 +140,15 @@ double rankCorrelation(const std::vector<double>& a, const std::vector<double>& 
 
 std::vector<KeyEffect> keyEffects(const SearchSpace& space, const std::vector<TriedPoint>& points)
 {
+  double mean = 0.0;
+  for (const TriedPoint& point : points)
+    mean += std::log(point.ratio) / static_cast<double>(points.size());
   std::vector<KeyEffect> effects;
   for (std::size_t k = 0; k < space.size(); ++k)
     effects.push_back(effectOf(
         space[k], k,
-        space[k].values.empty() ? groupsOfRange(k, points) : groupsOfList(space[k], k, points)));
+        space[k].values.empty() ? groupsOfRange(k, points) : groupsOfList(space[k], k, points),
+        mean));
   std::stable_sort(
       effects.begin(), effects.end(),
       [](const KeyEffect& a, const KeyEffect& b) { return a.effect > b.effect; });

@@ -23,6 +23,13 @@ std::vector<std::size_t> allOf(const JudgedRuns& runs)
   return indices;
 }
 
+/** Nothing of a run that was lost. */
+std::optional<double> comparableError(const Judged& run)
+{
+  if (!run.error || run.state >= RunState::Lost) return std::nullopt;
+  return std::max(*run.error, kLeastError);
+}
+
 /** Whether runs are better than those of the base: in their states, or by 5 % in their errors. */
 bool isBetter(const JudgedRuns& base, const JudgedRuns& runs)
 {
@@ -40,8 +47,10 @@ bool Score::operator<(const Score& other) const
 
 std::optional<double> ratioOf(const Judged& base, const Judged& trial)
 {
-  if (!base.error || !trial.error) return std::nullopt;
-  return std::max(*trial.error, kLeastError) / std::max(*base.error, kLeastError);
+  const auto of_base = comparableError(base);
+  const auto of_trial = comparableError(trial);
+  if (!of_base || !of_trial) return std::nullopt;
+  return *of_trial / *of_base;
 }
 
 Score scoreOf(
@@ -59,7 +68,10 @@ Score scoreOf(
       ++score.lost;
     else if (state != RunState::Complete)
       ++score.incomplete;
-    if (const auto ratio = ratioOf(base[r], trial[r])) sum += std::log(*ratio), count += 1.0;
+    const auto error = comparableError(trial[r]);
+    if (!error) continue;
+    sum += std::log(*error / comparableError(base[r]).value_or(1.0));
+    count += 1.0;
   }
   if (count > 0.0) score.mean_ratio = std::exp(sum / count);
   return score;

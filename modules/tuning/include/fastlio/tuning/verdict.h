@@ -24,11 +24,14 @@ struct Judged
 using JudgedRuns = std::vector<Judged>;
 
 /** How good a trial is over recordings. Runs that are not complete rank behind all that are,
- * whatever their error, and a run without an error takes no part in the mean. */
+ * whatever their error. Lost runs and runs without an error take no part in the mean: the few poses
+ * before a loss have small errors. */
 struct Score
 {
   std::size_t failed = 0, lost = 0, incomplete = 0;  //!< runs that ended so (see RunState)
-  double mean_ratio = 1.0;  //!< geometric mean of error by error of the base
+  /** Geometric mean of error by error of the base; by 1 where the base is lost, which is the same
+   * for all trials. */
+  double mean_ratio = 1.0;
 
   [[nodiscard]] bool operator<(const Score& other) const;
 };
@@ -37,7 +40,7 @@ struct Score
 [[nodiscard]] Score scoreOf(
     const JudgedRuns& base, const JudgedRuns& trial, const std::vector<std::size_t>& recordings);
 
-/** Error by error of the base; nothing where one of them is missing. */
+/** Error by error of the base; nothing where one of them is missing, or of a lost run. */
 [[nodiscard]] std::optional<double> ratioOf(const Judged& base, const Judged& trial);
 
 /** Whether a run is worse than that of the base: in its state, or by more than 5 % in its error. */
