@@ -23,7 +23,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-constexpr double kLeastCoverage = 0.9;  // of the truth, below which a trajectory is truncated
 constexpr std::size_t kLongestComplaint = 500;
 
 /** A folder that is removed at the end. */
@@ -97,13 +96,10 @@ RunState stateOf(int status)
   return RunState::Failed;
 }
 
-/** Adds the errors against the truth; a trajectory that covers little of it is truncated. */
+/** Adds the errors against the truth. */
 void addErrors(const Job& job, const fs::path& run, RunOutcome& outcome)
 {
   const auto report = evaluate(readTum(run / "trajectory.tum"), readTum(job.truth));
-  if (report.association.coverage < kLeastCoverage)
-    outcome.state = std::max(outcome.state, RunState::Truncated);
-  outcome.measures["coverage"] = report.association.coverage;
   outcome.measures["ape"] = report.ape.translation.rmse;
   if (report.rpe_second.translation.count > 0)
     outcome.measures["rpe"] = report.rpe_second.translation.rmse;

@@ -18,6 +18,7 @@ namespace
 {
 constexpr std::size_t kGridSteps = 3;  // of a range
 constexpr std::size_t kEachSteps = 5;
+constexpr double kLeastOfBase = 0.9;  // of the duration; a shorter run is truncated
 
 Trial trialOf(const SearchInputs& inputs, const Candidate& values)
 {
@@ -32,10 +33,15 @@ Candidate valuesOf(const SearchInputs& inputs, const Config& config)
   return values;
 }
 
+Trial baseSet(const SearchInputs& inputs)
+{
+  return {toYaml(inputs.base), valuesOf(inputs, inputs.base)};
+}
+
 /** The base comes first; its values cannot contradict each other, those of the defaults may. */
 std::vector<Trial> firstSets(const SearchInputs& inputs)
 {
-  std::vector<Trial> sets = {{toYaml(inputs.base), valuesOf(inputs, inputs.base)}};
+  std::vector<Trial> sets = {baseSet(inputs)};
   const Candidate defaults = valuesOf(inputs, Config{});
   if (defaults != sets[0].values) sets.push_back(trialOf(inputs, defaults));
   return sets;
@@ -111,7 +117,7 @@ void append(Trials& trials, const std::vector<Trial>& sets, const std::vector<Ju
 }  // namespace
 
 Evaluator::Evaluator(const TuneCommand& command, const SearchInputs& inputs)
-    : command_(command), inputs_(inputs), store_(command.runner.store)
+    : command_(command), inputs_(inputs), base_(baseSet(inputs)), store_(command.runner.store)
 {
   if (command.retry_failed) store_.retryFailed(inputs.id);
 }
@@ -150,6 +156,18 @@ std::vector<JudgedRuns> Evaluator::run(
       if (!judged[i][r].error && result.state < RunState::Lost)
         judged[i][r].state = RunState::Failed;
     }
+  return judged;
+}
+
+Judged Evaluator::judgedOf(const RunOutcome& run, std::size_t recording)
+{
+  Judged judged{run.state, run.measure(inputs_.measure)};
+  if (judged.state >= RunState::Lost) return judged;
+  // Without the number that is asked for there is nothing to compare.
+  if (!judged.error) return {RunState::Failed, std::nullopt};
+  const auto of_base = outcome(base_, recording).measure("duration");
+  if (of_base && run.measure("duration").value_or(0.0) < kLeastOfBase * *of_base)
+    judged.state = std::max(judged.state, RunState::Truncated);
   return judged;
 }
 

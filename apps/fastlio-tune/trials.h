@@ -31,15 +31,19 @@ class Evaluator
   Evaluator(const TuneCommand& command, const SearchInputs& inputs);
   /** Adds jobs to the store, and runs none. */
   void add(const std::vector<Trial>& sets);
-  /** \param recordings indices; the others stay out */
+  /** The base must have been among the sets of this or an earlier call: a run that lasts less than
+   * that of the base is truncated.
+   * \param recordings indices; the others stay out */
   [[nodiscard]] std::vector<JudgedRuns> run(
       const std::vector<Trial>& sets, const std::vector<std::size_t>& recordings);
   [[nodiscard]] RunOutcome outcome(const Trial& trial, std::size_t recording);
 
  private:
   [[nodiscard]] Job jobOf(const Trial& trial, std::size_t recording) const;
+  [[nodiscard]] Judged judgedOf(const RunOutcome& run, std::size_t recording);
   const TuneCommand& command_;
   const SearchInputs& inputs_;
+  Trial base_;
   JobStore store_;
 };
 

@@ -103,7 +103,9 @@ Measures measuresOfRun(const std::string& folder)
 {
   Measures measures;
   addMeans(RunTable(folder + "/timing.csv"), measures);
-  const auto slip = rmsOverSpans(slipOf(RunTable(folder + "/states.csv")));
+  const Slip slips = slipOf(RunTable(folder + "/states.csv"));
+  if (!slips.times.empty()) measures["duration"] = slips.times.back();
+  const auto slip = rmsOverSpans(slips);
   if (!slip || measures.count("information") == 0) return measures;
   measures["slip"] = *slip;
   measures["proxy"] = *slip * std::exp(-kExponent * measures.at("information"));

@@ -70,6 +70,7 @@ TEST(RunMeasures, ConfiguredNoiseDoesNotMakeTheProxySmaller)
   EXPECT_NEAR(right.at("proxy"), 0.1 * std::pow(50.0 / 0.0004, -0.03), 1e-6);
   EXPECT_NEAR(right.at("residual"), 0.02, 1e-12);
   EXPECT_NEAR(right.at("inliers"), 0.8, 1e-12);
+  EXPECT_NEAR(right.at("duration"), 9.9, 1e-6);
 }
 
 TEST(RunMeasures, FewScansTellNothing)

@@ -21,8 +21,10 @@ namespace fastlio
  * - `proxy`: slip / exp(information)^0.03. The exponent is the one that ranks true errors best on
  *   recordings with ground truth (docs/tuning.md).
  * - `residual` [m], `inliers`: RMS of the residuals, points that were matched by all.
+ * - `duration` [s]: from the first to the last state. A run that starts late or ends early has less
+ *   to err in.
  *
- * A run with too few scans to tell has none of them.
+ * A run with too few scans to tell has no slip and no proxy.
  * \exception std::exception a file cannot be read; the message names it */
 [[nodiscard]] Measures measuresOfRun(const std::string& folder);
 

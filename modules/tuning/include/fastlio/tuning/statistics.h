@@ -27,7 +27,8 @@ struct KeyLevel
 {
   std::string values;  //!< "0.01", or "0.01 to 0.05"
   std::size_t trials = 0;
-  double mean_ratio = 1.0;  //!< geometric mean, by that of all trials (keyEffects()); infinite: lost
+  double mean_ratio =
+      1.0;  //!< geometric mean, by that of all trials (keyEffects()); infinite: lost
 };
 
 /** Main effect of a key. */
