@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tuning_run.h"
+#include <fastlio/math/statistics.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
@@ -14,8 +15,6 @@ namespace fastlio
 namespace
 {
 constexpr int kDecimals = 2;
-// Beyond every error and proxy; the states rank in their order.
-constexpr double kStateStep = 1e9;
 const char* const kMeasures[] = {"proxy", "slip", "residual"};
 
 /** The outcomes on a recording, as columns of numbers. */
@@ -41,52 +40,44 @@ Columns trackedOnly(const std::vector<RunOutcome>& outcomes, const std::string& 
   return columns;
 }
 
-/** All runs, in the order of the tuner: by state, then by the measure; what has no error ranks last
- * in truth. */
-Columns allRuns(const std::vector<RunOutcome>& outcomes, const std::string& name)
+struct Correlations
 {
-  Columns columns;
-  for (const RunOutcome& outcome : outcomes)
-  {
-    const double state = kStateStep * static_cast<double>(outcome.state);
-    columns.measure.push_back(state + outcome.measure(name).value_or(0.5 * kStateStep));
-    columns.ape.push_back(outcome.measure("ape").value_or(kStateStep));
-    columns.rpe.push_back(outcome.measure("rpe").value_or(kStateStep));
-  }
-  return columns;
-}
-
-/** Sums over recordings. */
-struct Means
-{
-  double tracked_ape = 0.0, tracked_rpe = 0.0, all_ape = 0.0, all_rpe = 0.0;
+  std::vector<double> ape, rpe;  //!< one per recording
 };
 
-std::string rowOf(const Means& correlations, double scale)
+double meanOf(const std::vector<double>& values)
 {
-  std::string text;
-  for (const double value :
-       {correlations.tracked_ape, correlations.tracked_rpe, correlations.all_ape,
-        correlations.all_rpe})
-    text += "| " + fixedText(value * scale, kDecimals) + " ";
-  return text;
+  double sum = 0.0;
+  for (const double value : values)
+    sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
-Means correlationsOf(const std::vector<RunOutcome>& outcomes, const std::string& name)
+std::string rowOf(
+    const std::string& measure, const std::string& name, const std::string& runs, double ape,
+    double rpe)
 {
-  const Columns tracked = trackedOnly(outcomes, name);
-  const Columns all = allRuns(outcomes, name);
-  return {
-      rankCorrelation(tracked.measure, tracked.ape), rankCorrelation(tracked.measure, tracked.rpe),
-      rankCorrelation(all.measure, all.ape), rankCorrelation(all.measure, all.rpe)};
+  return "| " + measure + " | " + name + " | " + runs + " | " + fixedText(ape, kDecimals) + " | " +
+         fixedText(rpe, kDecimals) + " |\n";
 }
 
-void add(Means& sum, const Means& one)
+/** Prints a row per recording, and the mean and median of all. */
+void printRows(
+    const std::string& measure, const SearchInputs& inputs,
+    const std::vector<std::vector<RunOutcome>>& outcomes)
 {
-  sum.tracked_ape += one.tracked_ape;
-  sum.tracked_rpe += one.tracked_rpe;
-  sum.all_ape += one.all_ape;
-  sum.all_rpe += one.all_rpe;
+  Correlations correlations;
+  for (std::size_t r = 0; r < inputs.recordings.size(); ++r)
+  {
+    const Columns columns = trackedOnly(outcomes[r], measure);
+    correlations.ape.push_back(rankCorrelation(columns.measure, columns.ape));
+    correlations.rpe.push_back(rankCorrelation(columns.measure, columns.rpe));
+    std::cout << rowOf(
+        measure, printable(std::filesystem::path(inputs.recordings[r].path).stem().string()),
+        std::to_string(columns.ape.size()), correlations.ape.back(), correlations.rpe.back());
+  }
+  std::cout << rowOf(measure, "**mean**", "", meanOf(correlations.ape), meanOf(correlations.rpe))
+            << rowOf(measure, "**median**", "", median(correlations.ape), median(correlations.rpe));
 }
 }  // namespace
 
@@ -96,26 +87,14 @@ void rankProxy(const TuneCommand& command)
   Evaluator evaluator(command, inputs);
   const std::vector<Trial> sets = knownSets(command, inputs);
   (void)evaluator.run(sets, recordingsWithout(inputs, inputs.recordings.size()));
+  std::vector<std::vector<RunOutcome>> outcomes(inputs.recordings.size());
+  for (std::size_t r = 0; r < outcomes.size(); ++r)
+    for (const Trial& trial : sets)
+      outcomes[r].push_back(evaluator.outcome(trial, r));
   std::cout << "Rank correlation (Spearman) with the true error over " << sets.size()
-            << " parameter sets\n\n| measure | recording | tracked runs | their APE | their RPE | "
-               "APE of all | RPE of all |\n|---|---|--:|--:|--:|--:|--:|\n";
-  for (const std::string name : kMeasures)
-  {
-    Means sum;
-    for (std::size_t r = 0; r < inputs.recordings.size(); ++r)
-    {
-      std::vector<RunOutcome> outcomes;
-      for (const Trial& trial : sets)
-        outcomes.push_back(evaluator.outcome(trial, r));
-      const Means correlations = correlationsOf(outcomes, name);
-      add(sum, correlations);
-      std::cout << "| " << name << " | "
-                << printable(std::filesystem::path(inputs.recordings[r].path).stem().string())
-                << " | " << trackedOnly(outcomes, name).ape.size() << ' '
-                << rowOf(correlations, 1.0) << "|\n";
-    }
-    std::cout << "| " << name << " | **mean** | "
-              << rowOf(sum, 1.0 / static_cast<double>(inputs.recordings.size())) << "|\n";
-  }
+            << " parameter sets; runs that were lost are left out\n\n"
+               "| measure | recording | runs | APE | RPE |\n|---|---|--:|--:|--:|\n";
+  for (const std::string measure : kMeasures)
+    printRows(measure, inputs, outcomes);
 }
 }  // namespace fastlio
