@@ -25,15 +25,20 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestComplaint = 500;
 
-/** A folder that is removed at the end. */
+constexpr const char* kFolderName = "fastlio-tune-";
+constexpr const char* kOwnerFile = "owner";
+
+/** A folder that is removed at the end; it tells its process, in case that is killed. */
 struct ScratchFolder
 {
   ScratchFolder()
   {
-    std::string name = (fs::temp_directory_path() / "fastlio-tune-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / kFolderName).string() + "XXXXXX";
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("cannot make folder '" + name + "'; is TMPDIR full?");
     path = name;
+    const ProcessIdentity self = thisProcess();
+    std::ofstream(path / kOwnerFile) << self.pid << ' ' << self.start << ' ' << self.host << '\n';
   }
   ~ScratchFolder()
   {
@@ -137,6 +142,22 @@ RunOutcome outcomeOf(
   return outcome;
 }
 }  // namespace
+
+void removeLeftFolders()
+{
+  const std::string host = thisProcess().host;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored))
+  {
+    if (entry.path().filename().string().rfind(kFolderName, 0) != 0) continue;
+    ProcessIdentity owner;
+    std::ifstream in(entry.path() / kOwnerFile);
+    in >> owner.pid >> owner.start >> std::ws;
+    // Without a readable owner it is not ours to remove.
+    if (std::getline(in, owner.host) && owner.host == host && !isRunning(owner))
+      fs::remove_all(entry.path(), ignored);
+  }
+}
 
 std::string replayProgram()
 {

@@ -16,6 +16,10 @@ namespace fastlio
 [[nodiscard]] std::optional<RunOutcome> runJob(
     const Job& job, double timeout, const std::function<bool()>& go_on);
 
+/** Removes what runs of killed processes of this host have left in the folder for temporary files.
+ */
+void removeLeftFolders();
+
 /** The program that runs: that beside this one. */
 [[nodiscard]] std::string replayProgram();
 }  // namespace fastlio

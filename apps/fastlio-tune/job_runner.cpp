@@ -109,6 +109,7 @@ void work(const Crew& crew, int number)
 
 void runCrew(const RunnerOptions& options, const std::string& search)
 {
+  if (options.jobs > 0) removeLeftFolders();
   Crew crew{options, {programVersion(), search}, {}};
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(std::max(1, options.jobs)));
   std::vector<std::thread> threads;

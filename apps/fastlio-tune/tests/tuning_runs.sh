@@ -9,6 +9,8 @@ tune=$1 sim=$2 replay=$3 eval=$4
 dir=$(mktemp -d)
 trap '[ -n "${KEEP:-}" ] || rm -rf "$dir"' EXIT
 cd "$dir"
+mkdir tmp
+export TMPDIR="$dir/tmp"
 fail() { echo "tuning_runs.sh: $*"; cat log; exit 1; }
 expect() { # STATUS TEXT COMMAND...
   status=$1 text=$2
@@ -69,8 +71,12 @@ for pause in 0.2 1; do
   sleep "$pause"
   kill -9 "$process" 2>/dev/null || true
   wait "$process" || true
+  # The runs end with it, however it ends.
+  sleep 0.3
+  ! pgrep -f "$TMPDIR" >/dev/null || fail 'a run goes on after its tuner was killed'
 done
 expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml
+[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
 cmp killed.yaml first.yaml || fail 'a killed search ends with other parameters'
 echo "$(counts tuned.yaml.sqlite) $(counts killed.yaml.sqlite)" | awk '
   {exit !($6 == 0 && $7 == 0 && $8 == $3 && $9 == 0 && $10 >= $8 && $10 <= $8 + 4)}' ||
