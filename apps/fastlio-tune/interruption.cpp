@@ -3,6 +3,7 @@
 
 #include "interruption.h"
 
+#include <array>
 #include <csignal>
 
 namespace fastlio
@@ -20,7 +21,7 @@ void remember(int /*signal*/)
 
 void catchInterruptions()
 {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : std::array<int, 3>{SIGINT, SIGTERM, SIGHUP})
   {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);

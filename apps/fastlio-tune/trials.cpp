@@ -94,6 +94,7 @@ std::unique_ptr<Search> searchOf(const TuneCommand& command, const SearchSpace& 
 std::vector<Trial> setsAt(const SearchInputs& inputs, const std::vector<Places>& batch)
 {
   std::vector<Trial> sets;
+  sets.reserve(batch.size());
   for (const Places& places : batch)
     sets.push_back(trialOf(inputs, candidateAt(inputs.space, places)));
   return sets;
@@ -103,6 +104,7 @@ std::vector<Trial> setsAt(const SearchInputs& inputs, const std::vector<Places>&
 std::vector<double> orderOf(const std::vector<Score>& scores)
 {
   std::vector<double> order;
+  order.reserve(scores.size());
   for (const Score& score : scores)
     order.push_back(static_cast<double>(std::count_if(
         scores.begin(), scores.end(), [&](const Score& other) { return other < score; })));
@@ -207,6 +209,7 @@ Trials search(
     const auto runs = evaluator.run(sets, recordings);
     append(trials, sets, runs);
     std::vector<Score> scores;
+    scores.reserve(runs.size());
     for (const JudgedRuns& one : runs)
       scores.push_back(scoreOf(trials.runs[0], one, recordings));
     method->tell(orderOf(scores));

@@ -30,7 +30,7 @@ std::string padded(const std::string& text, std::size_t width = kColumn)
 /** "0.0123", "0.0123 degraded", "failed". */
 std::string textOf(const Judged& run)
 {
-  const std::string state = run.state == RunState::Complete ? "" : std::string(toText(run.state));
+  std::string state = run.state == RunState::Complete ? "" : std::string(toText(run.state));
   if (!run.error) return state;
   return fixedText(*run.error, kErrorDecimals) + (state.empty() ? "" : " " + state);
 }

@@ -46,6 +46,7 @@ std::vector<std::string> failuresOf(
       if (const RunOutcome outcome = evaluator.outcome(trial, r); outcome.state == RunState::Failed)
         ++reasons[outcome.message];
   std::vector<std::string> texts;
+  texts.reserve(reasons.size());
   for (const auto& [reason, count] : reasons)
     texts.push_back(std::to_string(count) + (count == 1 ? " run: " : " runs: ") + reason);
   return texts;

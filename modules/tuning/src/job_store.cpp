@@ -66,7 +66,7 @@ std::int64_t pragma(sqlite3* database, const std::string& path, const std::strin
 void prepare(sqlite3* database, const std::string& path)
 {
   SqliteTransaction transaction(database, path);
-  const bool is_new = Statement(database, path, "SELECT 1 FROM sqlite_master").step() == false;
+  const bool is_new = !Statement(database, path, "SELECT 1 FROM sqlite_master").step();
   const std::int64_t application = pragma(database, path, "application_id");
   const std::int64_t schema = pragma(database, path, "user_version");
   if (!is_new && (application != kApplication || schema != kSchema))

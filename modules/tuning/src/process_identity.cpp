@@ -3,6 +3,7 @@
 
 #include <fastlio/tuning/process_identity.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -38,13 +39,13 @@ std::optional<std::int64_t> startOf(std::int64_t pid)
 
 std::string hostText()
 {
-  std::string name(256, '\0');
-  if (gethostname(name.data(), name.size() - 1) != 0) name = "unknown";
+  std::array<char, 256> name = {};
+  if (gethostname(name.data(), name.size() - 1) != 0) name = {};
   std::string boot;
   std::getline(std::ifstream("/proc/sys/kernel/random/boot_id") >> std::ws, boot);
   std::error_code ignored;
   const auto numbers = std::filesystem::read_symlink("/proc/self/ns/pid", ignored);
-  return std::string(name.c_str()) + " " + boot + " " + numbers.string();
+  return std::string(name.data()) + " " + boot + " " + numbers.string();
 }
 }  // namespace
 

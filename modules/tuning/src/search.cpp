@@ -104,7 +104,7 @@ class CmaesSearch : public Search
         element = random_.normal();
       const VectorXd step = solver.eigenvectors() * root.cwiseProduct(z);
       const VectorXd x = mean_ + sigma_ * step;
-      points_.push_back(x.unaryExpr(&mirrored));
+      points_.emplace_back(x.unaryExpr(&mirrored));
     }
     left_ -= count;
     std::vector<Places> places;
