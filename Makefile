@@ -20,7 +20,7 @@ PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark demo scenarios calibration-table tune-demo tune-proxy tune-effects \
+  benchmark demo replay scenarios calibration-table tune-demo tune-proxy tune-effects \
   experiments docs format lint packages test-packages test-trixie clean
 
 help:
@@ -39,11 +39,12 @@ help:
 	@echo "make tune-effects  what each of ten keys does to the error, of four platforms"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
 	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
+	@echo "make replay  install what is missing, build fastlio-replay and nothing else"
 	@echo "make build   install what is missing, build            PRESET=release|baseline|debug|asan|tsan"
 	@echo "make lint    check format, structure and clang-tidy"
 	@echo "make format  format the sources"
 	@echo "make docs    regenerate docs/parameters.md and params/*.yaml from the tables"
-	@echo "make packages    Debian packages (runtime, dev, plugin) in build/packages"
+	@echo "make packages    Debian packages (runtime, dev, plugin) in build/packages/apt, a folder that apt reads"
 	@echo "make test-packages  installs them in a clean Debian 12 root and runs them there (needs root)"
 	@echo "make test-trixie builds and tests in a Debian 13 root, with MRPT 2.14 (needs root)"
 	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/, $(EXPERIMENTS_DIR)/ and $(TUNE_DIR)/"
@@ -98,6 +99,10 @@ benchmark:
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-benchmark fastlio-microbenchmark
 	benchmarks/run.sh $(BUILD_DIR) $(RECORDINGS)
 
+replay: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-replay
+	@echo "Built: $(BUILD_DIR)/bin/fastlio-replay"
+
 demo: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
 	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)
@@ -144,7 +149,9 @@ packages:
 	@cmake/install_dependencies.sh build packages
 	cmake --preset baseline -DBUILD_TESTING=OFF -DCMAKE_INSTALL_PREFIX=/usr -B build/packages
 	cmake --build build/packages --parallel $(JOBS)
+	$(RM) build/packages/*.deb
 	cd build/packages && cpack
+	cmake/apt_folder.sh build/packages
 
 test-packages: packages
 	cmake/test_packages.sh build/packages build/bookworm

@@ -6,9 +6,12 @@
 #include "command_line.h"
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/config/presets.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/survey/input_plan.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <filesystem>
 #include <iostream>
@@ -105,6 +108,18 @@ void write(const std::string& path, const std::string& content)
   }
 }
 
+/** The parameters that are given, beside them those of the LiDAR that the first recording names. */
+Config withPreset(ConfigFile given, const CalibrationRecording& first, bool quiet)
+{
+  const SensorPatterns patterns = patternsOf(given.config.sensors);
+  const SensorSelection selection = selectSensors(surveySensors(first.files, patterns), patterns);
+  const auto is_given = [&given](std::string_view key)
+  { return given.lines.count(std::string(key)) > 0; };
+  const auto use = takePreset(selection, is_given, given.config);
+  if (use && !use->keys.empty() && !quiet) std::cout << use->text << '\n';
+  return given.config;
+}
+
 struct Findings
 {
   RigEstimate estimate;
@@ -123,10 +138,12 @@ CalibrateStatus run(const CalibrateArguments& arguments)
 {
   requireGivenOnce(arguments.recordings);
   requireHarmlessOutputs(arguments);
-  Config config;
-  if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
+  ConfigFile given;
+  if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);
   try
   {
+    const Config config =
+        withPreset(std::move(given), recordingsOf(arguments).front(), arguments.quiet);
     const CalibrationProgress progress = progressOf(arguments);
     const Calibrator calibrator(recordingsOf(arguments), config, arguments.passes, progress);
     const auto [estimate, trial] = calibrate(calibrator, arguments.trial);

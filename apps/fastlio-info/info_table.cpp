@@ -69,11 +69,12 @@ std::string sensorText(const SurveyedSensor& sensor)
   return text + line("pose", poseLine(s.T_vehicle_sensor));
 }
 
-std::string presetText(const PresetMatch& match)
+std::string presetText(const PresetMatch& match, bool automatic)
 {
   if (match.preset == nullptr) return "none: " + match.reason;
   return "params/" + std::string(match.preset->name) + ".yaml (" +
-         std::string(match.preset->title) + "): " + match.reason;
+         std::string(match.preset->title) + "): " + match.reason +
+         (automatic ? "; fastlio-replay uses its values by itself" : "");
 }
 
 std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
@@ -92,7 +93,9 @@ std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
       "ranges", format(
                     "%.2f m (1 %%), %.2f m (median), %.2f m (99 %%)", look.rangeQuantile(0.01),
                     look.rangeQuantile(0.5), look.rangeQuantile(0.99)));
-  return text + line("preset", presetText(lidar.preset));
+  const SensorSummary& sensor = survey.sensors[lidar.index].summary;
+  const bool named = namedModel(sensor.label + " " + sensor.detail) != nullptr;
+  return text + line("preset", presetText(lidar.preset, named && &lidar == &survey.lidars.front()));
 }
 
 std::string imuText(const RecordingSurvey& survey)

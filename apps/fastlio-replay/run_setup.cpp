@@ -6,6 +6,7 @@
 #include "calibration_first.h"
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/config/presets.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
@@ -52,7 +53,12 @@ bool names(const std::string& list, const std::string& name)
 struct Loaded
 {
   ConfigFile file;                             //!< its configuration with the changes below
-  std::map<std::string, std::string> origins;  //!< of the keys that the command line changed
+  std::map<std::string, std::string> origins;  //!< of the keys that others than the file changed
+
+  [[nodiscard]] bool gives(std::string_view key) const
+  {
+    return origins.count(std::string(key)) > 0 || file.lines.count(std::string(key)) > 0;
+  }
 };
 
 ConfigFile readFile(const ReplayArguments& arguments)
@@ -168,6 +174,25 @@ auto checked(Step step)
   }
 }
 
+/** The sensors of the recording. \exception SetupError none can be used */
+SensorSelection sensorsOf(const ReplayArguments& arguments, const Config& config)
+{
+  const SensorPatterns patterns = patternsOf(config.sensors);
+  return checked(
+      [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
+}
+
+/** Takes in the preset of the LiDAR that the recording names. \return its name and a note */
+std::optional<PresetUse> takePreset(const SensorSelection& selection, Loaded& loaded)
+{
+  const auto is_given = [&loaded](std::string_view key) { return loaded.gives(key); };
+  auto use = takePreset(selection, is_given, loaded.file.config);
+  if (use)
+    for (const std::string& key : use->keys)
+      loaded.origins[key] = "preset " + use->name + ", whose LiDAR the recording names";
+  return use;
+}
+
 /** The pose of the body that is written about, as the user gives it. */
 Pose poseOf(const std::vector<double>& numbers)
 {
@@ -210,7 +235,12 @@ OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
 
 std::string dumpedConfig(const ReplayArguments& arguments)
 {
-  const Loaded loaded = loadConfiguration(arguments);
+  Loaded loaded = loadConfiguration(arguments);
+  if (!arguments.input_files.empty())
+  {
+    requireReadable(arguments.input_files);
+    takePreset(sensorsOf(arguments, loaded.file.config), loaded);
+  }
   const std::string file = inOneLine(arguments.config_file);
   const auto origin = [&](std::string_view view) -> std::string
   {
@@ -227,24 +257,29 @@ std::string dumpedConfig(const ReplayArguments& arguments)
 RunSetup setUpRun(const ReplayArguments& arguments)
 {
   RunSetup setup;
-  setup.config = loadConfiguration(arguments).file.config;
+  Loaded loaded = loadConfiguration(arguments);
+  setup.config = loaded.file.config;
   if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
   requireReadable(arguments.input_files);
   checked([&] { requireGivenOnce(arguments.input_files); });
-  std::string calibration;
-  if (arguments.calibrate)
-    calibration = checked([&] { return calibrateFirst(arguments.input_files, setup.config); });
-  const SensorOptions& sensors = setup.config.sensors;
-  const SensorPatterns patterns = patternsOf(sensors);
-  setup.selection = checked(
-      [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
-  setup.plan =
-      checked([&] { return planInput(setup.selection, sensors, setup.config.odometry.lidar); });
-  if (!calibration.empty()) setup.plan.notes.push_back(calibration);
+  setup.selection = sensorsOf(arguments, setup.config);
+  std::vector<std::string> notes;
   setup.configuration =
       arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
+  if (const auto preset = takePreset(setup.selection, loaded))
+  {
+    setup.config = loaded.file.config;
+    setup.configuration += ", with the preset " + preset->name;
+    notes.push_back(preset->text);
+  }
+  if (arguments.calibrate)
+    notes.push_back(checked([&] { return calibrateFirst(arguments.input_files, setup.config); }));
+  setup.plan = checked(
+      [&]
+      { return planInput(setup.selection, setup.config.sensors, setup.config.odometry.lidar); });
+  setup.plan.notes.insert(setup.plan.notes.end(), notes.begin(), notes.end());
   setup.frame = outputFrameOf(arguments.frame, setup.plan.T_vehicle_imu);
   setup.saved_map = savedMapOf(arguments, setup.frame);
   return setup;

@@ -7,10 +7,12 @@
 #include "walks.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
+#include <fastlio/simulation/realistic.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace fastlio::testing
 {
@@ -106,6 +108,28 @@ TEST(Mounting, ARightOneIsNoTrouble)
           scan.result.health.value > 0.5)
           << scenario << ": " << scan.result.health.reason;
     }
+  }
+}
+
+// Vibration at speed, stamps that jitter, an extrinsic and an inertial sensor that are a little
+// off: nothing of it makes the poses wrong by more than the covariance says.
+TEST(Mounting, SensorsAsImperfectAsTheirDatasheetsAreNoTrouble)
+{
+  constexpr std::pair<const char*, LidarKind> kCases[] = {
+      {"car", LidarKind::Vlp16}, {"uav", LidarKind::Livox}, {"stairs", LidarKind::Os64}};
+  for (const auto& [scenario, lidar] : kCases)
+  {
+    SimulationSettings settings = defaultSettings(scenario);
+    settings.lidar.kind = lidar;
+    settings.lidar.stride = 4;
+    settings.duration = 20.0;
+    settings = realistic(settings);
+    const SimulatedRun run = runOdometry(Simulation(settings), matchingParameters(settings));
+    for (const JudgedScan& scan : run.scans)
+      ASSERT_TRUE(
+          scan.result.health.cause != HealthCause::MotionDisagreement ||
+          scan.result.health.value > 0.5)
+          << scenario << ": " << scan.result.health.reason;
   }
 }
 

@@ -24,7 +24,6 @@ namespace fastlio::testing
 namespace
 {
 constexpr std::int64_t kEpochNs = 1'700'000'000'000'000'000;
-constexpr double kImuHeight = 0.1;  // above the vehicle's origin [m]
 constexpr int kLines = 16, kColumns = 120;
 constexpr double kScanSeconds = 0.1;
 
@@ -43,9 +42,9 @@ mrpt::obs::CObservationIMU imuAt(double t, int index, const BoxRecording& record
 {
   using namespace mrpt::obs;
   CObservationIMU imu;
-  imu.sensorLabel = "imu";
+  imu.sensorLabel = recording.imu_label;
   imu.timestamp = toMrptTime(stampNs(t));
-  imu.sensorPose = mrpt::poses::CPose3D::FromTranslation(0.0, 0.0, kImuHeight);
+  imu.sensorPose = mrpt::poses::CPose3D::FromTranslation(0.0, 0.0, recording.imu_height);
   const double rate = recording.shake_amplitude * std::sin(2.0 * kPi * 3.0 * t);
   const std::array<TIMUDataIndex, 3> gyro = {IMU_WX, IMU_WY, IMU_WZ};
   for (int i = 0; i < 3; ++i)
@@ -100,7 +99,7 @@ PointColumns scanPoints(int index, bool rotten)
 mrpt::obs::CObservationPointCloud scanAt(double t, int index, const BoxRecording& recording)
 {
   mrpt::obs::CObservationPointCloud scan;
-  scan.sensorLabel = "lidar";
+  scan.sensorLabel = recording.lidar_label;
   scan.timestamp = toMrptTime(stampNs(t));
   const auto cloud = makeXyzirt(scanPoints(index, recording.rotten_points));
   CloudColumns columns = readColumns(*cloud);

@@ -23,10 +23,12 @@ struct BoxRecording
   bool stamps_jump_back = false;  //!< some observations come with stamps one second old
   bool point_times = true;        //!< false: clouds have no time field
   double times_per_second = 1.0;  //!< what the time field shows for a second
+  double imu_height = 0.1;        //!< above the vehicle's origin [m]
+  std::string imu_label = "imu";
+  std::string lidar_label = "lidar";
 };
 
-/** Writes it: IMU at 100 Hz ("imu", 0.1 m above the vehicle's origin), 16 lines x 120 columns at
- * 10 Hz ("lidar"), in the order of time; gzip. */
+/** Writes it: IMU at 100 Hz, 16 lines x 120 columns at 10 Hz, in the order of time; gzip. */
 void writeBoxRecording(const std::string& path, const BoxRecording& recording);
 
 }  // namespace fastlio::testing

@@ -108,4 +108,45 @@ TEST_F(Typed, QuietSaysNothingButErrors)
   expectEnd(typed({"missing.rawlog", "-q", "-o", "out2"}), 2, "missing.rawlog");
 }
 }  // namespace
+/** A recording whose labels name a sensor, and nothing says where it is mounted. */
+BoxRecording labelled(const std::string& lidar, const std::string& imu)
+{
+  BoxRecording recording;
+  recording.lidar_label = lidar;
+  recording.imu_label = imu;
+  recording.imu_height = 0.0;
+  return recording;
+}
+
+TEST_F(Typed, TheDefaultsAreThoseOfTheSensorThatTheRecordingNames)
+{
+  (void)record("walk.rawlog", labelled("OS2-64", "os2_imu"));
+  const auto alone = typed({"walk.rawlog", "-o", "alone"});
+  expectEnd(alone, 0, "params/ouster_os2.yaml are in use");
+  expectEnd(alone, 0, "measurement.range_noise: 0.03");
+  expectEnd(alone, 0, "(input.factory_T_imu_lidar)");
+  const std::string yaml = FASTLIO_PARAMS_DIR "/ouster_os2.yaml";
+  expectEnd(typed({"walk.rawlog", "-o", "told", "-c", yaml}), 0, "they are the defaults, or given");
+  EXPECT_EQ(contentOf(file("alone/covariance.csv")), contentOf(file("told/covariance.csv")));
+  const std::string set = "measurement.range_noise=0.025";
+  expectEnd(
+      typed({"walk.rawlog", "--set", set, "--dump-config", "main"}), 0,
+      "range_noise: 0.025  # --set");
+  expectEnd(
+      typed({"walk.rawlog", "--set", set, "--dump-config", "main"}), 0,
+      "max_range: 240  # preset ouster_os2");
+}
+
+TEST_F(Typed, AMakersNameIsNoModelAndAnotherImuIsNotBuiltIn)
+{
+  (void)record("walk.rawlog", labelled("livox", "imu"));
+  const auto maker = typed({"walk.rawlog", "-o", "maker"});
+  EXPECT_EQ(maker.exit_status, 0);
+  EXPECT_EQ(maker.output.find("params/"), std::string::npos) << maker.output;
+  (void)record("other.rawlog", labelled("os2", "xsens"));
+  const auto other = typed({"other.rawlog", "-o", "other"});
+  expectEnd(other, 0, "params/ouster_os2.yaml are in use");
+  EXPECT_EQ(other.output.find("factory"), std::string::npos) << other.output;
+}
+
 }  // namespace fastlio::testing

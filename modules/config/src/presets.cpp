@@ -5,6 +5,7 @@
 
 #include <array>
 #include <sstream>
+#include <stdexcept>
 
 namespace fastlio
 {
@@ -44,6 +45,17 @@ std::string headerOf(const Preset& preset)
   if (!preset.diagnostic.empty()) text += comment(std::string(preset.diagnostic) + ".");
   return text + comment("All other parameters keep their defaults (docs/parameters.md).");
 }
+
+std::string useText(const Preset& preset, const PresetUse& use, const Config& config)
+{
+  std::string changes;
+  for (const std::string& key : use.keys)
+    changes += (changes.empty() ? "" : ", ") + key + ": " +
+               valueText(*findOption(configTable(), key), config);
+  return "The recording names its LiDAR, " + std::string(preset.title) + ": the values of params/" +
+         use.name + ".yaml are in use (" +
+         (changes.empty() ? "they are the defaults, or given otherwise" : changes) + ").";
+}
 }  // namespace
 
 Config configOf(const Preset& preset)
@@ -71,6 +83,28 @@ std::string presetFile(const Preset& preset)
     text += "  " + std::string(nameOf(key)) + ": " + value + "\n";
   }
   return text;
+}
+
+std::optional<PresetUse> takePreset(
+    const SensorSelection& selection, const std::function<bool(std::string_view)>& is_given,
+    Config& config)
+{
+  const Preset* preset = namedModel(selection.lidar.label + " " + selection.lidar.detail);
+  if (preset == nullptr) return std::nullopt;
+  PresetUse use{std::string(preset->name), {}, {}};
+  const Config values = configOf(*preset);
+  for (const std::string_view key : kPresetKeys)
+  {
+    const auto& row = *findOption(configTable(), key);
+    const std::string value = valueText(row, values);
+    const bool fits = key != kPresetKeys.front() || names(selection.imu.label, *preset);
+    if (is_given(key) || !fits || value == valueText(row, config)) continue;
+    if (const auto problem = assign(row.value(config), row.unit, value))
+      throw std::logic_error(std::string(key) + ": " + *problem);
+    use.keys.emplace_back(key);
+  }
+  use.text = useText(*preset, use, config);
+  return use;
 }
 
 }  // namespace fastlio

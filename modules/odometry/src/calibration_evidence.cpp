@@ -67,10 +67,9 @@ void CalibrationEvidence::add(
     estimate_ = solve(sums_, prior_);
 }
 
-Matrix6 CalibrationEvidence::byExtrinsicPrior(const PoseByCalibration& pose) const
+Matrix6 CalibrationEvidence::byPrior(const PoseByCalibration& pose) const
 {
-  const Matrix6 scaled =
-      pose.middleCols<6>(kExtrinsicError) * prior_.std.segment<6>(kExtrinsicError).asDiagonal();
+  const PoseByCalibration scaled = pose * prior_.std.asDiagonal();
   return scaled * scaled.transpose();
 }
 

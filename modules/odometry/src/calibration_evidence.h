@@ -27,7 +27,7 @@ class CalibrationEvidence
       const FilterState& predicted, const UpdateResult& update);
 
   /** Covariance of a pose that depends on theta, by the prior of the extrinsic. */
-  [[nodiscard]] Matrix6 byExtrinsicPrior(const PoseByCalibration& pose) const;
+  [[nodiscard]] Matrix6 byPrior(const PoseByCalibration& pose) const;
   /** What all scans so far tell. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
   [[nodiscard]] const CalibrationSums& sums() const { return sums_; }

@@ -120,13 +120,15 @@ void considerMotion(const ScanStatistics& s, ScanHealth& health)
 {
   if (s.mounting_error)
     consider(
-        health, below(s.mounting_error->angle, kMaxMountingError), HealthCause::MotionDisagreement,
+        health, below(s.mounting_error->leastAngle(), kMaxMountingError),
+        HealthCause::MotionDisagreement,
         [&]
         {
           return mrpt::format(
-              "scans and inertial data show a mounting of the LiDAR that is %.1f deg off the one "
-              "in use, more than %.1f",
-              kDegPerRad * s.mounting_error->angle, kDegPerRad * kMaxMountingError);
+              "scans and inertial data show a mounting of the LiDAR that is %.1f +- %.1f deg off "
+              "the one in use, surely more than %.1f",
+              kDegPerRad * s.mounting_error->angle, kDegPerRad * s.mounting_error->std,
+              kDegPerRad * kMaxMountingError);
         });
   consider(
       health, below(s.motion_innovation, kMaxMotionInnovation), HealthCause::MotionDisagreement,

@@ -62,7 +62,7 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
   const UpdateByCalibration by_calibration =
       map_.considerUpdate(work.deskewed, match, update, beams_);
-  work.explained = calibration_.byExtrinsicPrior(by_calibration.correction);
+  work.explained = calibration_.byPrior(by_calibration.correction);
   if (match.update.updated && match.constraints.unconstrained == 0)
     calibration_.add(
         by_calibration.innovation, update.by_state, work.predicted.state, match.update);

@@ -29,15 +29,32 @@ constexpr double kLeastCorrelation = 0.95;
 // A second axis of rotation with less of the first one's singular value tells nothing.
 constexpr double kLeastSecondAxis = 0.05;
 
-/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what the
- * extrinsic explains. */
+// What every platform does and no noise density tells: vibration between the inertial samples turns
+// and shifts it, and stamps are good to half a millisecond.
+constexpr double kVibrationAngle = 5e-4;  // [rad]
+constexpr double kVibrationShift = 1e-3;  // [m]
+constexpr double kStampJitter = 5e-4;     // [s]
+
+/** Covariance of a correction by vibration and jitter, which mean nothing is wrong. */
+Matrix6 harmless(const NavState& x)
+{
+  const Vec3 shift = kStampJitter * x.v;
+  Matrix6 C = Matrix6::Zero();
+  C.topLeftCorner<3, 3>() = kVibrationAngle * kVibrationAngle * Mat3::Identity();
+  C.bottomRightCorner<3, 3>() =
+      kVibrationShift * kVibrationShift * Mat3::Identity() + shift * shift.transpose();
+  return C;
+}
+
+/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what
+ * else explains it. */
 double normalized(
     const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
-    const Matrix6& by_extrinsic, int block)
+    const Matrix6& explained, int block)
 {
   const Vec3 e = correction.segment<3>(block);
   const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block) +
-                 by_extrinsic.block<3, 3>(block, block);
+                 explained.block<3, 3>(block, block);
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
   if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
   return e.dot(ldlt.solve(e).eval()) / 3.0;
@@ -59,21 +76,33 @@ double medianOf(std::array<double, MotionAgreement::kWindow> values)
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+/** Standard deviation of a rotation along itself that Wahba's problem gave.
+ * \param strengths of the turns about the columns of \a axes: sums of squares [rad^2]
+ * \param variance of what one component of a turn leaves over [rad^2] */
+double stdAlong(const Vec3& rotation, const Mat3& axes, const Vec3& strengths, double variance)
+{
+  const Vec3 along = axes.transpose() * rotation.normalized();
+  const Vec3 information(
+      strengths[1] + strengths[2], strengths[0] + strengths[2], strengths[0] + strengths[1]);
+  return std::sqrt(variance * along.cwiseAbs2().dot(information.cwiseInverse()));
+}
 }  // namespace
 
 void MotionAgreement::add(
     const NavState& before, const FilterState& predicted, const FilterState& posterior,
-    const Matrix6& by_extrinsic)
+    const Matrix6& by_calibration)
 {
   const StateVector correction = boxminus(posterior.x, predicted.x);
   const std::size_t slot = corrections_ % kWindow;
-  const Matrix6 nothing = Matrix6::Zero();
+  const Matrix6 by_motion = harmless(predicted.x);
+  const Matrix6 by_both = by_motion + by_calibration;
   const auto at = [&](int block, const Matrix6& explained)
   { return normalized(correction, predicted, posterior, explained, block); };
-  explained_.attitude[slot] = at(kAttitude, by_extrinsic);
-  explained_.position[slot] = at(kPosition, by_extrinsic);
-  unexplained_.attitude[slot] = at(kAttitude, nothing);
-  unexplained_.position[slot] = at(kPosition, nothing);
+  explained_.attitude[slot] = at(kAttitude, by_both);
+  explained_.position[slot] = at(kPosition, by_both);
+  unexplained_.attitude[slot] = at(kAttitude, by_motion);
+  unexplained_.position[slot] = at(kPosition, by_motion);
   ++corrections_;
   const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
   if (R_last_scan_)
@@ -135,7 +164,11 @@ std::optional<MountingError> MotionAgreement::mountingError() const
   MountingError error;
   error.R_true_given = Mat3(svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose());
   error.R_true_given.transposeInPlace();
-  error.angle = logSO3(error.R_true_given).norm();
+  const Vec3 rotation = logSO3(error.R_true_given);
+  error.angle = rotation.norm();
+  const double left_over = inertial_squares + scan_squares - 2.0 * strengths.dot(signs);
+  error.std = stdAlong(
+      rotation, svd.matrixV(), strengths.cwiseProduct(signs), std::max(left_over, 0.0) / (3.0 * n));
   return error;
 }
 

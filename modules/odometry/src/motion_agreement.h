@@ -25,19 +25,19 @@ class MotionAgreement
   /** A scan corrected a prediction.
    * \param before state that the prediction began with
    * \param posterior of the update, before anything else changes it
-   * \param by_extrinsic covariance of the correction of the pose that an error of the extrinsic
-   * explains, as far as the options admit one */
+   * \param by_calibration covariance of the correction of the pose that errors of the calibration
+   * explain, as far as the options admit them */
   void add(
       const NavState& before, const FilterState& predicted, const FilterState& posterior,
-      const Matrix6& by_extrinsic);
+      const Matrix6& by_calibration);
   /** The next correction says nothing: the run begins, or the pose was searched. */
   void restart();
 
   /** Median over the last scans of e^T S^-1 e / 3 for the correction e of attitude or position,
-   * whichever is larger, with S its covariance, that by the extrinsic included; about 1 when the
-   * model is true, 0 while too few scans are known. */
+   * whichever is larger, with S its covariance, those by calibration, vibration and jitter of
+   * stamps included; about 1 when the model is true, 0 while too few scans are known. */
   [[nodiscard]] double innovation() const;
-  /** The same with nothing explained by the extrinsic. */
+  /** The same with nothing explained by the calibration. */
   [[nodiscard]] double unexplainedInnovation() const;
 
   /** The rotation between the mounting in use and the one that the turns of the last minute show;

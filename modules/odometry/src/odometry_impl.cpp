@@ -199,7 +199,7 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
 void Odometry::Impl::reportMounting(const ScanResult& result)
 {
   const std::optional<MountingError>& error = result.statistics.mounting_error;
-  if (mounting_reported_ || !error || error->angle < kMaxMountingError) return;
+  if (mounting_reported_ || !error || error->leastAngle() < kMaxMountingError) return;
   mounting_reported_ = true;
   const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
   report(

@@ -4,19 +4,13 @@
 /** \file packet_sensor.h Packets of one sensor to observations: one class per maker. */
 #pragma once
 
-#include "udp_capture.h"
+#include <fastlio/recordings/packet_streams.h>
 
-#include <mrpt/obs/CObservation.h>
-
-#include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace fastlio
 {
-using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
-
 /** Collects the packets of a scan, and gives it when it is complete. */
 class PacketSensor
 {
@@ -35,7 +29,6 @@ class PacketSensor
 
 /** \name By maker. The functions that recognise look at the packet alone.
  * @{ */
-[[nodiscard]] bool isVelodynePacket(const UdpPacket& packet);
 [[nodiscard]] std::unique_ptr<PacketSensor> makeVelodyneSensor(const std::string& label);
 
 [[nodiscard]] bool isLivoxPacket(const UdpPacket& packet);

@@ -4,13 +4,11 @@
 /** \file pcap_recording.h Captures of the network of LiDARs. */
 #pragma once
 
-#include "ouster_sensor.h"
-#include "packet_sensor.h"
+#include "udp_capture.h"
+#include <fastlio/recordings/packet_streams.h>
 #include <fastlio/recordings/recording_reader.h>
 
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace fastlio
@@ -25,33 +23,17 @@ class PcapRecording : public RecordingReader
 
   [[nodiscard]] NextRecorded next() override;
   [[nodiscard]] std::uint64_t position() const override { return capture_.position(); }
-  [[nodiscard]] std::vector<TopicReport> topics() const override;
+  [[nodiscard]] std::vector<TopicReport> topics() const override { return streams_.reports(); }
 
  private:
-  /** Packets of one sender to one port. */
-  struct Stream
-  {
-    std::string type, reason;
-    PacketSensor* sensor = nullptr;  //!< null: its packets are not read
-    std::size_t packets = 0, taken = 0;
-  };
-
-  void take(const UdpPacket& packet);
-  void recognise(const UdpPacket& packet, Stream& stream);
-  void recogniseOuster(const UdpPacket& packet, Stream& stream);
-  PacketSensor* sensorOf(
-      const std::string& label, std::unique_ptr<PacketSensor> (*make)(const std::string&));
   [[nodiscard]] NextRecorded end();
   [[nodiscard]] ReadProblem problem(ReadProblemKind kind, const std::string& what) const;
 
   std::string path_;
   UdpCapture capture_;
-  std::optional<OusterMetadata> ouster_;
-  std::string ouster_trouble_;                                       // why there is no metadata
-  std::map<std::string, std::unique_ptr<PacketSensor>> sensors_;     // by label
-  std::map<std::pair<std::string, std::uint16_t>, Stream> streams_;  // by sender and port
+  PacketStreams streams_;
   ObservationQueue queue_;
-  std::vector<ReadProblem> problems_;
+  std::vector<std::string> problems_;
   bool finished_ = false;
 };
 

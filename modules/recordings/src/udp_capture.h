@@ -4,6 +4,8 @@
 /** \file udp_capture.h UDP packets out of captures of a network: pcap and pcapng. */
 #pragma once
 
+#include <fastlio/recordings/packet_streams.h>
+
 #include <cstdint>
 #include <list>
 #include <memory>
@@ -15,16 +17,6 @@ struct pcap;
 
 namespace fastlio
 {
-/** One packet; its bytes stay valid until the next one. */
-struct UdpPacket
-{
-  std::string source;         //!< address of the sender
-  std::uint16_t port = 0;     //!< that it was sent to
-  std::int64_t stamp_ns = 0;  //!< when it was captured
-  const std::uint8_t* data = nullptr;
-  std::size_t size = 0;
-};
-
 /** Reads a capture with libpcap, which bounds the size of its packets, and puts packets that came
  * in fragments together. */
 class UdpCapture
@@ -36,7 +28,7 @@ class UdpCapture
   UdpCapture(const UdpCapture&) = delete;
   UdpCapture& operator=(const UdpCapture&) = delete;
 
-  /** The next UDP packet over IPv4 or IPv6; nothing at the end, which failure() may explain. */
+  /** The next UDP packet, whose bytes stay valid until the one after it, over IPv4 or IPv6; nothing at the end, which failure() may explain. */
   [[nodiscard]] std::optional<UdpPacket> next();
 
   /** Why reading has ended; empty: the file has. */

@@ -20,6 +20,10 @@ constexpr double kElevationTolerance = 4.0;  // [deg]
 // The sky returns nothing: what is missing at the upper edge counts less, which allows ten degrees.
 constexpr double kMissingSky = 0.4;
 
+// Words of presets that name a maker, or where a sensor was used, but no model.
+constexpr std::array<std::string_view, 7> kNoModels = {"ouster",  "livox",     "hesai", "pandar",
+                                                       "rslidar", "robosense", "kitti"};
+
 std::string lowerCase(std::string text)
 {
   std::transform(
@@ -28,14 +32,28 @@ std::string lowerCase(std::string text)
   return text;
 }
 
-/** Length of the longest of the preset's words that the label contains; 0: none. */
-std::size_t namedBy(const Preset& preset, const std::string& label)
+/** The longest of the preset's words that the label (lower case) contains; empty: none. */
+std::string wordIn(const std::string& label, const Preset& preset)
 {
   std::istringstream words{std::string(preset.words)};
-  std::size_t longest = 0;
+  std::string longest;
   for (std::string word; words >> word;)
-    if (label.find(word) != std::string::npos) longest = std::max(longest, word.size());
+    if (label.find(word) != std::string::npos && word.size() > longest.size()) longest = word;
   return longest;
+}
+
+/** The preset with the longest word in the label (lower case); null: none has one. */
+const Preset* namedPreset(const std::string& label)
+{
+  const Preset* named = nullptr;
+  std::size_t longest = 0;
+  for (const Preset& preset : presetTable())
+    if (const std::size_t length = wordIn(label, preset).size(); length > longest)
+    {
+      named = &preset;
+      longest = length;
+    }
+  return named;
 }
 
 /** Difference of the field of view [deg]; infinite when lines or circle say no. */
@@ -62,13 +80,10 @@ std::string appearanceText(const LidarAppearance& lidar)
 
 PresetMatch fittingPreset(const LidarAppearance& lidar)
 {
-  const std::string label = lowerCase(lidar.label);
-  const Preset* named = nullptr;
+  const Preset* named = namedPreset(lowerCase(lidar.label));
   const Preset* alike = nullptr;
   for (const Preset& preset : presetTable())
   {
-    const std::size_t length = namedBy(preset, label);
-    if (length > 0 && (named == nullptr || length > namedBy(*named, label))) named = &preset;
     const double now = difference(preset, lidar);
     if (now <= kElevationTolerance && (alike == nullptr || now < difference(*alike, lidar)))
       alike = &preset;
@@ -77,6 +92,20 @@ PresetMatch fittingPreset(const LidarAppearance& lidar)
     return {named, "the label or model '" + printable(lidar.label) + "' names it", true};
   if (alike != nullptr) return {alike, "it looks like that: " + appearanceText(lidar), false};
   return {nullptr, "no preset looks like it: " + appearanceText(lidar), false};
+}
+
+const Preset* namedModel(const std::string& label)
+{
+  const std::string lower = lowerCase(label);
+  const Preset* named = namedPreset(lower);
+  if (named == nullptr) return nullptr;
+  const std::string word = wordIn(lower, *named);
+  return std::find(kNoModels.begin(), kNoModels.end(), word) == kNoModels.end() ? named : nullptr;
+}
+
+bool names(const std::string& label, const Preset& preset)
+{
+  return !wordIn(lowerCase(label), preset).empty();
 }
 
 }  // namespace fastlio

@@ -68,6 +68,10 @@ struct MountingError
 {
   Mat3 R_true_given = Mat3::Identity();  //!< true R_imu_lidar = R_true_given * R_imu_lidar in use
   double angle = 0.0;                    //!< of R_true_given [rad]
+  double std = 0.0;                      //!< of the angle, by what the turns leave over [rad]
+
+  /** What the angle is at least, by three standard deviations [rad]. */
+  [[nodiscard]] double leastAngle() const { return std::max(0.0, angle - 3.0 * std); }
 };
 
 /** How wrong the calibration in use seems to be, by the innovations of all scans so far. */
@@ -101,8 +105,9 @@ struct ScanStatistics
   bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
-  double motion_innovation = 0.0;  //!< of the last scans: corrections of the predicted pose over
-                                   //!< what noise and extrinsic explain; 0: too few scans
+  double motion_innovation =
+      0.0;  //!< of the last scans: corrections of the predicted pose over what noise, calibration
+            //!< and vibration explain; 0: too few scans
   double unexplained_motion_innovation = 0.0;   //!< the same over what the noise alone explains
   std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
   CalibrationCheck calibration;
