@@ -118,7 +118,7 @@ std::string idOf(const TuneCommand& command, const SearchInputs& inputs)
 {
   std::vector<std::string> parts = {
       programVersion(), command.search.method,          std::to_string(command.search.seed),
-      command.frame,    contentOf(command.files.space), toYaml(inputs.base)};
+      command.frame,    contentOf(command.files.space), baseYaml(inputs)};
   // CMA-ES follows the measure.
   if (command.search.method == "cmaes") parts.push_back(inputs.measure);
   for (const RecordingInput& recording : inputs.recordings)
@@ -148,12 +148,35 @@ SearchInputs readInputs(const TuneCommand& command)
   requireReadable(command.files.space, "search space");
   SearchInputs inputs;
   inputs.space = readSearchSpace(command.files.space);
-  if (!command.files.base.empty()) inputs.base = loadConfigFromFile(command.files.base);
+  if (!command.files.base.empty())
+  {
+    const ConfigFile file = readConfigFile(command.files.base);
+    inputs.base = file.config;
+    for (const auto& [key, line] : file.lines)
+      inputs.base_keys.insert(key);
+  }
   inputs.recordings = recordingsOf(command.files);
   inputs.measure = measureOf(command, inputs.recordings);
   requireHarmlessOutputs(command, inputs);
   inputs.id = idOf(command, inputs);
   return inputs;
+}
+
+std::string baseYaml(const SearchInputs& inputs)
+{
+  return toYaml(inputs.base, [&](std::string_view key) { return inputs.base_keys.count(key) > 0; });
+}
+
+std::string searchedYaml(const SearchInputs& inputs, const Config& config)
+{
+  const auto given = [&](std::string_view key)
+  {
+    return inputs.base_keys.count(key) > 0 ||
+           std::any_of(
+               inputs.space.begin(), inputs.space.end(),
+               [&](const SearchKey& searched) { return searched.key == key; });
+  };
+  return toYaml(config, given);
 }
 
 std::string nameWithUnit(const std::string& measure)

@@ -7,6 +7,9 @@
 #include "command_line.h"
 #include <fastlio/tuning/search_space.h>
 
+#include <functional>
+#include <set>
+
 namespace fastlio
 {
 struct RecordingInput
@@ -19,6 +22,7 @@ struct SearchInputs
 {
   SearchSpace space;
   Config base;
+  std::set<std::string, std::less<>> base_keys;  //!< that the file gives, also at their defaults
   std::vector<RecordingInput> recordings;
   std::string measure;  //!< ape, rpe or proxy
   std::string id;       //!< digest of everything that outcomes and points depend on
@@ -27,6 +31,13 @@ struct SearchInputs
 /** Reads and checks all inputs, and that no output would destroy one.
  * \exception std::invalid_argument says what is wrong */
 [[nodiscard]] SearchInputs readInputs(const TuneCommand& command);
+
+/** The base as a parameter file. */
+[[nodiscard]] std::string baseYaml(const SearchInputs& inputs);
+
+/** A configuration of the search as a parameter file: it gives all searched keys, as the preset of
+ * a sensor takes the place of what is not given. */
+[[nodiscard]] std::string searchedYaml(const SearchInputs& inputs, const Config& config);
 
 /** "ape [m]", "rpe [m/s]", "proxy". */
 [[nodiscard]] std::string nameWithUnit(const std::string& measure);

@@ -3,7 +3,6 @@
 
 #include "trials.h"
 
-#include <fastlio/config/config_document.h>
 #include <fastlio/tuning/search.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <memory>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace fastlio
 {
@@ -22,7 +22,7 @@ constexpr double kLeastOfBase = 0.9;  // of the duration; a shorter run is trunc
 
 Trial trialOf(const SearchInputs& inputs, const Candidate& values)
 {
-  return {toYaml(configured(inputs.base, inputs.space, values)), values};
+  return {searchedYaml(inputs, configured(inputs.base, inputs.space, values)), values};
 }
 
 Candidate valuesOf(const SearchInputs& inputs, const Config& config)
@@ -35,7 +35,7 @@ Candidate valuesOf(const SearchInputs& inputs, const Config& config)
 
 Trial baseSet(const SearchInputs& inputs)
 {
-  return {toYaml(inputs.base), valuesOf(inputs, inputs.base)};
+  return {baseYaml(inputs), valuesOf(inputs, inputs.base)};
 }
 
 /** The base comes first; its values cannot contradict each other, those of the defaults may. */
@@ -43,7 +43,8 @@ std::vector<Trial> firstSets(const SearchInputs& inputs)
 {
   std::vector<Trial> sets = {baseSet(inputs)};
   const Candidate defaults = valuesOf(inputs, Config{});
-  if (defaults != sets[0].values) sets.push_back(trialOf(inputs, defaults));
+  Trial with_defaults = trialOf(inputs, defaults);
+  if (with_defaults.yaml != sets[0].yaml) sets.push_back(std::move(with_defaults));
   return sets;
 }
 

@@ -79,7 +79,7 @@ Score scoreOf(
 
 bool isWorse(const Judged& base, const Judged& trial)
 {
-  if (trial.state != base.state) return trial.state > base.state;
+  if (trial.state > base.state) return true;
   const auto ratio = ratioOf(base, trial);
   return ratio && *ratio > kWorse;
 }

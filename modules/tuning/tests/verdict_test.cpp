@@ -68,6 +68,15 @@ TEST(Verdict, FewPosesBeforeALossAreNoError)
   EXPECT_EQ(concludeFrom(base, trials[2], trials[1]), Conclusion::Better);
 }
 
+TEST(Verdict, BetterStateDoesNotExcuseALargerError)
+{
+  JudgedRuns base = runsOf({1, 1, 1});
+  base[1].state = RunState::Degraded;
+  EXPECT_TRUE(isWorse(base[1], {RunState::Complete, 1.06}));
+  EXPECT_FALSE(isWorse(base[1], {RunState::Complete, 1.04}));
+  EXPECT_EQ(bestTrial({base, runsOf({1, 1.5, 1}), runsOf({1, 0.9, 1})}, kAll), 2U);
+}
+
 TEST(Verdict, BestMakesNoRecordingWorse)
 {
   EXPECT_EQ(

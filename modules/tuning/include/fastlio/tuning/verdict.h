@@ -43,7 +43,8 @@ struct Score
 /** Error by error of the base; nothing where one of them is missing, or of a lost run. */
 [[nodiscard]] std::optional<double> ratioOf(const Judged& base, const Judged& trial);
 
-/** Whether a run is worse than that of the base: in its state, or by more than 5 % in its error. */
+/** Whether a run is worse than that of the base: in its state, or by more than 5 % in its error,
+ * also where its state is better. */
 [[nodiscard]] bool isWorse(const Judged& base, const Judged& trial);
 
 /** The trial with the best score among those that make none of the recordings worse. Trial 0 is the
