@@ -28,9 +28,9 @@ lidar:
 calibration:
   estimate_time_offset: false
 measurement:
-  range_noise: 0.15
+  range_noise: 0.05
 map:
-  voxel_size: 1.4
+  voxel_size: 1.2
 END
 cat >"$output/space.yaml" <<'END'
 lidar:
