@@ -10,16 +10,17 @@ DEMO_DIR ?= demo-output
 SCENARIOS_DIR ?= scenarios-output
 CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
+TUNE_DIR ?= tune-output
 FUZZ_SECONDS ?= 600
 
 BUILD_DIR := build/$(PRESET)
 # Tests are of the build that packages are made of, which is the same on every machine, unless a preset is given.
 TEST_PRESET := $(if $(filter file,$(origin PRESET)),baseline,$(PRESET))
-PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info
+PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark demo replay scenarios calibration-table \
+  benchmark demo replay scenarios calibration-table tune-demo tune-proxy tune-effects \
   experiments docs format lint packages test-packages test-trixie clean
 
 help:
@@ -33,6 +34,9 @@ help:
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make calibration-table  errors of realistic rigs before and after fastlio-calibrate"
+	@echo "make tune-demo  fastlio-tune makes a bad parameter file better, on simulated recordings"
+	@echo "make tune-proxy  rank correlation of its proxy with true errors; RECORDINGS=DIR as above"
+	@echo "make tune-effects  what each of ten keys does to the error, of four platforms"
 	@echo "make scenarios  table of errors on every simulated scenario, through the programs"
 	@echo "make experiments  the paper's experiments and the ablation; writes docs/experiments.md"
 	@echo "make replay  install what is missing, build fastlio-replay and nothing else"
@@ -43,7 +47,7 @@ help:
 	@echo "make packages    Debian packages (runtime, dev, plugin) in build/packages/apt, a folder that apt reads"
 	@echo "make test-packages  installs them in a clean Debian 12 root and runs them there (needs root)"
 	@echo "make test-trixie builds and tests in a Debian 13 root, with MRPT 2.14 (needs root)"
-	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/ and $(EXPERIMENTS_DIR)/"
+	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/, $(EXPERIMENTS_DIR)/ and $(TUNE_DIR)/"
 
 dependencies:
 	@cmake/install_dependencies.sh build
@@ -106,6 +110,18 @@ demo: configure
 calibration-table: build
 	benchmarks/calibration_table.sh $(BUILD_DIR) $(CALIBRATION_DIR)
 
+tune-demo: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	JOBS=$(JOBS) cmake/tune_demo.sh $(BUILD_DIR) $(TUNE_DIR)/demo
+
+tune-proxy: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	JOBS=$(JOBS) benchmarks/tune_proxy.sh $(BUILD_DIR) $(TUNE_DIR)/proxy $(RECORDINGS)
+
+tune-effects: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	JOBS=$(JOBS) benchmarks/tune_effects.sh $(BUILD_DIR) $(TUNE_DIR)/effects
+
 scenarios: build
 	benchmarks/scenario_table.sh $(BUILD_DIR) $(SCENARIOS_DIR)
 
@@ -144,4 +160,4 @@ test-trixie:
 	cmake/test_in_trixie.sh build/trixie
 
 clean:
-	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR)
+	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR) $(TUNE_DIR)

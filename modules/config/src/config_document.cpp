@@ -92,10 +92,18 @@ class YamlLines
 
 std::string toYaml(const Config& config, const std::string& header)
 {
+  return toYaml(
+      config, [](std::string_view /*key*/) { return false; }, header);
+}
+
+std::string toYaml(const Config& config, const OptionFilter& given, const std::string& header)
+{
   YamlLines lines(header);
   for (const auto& row : configTable())
-    if (const std::string text = valueText(row, config); text != valueText(row, Config{}))
-      lines.add(row.key, text);
+  {
+    const std::string text = valueText(row, config);
+    if (text != valueText(row, Config{}) || given(row.key)) lines.add(row.key, text);
+  }
   return lines.text();
 }
 

@@ -175,6 +175,16 @@ TEST(ConfigTable, MembersAreDistinct)
   }
 }
 
+TEST(ConfigDocument, GivenKeysAreWrittenAtTheirDefaults)
+{
+  Config config;
+  config.odometry.lidar.min_range = 0.7;
+  EXPECT_EQ(
+      toYaml(
+          config, [](std::string_view key) { return key == "lidar.max_range"; }, "# x\n"),
+      "# x\nlidar:\n  min_range: 0.7\n  max_range: 150\n");
+}
+
 TEST(ConfigDocument, YamlLoadsBackToTheSame)
 {
   std::mt19937 random(7);

@@ -18,6 +18,14 @@ namespace fastlio
  */
 [[nodiscard]] std::string toYaml(const Config& config, const std::string& header = {});
 
+/** Whether a key is of interest. */
+using OptionFilter = std::function<bool(std::string_view key)>;
+
+/** As toYaml(), and the values of the \a given keys also where they equal the defaults, so that the
+ * preset of a sensor does not take their place. */
+[[nodiscard]] std::string toYaml(
+    const Config& config, const OptionFilter& given, const std::string& header = {});
+
 /** Where a value comes from, for people: "default", "command line", "FILE:LINE". */
 using OptionOrigin = std::function<std::string(std::string_view key)>;
 

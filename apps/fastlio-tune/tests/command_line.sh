@@ -1,0 +1,21 @@
+#!/bin/sh
+# mrpt_fastlio: fastlio-tune as a user calls it: --help and bad input.
+# SPDX-License-Identifier: BSD-3-Clause
+set -eu
+tune=$1
+dir=$(mktemp -d)
+trap 'rm -rf "$dir"' EXIT
+expect() { # STATUS TEXT COMMAND...
+  status=$1 text=$2
+  shift 2
+  seen=0
+  "$@" >"$dir/log" 2>&1 || seen=$?
+  [ "$seen" -eq "$status" ] && grep -q -- "$text" "$dir/log" || { echo "status $seen: $*"; cat "$dir/log"; exit 1; }
+}
+printf 'lidar:\n  min_rnge: [1]\n' >"$dir/bad.yaml"
+printf 'lidar:\n  min_range: [0.5, 1]\n' >"$dir/good.yaml"
+expect 0 'Exit status' "$tune" --help
+expect 1 'recordings' "$tune" "$dir/good.yaml"
+expect 1 'lidar.min_range' "$tune" "$dir/bad.yaml" "$dir/a.rawlog"
+expect 1 'a.rawlog' "$tune" "$dir/good.yaml" "$dir/a.rawlog" -o "$dir/o.yaml"
+expect 1 'method' "$tune" "$dir/good.yaml" "$dir/a.rawlog" --method luck

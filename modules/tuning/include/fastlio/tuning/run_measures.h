@@ -1,0 +1,31 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file run_measures.h What a run tells about its own error, without ground truth. */
+#pragma once
+
+#include <fastlio/tuning/run_outcome.h>
+
+#include <string>
+
+namespace fastlio
+{
+/** Measures of the run in a folder, from its timing.csv and states.csv:
+ *
+ * - `slip` [m/s]: how far positions move against the integral of the velocities. Positions follow
+ *   the scans at once, velocities the inertial samples: where noise, clocks or the map are wrong,
+ *   the corrections of successive scans have one direction, and the two part. RMS over spans of
+ *   half a second, so that white corrections cancel.
+ * - `information`: mean logarithm of what scans tell in their weakest direction, with the noise
+ * that the residuals show instead of the one that is configured; else small noise would look good.
+ * - `proxy`: slip / exp(information)^0.03. The exponent is the one that ranks true errors best on
+ *   recordings with ground truth (docs/tuning.md).
+ * - `residual` [m], `inliers`: RMS of the residuals, points that were matched by all.
+ * - `duration` [s]: from the first to the last state. A run that starts late or ends early has less
+ *   to err in.
+ *
+ * A run with too few scans to tell has no slip and no proxy.
+ * \exception std::exception a file cannot be read; the message names it */
+[[nodiscard]] Measures measuresOfRun(const std::string& folder);
+
+}  // namespace fastlio
