@@ -16,8 +16,12 @@ constexpr const char* kDescription =
     "the motion that both see, and what fastlio-replay would do.";
 constexpr const char* kFooter = R"(Exit status:
   0  fastlio-replay can run on the recording
-  1  wrong usage or configuration
-  2  it cannot: the last line says why)";
+  1  wrong usage or configuration, or a file that cannot be written
+  2  it cannot: the last line says why
+
+Example:
+  fastlio-info walk.rawlog --write-config my.yaml
+  fastlio-replay walk.rawlog -c my.yaml)";
 }  // namespace
 
 std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* argv)
@@ -38,6 +42,12 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
          "--json", arguments.json_path,
          "Write everything as JSON to FILE, or with '-' instead of the table")
       ->type_name("FILE");
+  app.add_option(
+         "--write-config", arguments.new_config,
+         "Write the parameters that the recording tells, each with its reason, to be edited; a "
+         "file "
+         "that is there already is left alone")
+      ->type_name("FILE.yaml");
   app.add_flag(
       "!--no-motion", arguments.check_motion,
       "Do not compare the motions that LiDAR and IMU see (the part that takes longest)");

@@ -22,6 +22,7 @@ struct InfoArguments
   std::vector<std::string> input_files;
   std::string config_file;  //!< empty: defaults
   std::string json_path;    //!< empty: none; "-": instead of the table
+  std::string new_config;   //!< where to write a parameter file; empty: nowhere
   bool check_motion = true;
 };
 
