@@ -3,6 +3,8 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
+
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
@@ -38,6 +40,9 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
          "-c,--config", arguments.config_file,
          "YAML parameters that fastlio-replay would get (labels, times of points, mounting)")
       ->type_name("FILE");
+  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app.add_option(
          "--json", arguments.json_path,
          "Write everything as JSON to FILE, or with '-' instead of the table")
@@ -51,6 +56,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   app.add_flag(
       "!--no-motion", arguments.check_motion,
       "Do not compare the motions that LiDAR and IMU see (the part that takes longest)");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
   app.set_version_flag(
       "--version", std::string("fastlio-info ") + FASTLIO_VERSION + " (" +
                        mrpt::system::MRPT_getVersion() + ")");
@@ -60,7 +66,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(InfoStatus::Usage);
+    return endOfParsing(app, e, static_cast<int>(InfoStatus::Usage));
   }
   return arguments;
 }

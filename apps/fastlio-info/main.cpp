@@ -25,7 +25,7 @@ SurveyOptions optionsOf(const InfoArguments& arguments)
 {
   SurveyOptions options;
   options.check_motion = arguments.check_motion;
-  if (isatty(STDERR_FILENO) == 0) return options;
+  if (arguments.quiet || isatty(STDERR_FILENO) == 0) return options;
   options.progress = [last = -1](double fraction) mutable
   {
     const int percent = static_cast<int>(100.0 * fraction);
@@ -40,7 +40,10 @@ SurveyOptions optionsOf(const InfoArguments& arguments)
 void write(const InfoArguments& arguments, const RecordingSurvey& survey)
 {
   const bool json_to_stdout = arguments.json_path == "-";
-  std::cout << (json_to_stdout ? toJson(survey) : toTable(survey)) << std::flush;
+  if (json_to_stdout)
+    std::cout << toJson(survey) << std::flush;
+  else if (!arguments.quiet)
+    std::cout << toTable(survey) << std::flush;
   if (!std::cout) throw std::runtime_error("standard output cannot be written");
   if (!arguments.json_path.empty() && !json_to_stdout)
     writeFileAtomically(arguments.json_path, toJson(survey));
@@ -69,6 +72,9 @@ int run(const InfoArguments& arguments)
   requireHarmlessOutput(arguments);
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
+  for (const std::string& setting : arguments.settings)
+    applySetting(setting, config);
+  validate(config);
   const RecordingSurvey survey =
       surveyRecording(arguments.input_files, config.sensors, config.odometry, optionsOf(arguments));
   write(arguments, survey);
