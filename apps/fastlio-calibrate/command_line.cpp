@@ -3,6 +3,8 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
+
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
@@ -40,6 +42,9 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
          "-c,--config", arguments.config_file,
          "Parameters of the rig (YAML), to begin with; calibration.*_std are what is known before")
       ->type_name("FILE.yaml");
+  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app.add_option(
          "-o,--output", arguments.output,
          "Where the parameters with the calibration are written, for fastlio-replay -c")
@@ -63,7 +68,7 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(CalibrateStatus::Usage);
+    return endOfParsing(app, e, static_cast<int>(CalibrateStatus::Usage));
   }
   return arguments;
 }

@@ -22,8 +22,9 @@ enum class CalibrateStatus
 struct CalibrateArguments
 {
   std::vector<std::string> recordings;
-  bool join = false;        //!< the files are parts of one recording
-  std::string config_file;  //!< empty: defaults
+  bool join = false;                  //!< the files are parts of one recording
+  std::vector<std::string> settings;  //!< KEY=VALUE, over the file
+  std::string config_file;            //!< empty: defaults
   std::string output = "calibration.yaml";
   std::string json;  //!< empty: none
   int passes = 8;

@@ -140,6 +140,9 @@ CalibrateStatus run(const CalibrateArguments& arguments)
   requireHarmlessOutputs(arguments);
   ConfigFile given;
   if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);
+  for (const std::string& setting : arguments.settings)
+    given.lines[applySetting(setting, given.config)] = 0;
+  validate(given.config);
   try
   {
     const Config config =

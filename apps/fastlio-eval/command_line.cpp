@@ -112,6 +112,7 @@ void addMeasureOptions(CLI::App& app, EvaluationOptions& e)
 
 void addOutputOptions(CLI::App& app, EvalCommand& c)
 {
+  app.add_flag("-q,--quiet", c.quiet, "Print nothing but errors");
   app.add_option(
          "--json", c.json_path,
          "Write the report as JSON to FILE, or with '-' instead of the table")

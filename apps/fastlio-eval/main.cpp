@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-eval: how far is an estimated trajectory from the truth? */
 
+#include "../shared/unknown_option.h"
 #include "command_line.h"
 #include "estimates.h"
 #include "picture.h"
@@ -41,7 +42,10 @@ std::string jsonOf(const std::vector<NamedReport>& reports)
 void writeReports(const EvalCommand& command, const std::vector<NamedReport>& reports)
 {
   const bool json_to_stdout = command.json_path == "-";
-  std::cout << (json_to_stdout ? jsonOf(reports) : tableOf(reports)) << std::flush;
+  if (json_to_stdout)
+    std::cout << jsonOf(reports) << std::flush;
+  else if (!command.quiet)
+    std::cout << tableOf(reports) << std::flush;
   if (!std::cout) throw std::runtime_error("standard output cannot be written");
   if (!command.json_path.empty() && !json_to_stdout)
     fastlio::writeFileAtomically(command.json_path, jsonOf(reports));
@@ -135,7 +139,7 @@ try
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? kExitOk : kExitInput;
+    return fastlio::endOfParsing(app, e, kExitInput);
   }
   return run(command);
 }

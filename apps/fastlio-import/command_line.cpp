@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
 #include "mcap_output.h"
 #include <fastlio/recordings/recording_reader.h>
 
@@ -136,7 +137,7 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(ImportStatus::Usage);
+    return endOfParsing(app, e, static_cast<int>(ImportStatus::Usage));
   }
   return arguments;
 }

@@ -3,6 +3,8 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
+
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
@@ -16,8 +18,12 @@ constexpr const char* kDescription =
     "the motion that both see, and what fastlio-replay would do.";
 constexpr const char* kFooter = R"(Exit status:
   0  fastlio-replay can run on the recording
-  1  wrong usage or configuration
-  2  it cannot: the last line says why)";
+  1  wrong usage or configuration, or a file that cannot be written
+  2  it cannot: the last line says why
+
+Example:
+  fastlio-info walk.rawlog --write-config my.yaml
+  fastlio-replay walk.rawlog -c my.yaml)";
 }  // namespace
 
 std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* argv)
@@ -34,13 +40,23 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
          "-c,--config", arguments.config_file,
          "YAML parameters that fastlio-replay would get (labels, times of points, mounting)")
       ->type_name("FILE");
+  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   app.add_option(
          "--json", arguments.json_path,
          "Write everything as JSON to FILE, or with '-' instead of the table")
       ->type_name("FILE");
+  app.add_option(
+         "--write-config", arguments.new_config,
+         "Write the parameters that the recording tells, each with its reason, to be edited; a "
+         "file "
+         "that is there already is left alone")
+      ->type_name("FILE.yaml");
   app.add_flag(
       "!--no-motion", arguments.check_motion,
       "Do not compare the motions that LiDAR and IMU see (the part that takes longest)");
+  app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
   app.set_version_flag(
       "--version", std::string("fastlio-info ") + FASTLIO_VERSION + " (" +
                        mrpt::system::MRPT_getVersion() + ")");
@@ -50,7 +66,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(InfoStatus::Usage);
+    return endOfParsing(app, e, static_cast<int>(InfoStatus::Usage));
   }
   return arguments;
 }

@@ -20,9 +20,12 @@ enum class InfoStatus
 struct InfoArguments
 {
   std::vector<std::string> input_files;
-  std::string config_file;  //!< empty: defaults
-  std::string json_path;    //!< empty: none; "-": instead of the table
+  std::string config_file;            //!< empty: defaults
+  std::string json_path;              //!< empty: none; "-": instead of the table
+  std::string new_config;             //!< where to write a parameter file; empty: nowhere
+  std::vector<std::string> settings;  //!< KEY=VALUE, over the file
   bool check_motion = true;
+  bool quiet = false;  //!< no table: the exit status tells, and the files that are asked for
 };
 
 /** The arguments, or the exit status to end with. */

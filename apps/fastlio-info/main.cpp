@@ -5,11 +5,13 @@
  */
 
 #include "command_line.h"
+#include "config_proposal.h"
 #include "info_report.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/same_file.h>
 
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <unistd.h>
@@ -23,7 +25,7 @@ SurveyOptions optionsOf(const InfoArguments& arguments)
 {
   SurveyOptions options;
   options.check_motion = arguments.check_motion;
-  if (isatty(STDERR_FILENO) == 0) return options;
+  if (arguments.quiet || isatty(STDERR_FILENO) == 0) return options;
   options.progress = [last = -1](double fraction) mutable
   {
     const int percent = static_cast<int>(100.0 * fraction);
@@ -38,21 +40,30 @@ SurveyOptions optionsOf(const InfoArguments& arguments)
 void write(const InfoArguments& arguments, const RecordingSurvey& survey)
 {
   const bool json_to_stdout = arguments.json_path == "-";
-  std::cout << (json_to_stdout ? toJson(survey) : toTable(survey)) << std::flush;
+  if (json_to_stdout)
+    std::cout << toJson(survey) << std::flush;
+  else if (!arguments.quiet)
+    std::cout << toTable(survey) << std::flush;
   if (!std::cout) throw std::runtime_error("standard output cannot be written");
   if (!arguments.json_path.empty() && !json_to_stdout)
     writeFileAtomically(arguments.json_path, toJson(survey));
 }
 
-/** The report may not replace what it is about. */
+/** Nothing may replace what it is about, nor parameters that somebody has edited. */
 void requireHarmlessOutput(const InfoArguments& arguments)
 {
-  if (arguments.json_path.empty() || arguments.json_path == "-") return;
-  std::vector<FileUse> inputs;
+  if (!arguments.new_config.empty() && std::filesystem::exists(arguments.new_config))
+    throw std::invalid_argument(
+        "--write-config: '" + arguments.new_config +
+        "' is there already; give another name, or remove it");
+  std::vector<FileUse> inputs, outputs;
+  if (!arguments.new_config.empty()) outputs.push_back({arguments.new_config, "--write-config"});
+  if (!arguments.json_path.empty() && arguments.json_path != "-")
+    outputs.push_back({arguments.json_path, "--json"});
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "recording"});
   if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
-  requireDistinctFiles(inputs, {{arguments.json_path, "--json"}});
+  requireDistinctFiles(inputs, outputs);
 }
 
 int run(const InfoArguments& arguments)
@@ -61,9 +72,14 @@ int run(const InfoArguments& arguments)
   requireHarmlessOutput(arguments);
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
+  for (const std::string& setting : arguments.settings)
+    applySetting(setting, config);
+  validate(config);
   const RecordingSurvey survey =
       surveyRecording(arguments.input_files, config.sensors, config.odometry, optionsOf(arguments));
   write(arguments, survey);
+  if (!arguments.new_config.empty() && survey.unusable.empty())
+    writeFileAtomically(arguments.new_config, proposedConfig(survey, config));
   return static_cast<int>(survey.unusable.empty() ? InfoStatus::Ok : InfoStatus::Unusable);
 }
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
 #include <fastlio/exporters/run_summary.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/nearest_name.h>
@@ -201,19 +202,6 @@ void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& posi
         "--input-rawlog", "is given beside other recordings; give all of them in one way");
   if (!positional.empty()) arguments.input_files = positional;
 }
-/** What is left when all options have been read. */
-std::string unknownOptionText(const CLI::App& app)
-{
-  const std::vector<std::string> left = app.remaining(true);
-  const std::string seen = left.empty() ? "" : left.front();
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames())
-      names.push_back("--" + name);
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return "fastlio-replay: unknown option '" + printable(seen) + "'; did you mean '" +
-         std::string(nearestName(seen, views)) + "'? --help lists all options";
-}
 }  // namespace
 
 std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const* argv)
@@ -233,14 +221,9 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
     if (arguments.quiet) arguments.verbosity = mrpt::system::LVL_ERROR;
     requireOutput(arguments);
   }
-  catch (const CLI::ExtrasError&)
-  {
-    std::cerr << unknownOptionText(app) << '\n';
-    return static_cast<int>(ExitStatus::Usage);
-  }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : static_cast<int>(ExitStatus::Usage);
+    return endOfParsing(app, e, static_cast<int>(ExitStatus::Usage));
   }
   return arguments;
 }

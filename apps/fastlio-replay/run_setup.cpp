@@ -73,32 +73,19 @@ ConfigFile readFile(const ReplayArguments& arguments)
   }
 }
 
-/** Takes in --set KEY=VALUE. */
-void takeSetting(const std::string& setting, Loaded& loaded)
-{
-  const std::size_t equals = setting.find('=');
-  const std::string key = setting.substr(0, equals);
-  const auto* row = findOption(configTable(), key);
-  if (equals == std::string::npos || row == nullptr)
-    throw SetupError(
-        ExitStatus::Usage,
-        "--set '" + printable(setting) + "': " +
-            (equals == std::string::npos
-                 ? "has no '='; write KEY=VALUE, for example map.voxel_size=0.3"
-                 : "unknown key; did you mean '" + nearestKey(configTable(), key) + "'?"));
-  const auto problem =
-      assign(row->value(loaded.file.config), row->unit, setting.substr(equals + 1));
-  if (problem)
-    throw SetupError(ExitStatus::Usage, "--set '" + printable(setting) + "': " + *problem);
-  loaded.origins[key] = "--set";
-}
-
 /** The command line goes before the file, and its own options before --set. */
 Loaded loadConfiguration(const ReplayArguments& arguments)
 {
   Loaded loaded{readFile(arguments), {}};
-  for (const std::string& setting : arguments.settings)
-    takeSetting(setting, loaded);
+  try
+  {
+    for (const std::string& setting : arguments.settings)
+      loaded.origins[applySetting(setting, loaded.file.config)] = "--set";
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw SetupError(ExitStatus::Usage, e.what());
+  }
   OdometryOptions& odometry = loaded.file.config.odometry;
   SensorOptions& sensors = loaded.file.config.sensors;
   std::string& exporters = loaded.file.config.exporters.exporters;

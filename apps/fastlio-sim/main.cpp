@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-sim: simulated recordings with exact ground truth. */
 
+#include "../shared/unknown_option.h"
 #include "command_line.h"
 #include <fastlio/simulation/recording.h>
 
@@ -74,7 +75,7 @@ try
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? kExitOk : kExitError;
+    return fastlio::endOfParsing(app, e, kExitError);
   }
   run(command);
   return kExitOk;

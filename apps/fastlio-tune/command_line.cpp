@@ -3,6 +3,8 @@
 
 #include "command_line.h"
 
+#include "../shared/unknown_option.h"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -162,7 +164,7 @@ std::variant<TuneCommand, int> parseCommandLine(int argc, const char* const* arg
   }
   catch (const CLI::ParseError& e)
   {
-    return app.exit(e) == 0 ? 0 : 1;
+    return endOfParsing(app, e, 1);
   }
   return c;
 }

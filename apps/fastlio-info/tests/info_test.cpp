@@ -5,6 +5,7 @@
 
 #include "process.h"
 #include "temporary_folder.h"
+#include <fastlio/config/config_yaml.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/settings_table.h>
 
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace fastlio::testing
@@ -206,6 +208,48 @@ TEST_F(Info, RealRecordingsOfTheFolder)
   ASSERT_TRUE(office["motion"]["conclusive"]) << table_;
   EXPECT_NEAR(office["motion"]["time_offset_s"], 0.0, 0.01);
   EXPECT_LT(office["motion"]["mounting_error_deg"], 5.0);
+}
+
+TEST_F(Info, WritesTheParametersThatTheRecordingTells)
+{
+  const std::string rawlog = walk({{"imu.gyro_noise", "0.002"}, {"lidar.time_offset", "0.03"}});
+  const std::string yaml = folder_.file("my.yaml");
+  const auto written = info({rawlog, "--write-config", yaml});
+  ASSERT_EQ(written.exit_status, 0) << written.output;
+  const Config config = loadConfigFromFile(yaml);
+  EXPECT_NO_THROW(validate(config));
+  EXPECT_EQ(config.sensors.lidar_sensor_label, "lidar");
+  EXPECT_EQ(config.sensors.imu_sensor_label, "imu");
+  EXPECT_NE(config.sensors.point_time_unit, PointTimeUnit::Auto);
+  EXPECT_GT(config.odometry.imu.noise.gyro_noise_density, 0.004);
+  EXPECT_LT(config.odometry.imu.noise.gyro_noise_density, 0.006);
+  EXPECT_NEAR(config.odometry.lidar.time_offset, -0.03, kRough);
+  // Somebody may have edited it.
+  const std::string before = contentOf(yaml);
+  const auto again = info({rawlog, "--write-config", yaml});
+  EXPECT_EQ(again.exit_status, 1);
+  EXPECT_NE(again.output.find("is there already"), std::string::npos) << again.output;
+  EXPECT_EQ(contentOf(yaml), before);
+  EXPECT_EQ(info({rawlog, "--write-config", rawlog}).exit_status, 1);
+}
+
+TEST_F(Info, WrittenParametersKeepWhatIsGiven)
+{
+  const std::string rawlog = walk({});
+  const std::string given = folder_.file("given.yaml"), yaml = folder_.file("my.yaml");
+  std::ofstream(given) << "imu:\n  gyro_noise_density: 0.007\nmap:\n  voxel_size: 0.3\n";
+  ASSERT_EQ(info({rawlog, "-c", given, "--write-config", yaml, "--no-motion"}).exit_status, 0);
+  const Config config = loadConfigFromFile(yaml);
+  EXPECT_EQ(config.odometry.imu.noise.gyro_noise_density, 0.007);
+  EXPECT_NE(contentOf(yaml).find("voxel_size: 0.3  # given"), std::string::npos);
+}
+
+TEST_F(Info, NoParametersAreWrittenForWhatCannotBeUsed)
+{
+  const std::string empty = folder_.file("empty.rawlog"), yaml = folder_.file("my.yaml");
+  std::ofstream(empty) << "";
+  EXPECT_EQ(info({empty, "--write-config", yaml}).exit_status, 2);
+  EXPECT_FALSE(std::filesystem::exists(yaml));
 }
 
 }  // namespace fastlio::testing

@@ -79,11 +79,11 @@ done
 printf 'initialization:\n  duration: 1.5\n' >base.yaml
 printf 'measurement:\n  range_noise: {min: 0.01, max: 0.05}\nmap:\n  voxel_size: {min: 0.3, max: 0.6}\n' >space.yaml
 search() {
-  "$tune" space.yaml a.rawlog b.rawlog -c base.yaml --method random --budget "${JOBS:-40}" -o tuned.yaml "$@"
+  "$tune" space.yaml a.rawlog b.rawlog -c base.yaml --method random --budget "${JOBS:-20}" -o tuned.yaml "$@"
 }
 search -q --print-slurm 4 >array.sh
 total=$("$tune" --status tuned.yaml.sqlite | awk 'NR == 2 {print $3}')
-[ "$total" -ge "${JOBS:-40}" ] || fail "$total jobs"
+[ "$total" -ge "${JOBS:-20}" ] || fail "$total jobs"
 sbatch array.sh || fail sbatch
 wait_for 600 sh -c '[ -z "$(squeue -h)" ]'
 "$tune" --status tuned.yaml.sqlite

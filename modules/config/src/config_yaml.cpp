@@ -222,6 +222,22 @@ ConfigFile readConfigFile(const std::string& path)
   return file;
 }
 
+std::string applySetting(const std::string& setting, Config& config)
+{
+  const auto wrong = [&setting](const std::string& what)
+  { return std::invalid_argument("--set '" + printable(setting) + "': " + what); };
+  const std::size_t equals = setting.find('=');
+  std::string key = setting.substr(0, equals);
+  if (equals == std::string::npos)
+    throw wrong("has no '='; write KEY=VALUE, for example map.voxel_size=0.3");
+  const auto* row = findOption(configTable(), key);
+  if (row == nullptr)
+    throw wrong("unknown key; did you mean '" + nearestKey(configTable(), key) + "'?");
+  if (const auto problem = assign(row->value(config), row->unit, setting.substr(equals + 1)))
+    throw wrong(*problem);
+  return key;
+}
+
 Config loadConfigFromFile(const std::string& path)
 {
   return readConfigFile(path).config;

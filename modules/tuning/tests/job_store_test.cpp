@@ -57,6 +57,7 @@ TEST(JobStore, ThousandJobsNoneLostNoneTwice)
   JobStore store = file.open();
   constexpr int kJobs = 1000;
   std::vector<Job> jobs;
+  jobs.reserve(kJobs);
   for (int i = 0; i < kJobs; ++i)
     jobs.push_back(jobOf(std::to_string(i)));
   store.add(kVersion, jobs);

@@ -37,6 +37,11 @@ struct ConfigFile
  */
 [[nodiscard]] ConfigFile readConfigFile(const std::string& path);
 
+/** Takes in "KEY=VALUE", with a value as a file has it.
+ * \return the key
+ * \exception std::invalid_argument what is wrong with it, and the nearest key */
+std::string applySetting(const std::string& setting, Config& config);
+
 /** Its configuration alone. */
 [[nodiscard]] Config loadConfigFromFile(const std::string& path);
 

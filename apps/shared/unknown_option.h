@@ -1,0 +1,43 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file unknown_option.h How every program ends when its command line cannot be understood. */
+#pragma once
+
+#include <fastlio/options/nearest_name.h>
+#include <fastlio/options/printable.h>
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fastlio
+{
+/** What is left when all options have been read, and the option that is most like it. */
+inline std::string unknownOptionText(const CLI::App& app)
+{
+  const std::vector<std::string> left = app.remaining(true);
+  const std::string seen = left.empty() ? "" : left.front();
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  return app.get_name() + ": unknown option '" + printable(seen) + "'; did you mean '" +
+         std::string(nearestName(seen, views)) + "'? --help lists all options";
+}
+
+/** Prints what \a error says: help, the version, or what is wrong with the command line.
+ * \param wrong status of the program for wrong usage \return status to end with */
+inline int endOfParsing(const CLI::App& app, const CLI::ParseError& error, int wrong)
+{
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr)
+    return app.exit(error) == 0 ? 0 : wrong;
+  std::cerr << unknownOptionText(app) << '\n';
+  return wrong;
+}
+
+}  // namespace fastlio

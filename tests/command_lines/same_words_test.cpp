@@ -1,0 +1,90 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Who knows the options of one program knows those of the others.
+
+#include "process.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace fastlio::testing
+{
+namespace
+{
+/** A program, and the words beside -q, --help and --version that it shares. */
+struct Program
+{
+  const char* name;
+  std::vector<std::string> words;
+  std::string example = {};  //!< of an option with a letter exchanged
+};
+
+const Program kPrograms[] = {
+    {"fastlio-replay", {"-c,--config", "-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
+    {"fastlio-info", {"-c,--config", "--set", "--json", "--write-config"}, "--jsn"},
+    {"fastlio-eval", {"--json", "--plot"}, "--plto"},
+    {"fastlio-sim", {"-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
+    {"fastlio-import", {"-o,--output", "--overwrite"}, "--overwrit"},
+    {"fastlio-calibrate", {"-c,--config", "-o,--output", "--set", "--json"}, "--jsn"},
+    {"fastlio-tune", {"-c,--config", "-o,--output", "--json"}, "--jsn"},
+};
+
+class SameWords : public ::testing::TestWithParam<Program>
+{
+ protected:
+  [[nodiscard]] ProcessResult run(std::vector<std::string> arguments) const
+  {
+    arguments.insert(arguments.begin(), std::string(FASTLIO_PROGRAM_FOLDER "/") + GetParam().name);
+    return Process(arguments, folder_.file("log.txt")).wait();
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_P(SameWords, AreInTheHelp)
+{
+  const ProcessResult help = run({"--help"});
+  EXPECT_EQ(help.exit_status, 0);
+  std::vector<std::string> words = GetParam().words;
+  words.insert(words.end(), {"-h,--help", "--version", "-q,--quiet"});
+  for (const std::string& word : words)
+    EXPECT_NE(help.output.find(word), std::string::npos) << "no " << word << " in\n" << help.output;
+}
+
+TEST_P(SameWords, TheVersionNamesTheProgram)
+{
+  const ProcessResult version = run({"--version"});
+  EXPECT_EQ(version.exit_status, 0);
+  EXPECT_EQ(version.output.find(std::string(GetParam().name) + " 0."), 0U) << version.output;
+}
+
+TEST_P(SameWords, AnUnknownOptionNamesTheNearest)
+{
+  const ProcessResult result = run({GetParam().example, "nothing"});
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_NE(result.output.find("did you mean '--"), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find(GetParam().name), 0U) << result.output;
+}
+
+TEST_P(SameWords, WithoutAnythingNothingHappens)
+{
+  const ProcessResult result = run({});
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_FALSE(result.output.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Programs, SameWords, ::testing::ValuesIn(kPrograms),
+    [](const auto& parameter)
+    {
+      std::string name = parameter.param.name;
+      name.erase(name.find('-'), 1);
+      return name;
+    });
+
+}  // namespace
+}  // namespace fastlio::testing
