@@ -27,7 +27,7 @@ inline constexpr double kMaxInnovation = 3.0;
 /** Corrections of the prediction over what noise, calibration, vibration and jitter of stamps
  * explain. Healthy sensors, real and simulated, stay below 9, but for a narrow view of an
  * office: 16. */
-inline constexpr double kMaxMotionInnovation = 15.0;
+inline constexpr double kMaxMotionInnovation = 12.0;
 /** Largest error of the mounting that scans and inertial data may show [rad]: a degree, or three
  * times what is known of the mounting. */
 [[nodiscard]] double maxMountingError(const CalibrationOptions& options);
