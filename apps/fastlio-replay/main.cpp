@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 namespace
 {
@@ -53,7 +54,9 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
     return static_cast<int>(ExitStatus::Ok);
   }
   RunSetup setup = setUpRun(arguments);
-  logger.logStr(mrpt::system::LVL_INFO, describe(setup.selection));
+  std::istringstream sensors(describe(setup.selection));
+  for (std::string line; std::getline(sensors, line);)
+    logger.logStr(mrpt::system::LVL_INFO, line);
   for (const auto& note : setup.plan.notes)
     logger.logStr(mrpt::system::LVL_INFO, note);
   for (const auto& warning : setup.plan.warnings)

@@ -279,6 +279,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.frame = setup_.frame.name;
   summary.map_origin = odometry_.mapOrigin();
   summary.sensors = sensorTexts(setup_);
+  summary.places = setup_.plan.places;
   summary.odometry = setup_.config.odometry;
   summary.options = textsOf(configTable(), setup_.config);
   summary.defaults = textsOf(configTable(), Config{});

@@ -147,6 +147,13 @@ TEST_F(GoodInput, UnitOfThePointTimesDoesNotMatter)
     EXPECT_NEAR(positions[i][0], expected[i][0], 1e-4);
   const Json summary = Json::parse(contentOf(file("out/summary.json")));
   EXPECT_NE(summary["input"]["sensors"].dump().find("ns after the stamp"), std::string::npos);
+  const auto& poses = summary["input"]["sensor_poses"];
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0]["label"], "lidar");
+  EXPECT_EQ(poses[0]["origin"], "none is given");
+  EXPECT_EQ(poses[1]["sensor"], "IMU");
+  EXPECT_NEAR(poses[1]["xyz_m"][2].get<double>(), 0.1, 1e-9);
+  EXPECT_EQ(poses[1]["origin"], "the recording");
 }
 
 TEST_F(GoodInput, SkippingAndLimitingCountScans)

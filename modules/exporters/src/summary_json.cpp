@@ -7,6 +7,7 @@
 #include <fastlio/options/json_text.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_table.h>
+#include <fastlio/sensors/conversions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,23 @@ Json filesJson(const std::vector<OutputFile>& files)
   return json;
 }
 
+Json placesJson(const std::vector<SensorPlace>& places)
+{
+  Json json = Json::array();
+  for (const SensorPlace& place : places)
+  {
+    const auto pose = toMrptPose(place.T_vehicle_sensor);
+    json.push_back(
+        {{"sensor", place.kind == SensorKind::Imu ? "IMU" : "LiDAR"},
+         {"label", place.label},
+         {"xyz_m", {pose.x(), pose.y(), pose.z()}},
+         {"yaw_pitch_roll_deg",
+          {kDegPerRad * pose.yaw(), kDegPerRad * pose.pitch(), kDegPerRad * pose.roll()}},
+         {"origin", place.origin}});
+  }
+  return json;
+}
+
 Json inputJson(const RunSummary& run)
 {
   Json files = Json::array();
@@ -48,6 +66,7 @@ Json inputJson(const RunSummary& run)
   return {
       {"files", files},
       {"sensors", run.sensors},
+      {"sensor_poses", placesJson(run.places)},
       {"counts", counts},
       {"problems", run.input_problems}};
 }

@@ -139,27 +139,42 @@ bool hasPose(const SensorSummary& sensor)
   return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
 }
 
+/** Where the sensors are, and who says so. */
+std::vector<SensorPlace> placesOf(
+    const SensorSelection& selection, const SensorOptions& used, bool by_factory)
+{
+  std::vector<SensorPlace> places;
+  const auto add = [&](const SensorSummary& sensor, const std::optional<Pose>& configured)
+  {
+    const std::string origin = by_factory        ? "input.factory_T_imu_lidar"
+                               : configured      ? "the configuration"
+                               : hasPose(sensor) ? "the recording"
+                                                 : "none is given";
+    places.push_back(
+        {sensor.kind, sensor.label, configured.value_or(sensor.T_vehicle_sensor), origin});
+  };
+  add(selection.lidar, used.T_vehicle_lidar);
+  const auto further = furtherLidars(used);
+  for (std::size_t i = 0; i < std::min(further.size(), selection.further_lidars.size()); ++i)
+    add(selection.further_lidars[i], further[i].T_vehicle_lidar);
+  add(selection.imu, used.T_vehicle_imu);
+  return places;
+}
+
 /** Logs the poses in use and where they come from. */
 void notePoses(
     InputPlan& plan, const SensorSelection& selection, const SensorOptions& given,
     const SensorOptions& used)
 {
   const bool by_factory = used.T_vehicle_imu.has_value() && !given.T_vehicle_imu.has_value();
-  const auto text =
-      [by_factory](
-          const char* name, const SensorSummary& sensor, const std::optional<Pose>& configured)
-  {
-    const std::string origin = by_factory        ? "input.factory_T_imu_lidar"
-                               : configured      ? "the configuration"
-                               : hasPose(sensor) ? "the recording"
-                                                 : "none is given";
-    return std::string(name) + " " + poseText(configured.value_or(sensor.T_vehicle_sensor), 6) +
-           " (" + origin + ")";
-  };
+  plan.places = placesOf(selection, used, by_factory);
+  std::string list;
+  for (const SensorPlace& place : plan.places)
+    list += std::string(list.empty() ? "" : ", ") +
+            (place.kind == SensorKind::Imu ? "IMU " : "LiDAR ") +
+            poseText(place.T_vehicle_sensor, 6) + " (" + place.origin + ")";
   plan.notes.push_back(
-      "Poses in the vehicle frame [x, y, z, yaw, pitch, roll] in m and deg: " +
-      text("LiDAR", selection.lidar, used.T_vehicle_lidar) + ", " +
-      text("IMU", selection.imu, used.T_vehicle_imu) + ".");
+      "Poses in the vehicle frame [x, y, z, yaw, pitch, roll] in m and deg: " + list + ".");
   if (given.factory_T_imu_lidar && !by_factory)
     plan.notes.emplace_back(
         "input.factory_T_imu_lidar is not used: the recording or the configuration gives the poses "

@@ -9,6 +9,7 @@
 #include <fastlio/imu/imu_report.h>
 #include <fastlio/odometry/odometry_options.h>
 #include <fastlio/options/option_table.h>
+#include <fastlio/survey/input_plan.h>
 
 #include <string>
 #include <vector>
@@ -38,6 +39,7 @@ struct RunSummary
   std::string frame;                     //!< body frame of the exported poses: "vehicle" or "imu"
   Vec3 map_origin = Vec3::Zero();        //!< Odometry::mapOrigin() [m]
   std::vector<std::string> sensors;      //!< one line per sensor in use
+  std::vector<SensorPlace> places;       //!< where they are mounted
   OdometryOptions odometry;              //!< as used
   std::vector<OptionText> options;       //!< everything that is configured, as used
   std::vector<OptionText> defaults;      //!< of the options; empty: not known

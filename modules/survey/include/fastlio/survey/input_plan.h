@@ -25,12 +25,22 @@ struct LidarPlan
   bool loud = false;        //!< text tells of something that people should look at
 };
 
+/** Where a sensor in use is mounted. */
+struct SensorPlace
+{
+  SensorKind kind = SensorKind::Lidar;
+  std::string label;
+  Pose T_vehicle_sensor;
+  std::string origin;  //!< for people: who says so
+};
+
 /** The plan for all sensors. */
 struct InputPlan
 {
   BridgeOptions bridge;
   Pose T_vehicle_imu;                 //!< in use
   std::vector<LidarPlan> lidars;      //!< the first LiDAR, then the further ones
+  std::vector<SensorPlace> places;    //!< of the LiDARs, then of the IMU
   std::vector<std::string> notes;     //!< for people
   std::vector<std::string> warnings;  //!< for people, to be looked at
 };
