@@ -46,7 +46,7 @@ void addInputOptions(CLI::App& app, EvalCommand& c)
       ->required();
   const char* estimates =
       "Trajectory to be evaluated, or the folder of a run; several: one row each";
-  app.add_option("estimate", c.estimates, estimates)->type_name("FILE|DIR ...");
+  app.add_option("estimates", c.estimates, estimates)->type_name("FILE|DIR ...");
   // Takes one only, so that the reference may follow it.
   app.add_option_function<std::vector<std::filesystem::path>>(
          "-e,--estimate",

@@ -56,7 +56,7 @@ void addInputOptions(
 {
   app.add_option(
          "-c,--config", arguments.config_file,
-         "Parameters (YAML); without it, all have their defaults")
+         "Parameters (YAML); the rest has the defaults of the sensor")
       ->type_name("FILE.yaml");
   app.add_option(
          "recordings", positional,

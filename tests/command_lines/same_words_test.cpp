@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct Program
   std::vector<std::string> words;
   std::string example = {};  //!< of an option with a letter exchanged
 };
+
+/** The name of a test in lists. */
+std::ostream& operator<<(std::ostream& out, const Program& program)
+{
+  return out << program.name;
+}
 
 const Program kPrograms[] = {
     {"fastlio-replay", {"-c,--config", "-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},

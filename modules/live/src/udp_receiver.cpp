@@ -43,9 +43,10 @@ int boundSocket(std::uint16_t port)
   address.sin_addr.s_addr = htonl(INADDR_ANY);
   if (bind(handle, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
   {
-    const auto failure = failed(port, "cannot be listened on");
+    const int reason = errno;
     close(handle);
-    throw failure;
+    errno = reason;
+    throw failed(port, "cannot be listened on");
   }
   return handle;
 }

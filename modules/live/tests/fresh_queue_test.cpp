@@ -78,6 +78,7 @@ TEST(FreshQueue, AWaitingReaderGetsWhatIsPutInAndTheEnd)
   std::vector<std::string> taken;
   std::thread reader([&] { taken = rest(queue); });
   std::vector<std::thread> writers;
+  writers.reserve(3);
   for (int writer = 0; writer < 3; ++writer)
     writers.emplace_back(
         [&queue]

@@ -98,9 +98,8 @@ TEST(LiveSensors, ASampleIsALineOfText)
   ASSERT_EQ(out.size(), 2U);
   EXPECT_EQ(sensors.badLines(), 5U);
   const auto& sample = dynamic_cast<const mrpt::obs::CObservationIMU&>(*out[0]);
-  EXPECT_EQ(
-      toNanoseconds(sample.timestamp),
-      1'700'000'000'123'456'800);  // MRPT counts 100 ns
+  EXPECT_EQ(toNanoseconds(sample.timestamp),
+            1'700'000'000'123'456'800);  // MRPT counts 100 ns
   EXPECT_EQ(sample.get(mrpt::obs::IMU_WY), -0.2);
   EXPECT_EQ(sample.get(mrpt::obs::IMU_Z_ACC), 9.8);
   EXPECT_EQ(sample.sensorLabel, "imu_127.0.0.1");
@@ -124,7 +123,7 @@ TEST(LiveSensors, AVelodynesScansGetStampsOfThisMachine)
     sent_ns.push_back(toNanoseconds(scan->timestamp));
     for (const auto& packet : scan->scan_packets)
     {
-      const std::int64_t late_ns = 1'000'000 * (count++ % 7);
+      const std::int64_t late_ns = 1'000'000LL * (count++ % 7);
       const std::int64_t after_ns =
           1000LL * (packet.gps_timestamp() - scan->scan_packets.front().gps_timestamp());
       const std::string bytes(reinterpret_cast<const char*>(&packet), sizeof packet);

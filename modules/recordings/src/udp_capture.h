@@ -28,7 +28,8 @@ class UdpCapture
   UdpCapture(const UdpCapture&) = delete;
   UdpCapture& operator=(const UdpCapture&) = delete;
 
-  /** The next UDP packet, whose bytes stay valid until the one after it, over IPv4 or IPv6; nothing at the end, which failure() may explain. */
+  /** The next UDP packet, whose bytes stay valid until the one after it, over IPv4 or IPv6; nothing
+   * at the end, which failure() may explain. */
   [[nodiscard]] std::optional<UdpPacket> next();
 
   /** Why reading has ended; empty: the file has. */

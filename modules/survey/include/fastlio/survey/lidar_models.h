@@ -56,8 +56,8 @@ struct PresetMatch
 /** The preset that fits best: by the label, else by the lines and the field of view. */
 [[nodiscard]] PresetMatch fittingPreset(const LidarAppearance& lidar);
 
-/** The preset of the model that the label of a LiDAR, or its data, name. Null: none is named, or only
- * its maker. */
+/** The preset of the model that the label of a LiDAR, or its data, name. Null: none is named, or
+ * only its maker. */
 [[nodiscard]] const Preset* namedModel(const std::string& label);
 
 /** Whether a label has one of the preset's words: its model or its maker. */
