@@ -27,13 +27,43 @@ constexpr float kKeepAll = std::numeric_limits<float>::infinity();
 constexpr int kMantissaBits = 2;
 constexpr int kFirstExponent = 127 - 16;
 
-std::size_t binOf(float squared_range, std::size_t bins)
+/** Some points on their way through the gates: short loops over columns, of which the compiler
+ * makes vector instructions. */
+struct Block
 {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &squared_range, sizeof bits);
-  const auto bin =
-      static_cast<std::int32_t>(bits >> (23 - kMantissaBits)) - (kFirstExponent << kMantissaBits);
-  return static_cast<std::size_t>(std::clamp<std::int32_t>(bin, 0, static_cast<int>(bins) - 1));
+  static constexpr std::size_t kSize = 256;
+  float squared_range[kSize];
+  std::uint32_t bin[kSize];
+};
+
+void squareRanges(const PointColumns& points, std::size_t first, std::size_t n, Block& block)
+{
+  const float *x = &points.x[first], *y = &points.y[first], *z = &points.z[first];
+  for (std::size_t i = 0; i < n; ++i)
+    block.squared_range[i] = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+}
+
+/** Bins of squared ranges; a 0 falls into the first one. */
+void findBins(const float* squared_ranges, std::size_t n, std::size_t bins, Block& block)
+{
+  // Clamped as numbers, which is a vector instruction, while clamping bins is none.
+  const auto valueAt = [](std::size_t bin)
+  {
+    const auto bits = (static_cast<std::uint32_t>(bin) + (kFirstExponent << kMantissaBits))
+                      << (23 - kMantissaBits);
+    float value = 0.0F;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  };
+  const float low = valueAt(0), high = valueAt(bins - 1);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const float at_least = squared_ranges[i] < low ? low : squared_ranges[i];
+    const float clamped = high < at_least ? high : at_least;
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &clamped, sizeof bits);
+    block.bin[i] = (bits >> (23 - kMantissaBits)) - (kFirstExponent << kMantissaBits);
+  }
 }
 
 /** Middle of a bin's squared ranges. */
@@ -53,26 +83,42 @@ Downsampler::Ranges Downsampler::gateRanges(
     const PointColumns& points, const DownsamplingLimits& limits, std::size_t first,
     std::size_t last)
 {
-  const float min2 = limits.min_range * limits.min_range;
+  // Nothing is kept of a range of 0, wherever the near limit is.
+  const float min2 =
+      std::max(limits.min_range * limits.min_range, std::numeric_limits<float>::denorm_min());
   const float max2 = limits.max_range * limits.max_range;
   Ranges ranges;
-  for (std::size_t i = first; i < last; ++i)
+  Block block;
+  for (std::size_t begin = first; begin < last; begin += Block::kSize)
   {
-    const float x = points.x[i], y = points.y[i], z = points.z[i];
-    const float range2 = x * x + y * y + z * z;
-    const bool usable = range2 >= min2 && range2 <= max2 && range2 > 0.0F;
-    squared_ranges_[i] = usable ? range2 : 0.0F;
-    if (usable)
+    const std::size_t n = std::min(Block::kSize, last - begin);
+    squareRanges(points, begin, n, block);
+    float* kept = &squared_ranges_[begin];
+    std::uint32_t usable = 0;
+    for (std::size_t i = 0; i < n; ++i)
     {
-      ++ranges.counts[binOf(range2, kBins)];
-      ++ranges.usable;
+      const float range2 = block.squared_range[i];
+      const std::uint32_t passes = (range2 >= min2 ? 1U : 0U) & (range2 <= max2 ? 1U : 0U);
+      kept[i] = passes != 0 ? range2 : 0.0F;
+      usable += passes;
     }
-    else if (!(range2 > 0.0F) || !std::isfinite(range2))
-      ++ranges.invalid;
-    else
-      ++(range2 < min2 ? ranges.near : ranges.far);
+    findBins(kept, n, kBins, block);
+    for (std::size_t i = 0; i < n; ++i)
+      ++ranges.counts[block.bin[i]];
+    ranges.counts[0] -= static_cast<std::uint32_t>(n) - usable;  // they stand there as 0
+    ranges.usable += usable;
+    for (std::size_t i = 0; i < n && usable < n; ++i)
+      if (kept[i] == 0.0F) ranges.countDropped(block.squared_range[i], min2);
   }
   return ranges;
+}
+
+void Downsampler::Ranges::countDropped(float squared_range, float min2)
+{
+  if (!(squared_range > 0.0F) || !std::isfinite(squared_range))
+    ++invalid;
+  else
+    ++(squared_range < min2 ? near : far);
 }
 
 Downsampler::Ranges Downsampler::gateRanges(
@@ -130,15 +176,27 @@ float Downsampler::densityFactor(const Ranges& ranges, std::size_t target)
 /** Draws for the points [first, last); the chosen ones stand at kept_[first] and after it. */
 std::size_t Downsampler::keep(float factor, std::size_t first, std::size_t last)
 {
-  const std::uint32_t start = scan_ * kScanStep;
+  std::uint32_t chosen[Block::kSize];
   std::size_t kept = 0;
-  for (std::size_t i = first; i < last; ++i)
+  for (std::size_t begin = first; begin < last; begin += Block::kSize)
   {
-    const std::uint32_t draw = start + static_cast<std::uint32_t>(i) * kGoldenSection;
-    const float range2 = squared_ranges_[i];
-    // Written always, counted when chosen: no branch that depends on the draw.
-    kept_[first + kept] = static_cast<std::uint32_t>(i);
-    kept += range2 > 0.0F && static_cast<float>(draw) < factor * range2 ? 1 : 0;
+    const std::size_t n = std::min(Block::kSize, last - begin);
+    const float* squared_ranges = &squared_ranges_[begin];
+    std::uint32_t draw = scan_ * kScanStep + static_cast<std::uint32_t>(begin) * kGoldenSection;
+    for (std::size_t i = 0; i < n; ++i, draw += kGoldenSection)
+    {
+      // The halves of a draw are exact, and their sum is rounded once, as the draw itself would be.
+      const auto high = static_cast<float>(static_cast<std::int32_t>(draw >> 16U));
+      const auto low = static_cast<float>(static_cast<std::int32_t>(draw & 0xFFFFU));
+      // No draw is below a range of 0, not even where the factor is infinite.
+      chosen[i] = high * 65536.0F + low < factor * squared_ranges[i] ? 1U : 0U;
+    }
+    for (std::size_t i = 0; i < n; ++i)
+    {
+      // Written always, counted when chosen: no branch that depends on the draw.
+      kept_[first + kept] = static_cast<std::uint32_t>(begin + i);
+      kept += chosen[i];
+    }
   }
   return kept;
 }

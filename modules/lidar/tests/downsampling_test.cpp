@@ -1,45 +1,24 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "downsampling_scans.h"
 #include <fastlio/lidar/downsampling.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <random>
 #include <string>
+#include <vector>
 
 namespace fastlio
 {
 namespace
 {
-void append(PointColumns& points, float x, float y, float z)
-{
-  points.push_back(x, y, z, 0.0F, 0, 0);
-}
-
-/** Points in random directions at ranges that a function draws. */
-PointColumns randomScan(std::size_t n, const std::function<double(std::mt19937&)>& range)
-{
-  std::mt19937 rng(7);
-  std::normal_distribution<double> normal;
-  PointColumns points;
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const Vec3 p = range(rng) * Vec3(normal(rng), normal(rng), normal(rng)).normalized();
-    append(points, float(p.x()), float(p.y()), float(p.z()));
-  }
-  return points;
-}
-
-PointColumns scanAtRange(std::size_t n, double range)
-{
-  return randomScan(n, [range](std::mt19937&) { return range; });
-}
-
 ScanSelection selected(const PointColumns& points, const DownsamplingLimits& limits)
 {
   Downsampler downsampler;
@@ -70,6 +49,43 @@ TEST(Downsampler, CountsWhatItLeavesOut)
   EXPECT_EQ(s.dropped_near, 2U);
   EXPECT_EQ(s.dropped_far, 3U);
   EXPECT_EQ(s.indices, (std::vector<std::uint32_t>{0, 8}));
+}
+
+TEST(Downsampler, CountsEachPointOfALongScanOnce)
+{
+  // Longer than what is looked at together, and no multiple of it.
+  PointColumns points;
+  std::vector<std::uint32_t> usable;
+  for (std::uint32_t i = 0; i < 4099; ++i)
+  {
+    const float range = std::array<float, 5>{1.0F, 0.1F, 200.0F, 0.0F, 99.0F}[i % 5];
+    append(points, 0.0F, range, 0.0F);
+    if (range == 1.0F || range == 99.0F) usable.push_back(i);
+  }
+  const ScanSelection s = selected(points, {0.5F, 100.0F, 0});
+  EXPECT_EQ(s.indices, usable);
+  EXPECT_EQ(s.dropped_near, 820U);
+  EXPECT_EQ(s.dropped_far, 820U);
+  EXPECT_EQ(s.dropped_invalid, 820U);
+}
+
+TEST(Downsampler, ThinsTheSameHoweverManyPointsAreLeftOut)
+{
+  // What is dropped counts neither for the target nor for the density.
+  const PointColumns all = randomScan(
+      20000, [](std::mt19937& rng) { return std::uniform_real_distribution<>(2.0, 40.0)(rng); });
+  PointColumns with_gaps;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    append(with_gaps, all.x[i], all.y[i], all.z[i]);
+    append(with_gaps, 0.0F, 0.0F, 0.0F);
+  }
+  const DownsamplingLimits limits{0.5F, 100.0F, 1500};
+  const double kept = double(selected(all, limits).indices.size());
+  const ScanSelection s = selected(with_gaps, limits);
+  EXPECT_NEAR(double(s.indices.size()), kept, 0.05 * kept);
+  for (const std::uint32_t i : s.indices)
+    ASSERT_EQ(i % 2, 0U) << "no echo";
 }
 
 TEST(Downsampler, KeepsPointsExactlyAtBothLimits)

@@ -3,8 +3,6 @@
 
 #include <fastlio/map/plane_voxel.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,8 +14,6 @@ namespace
 // The second largest spread must exceed the noise by this factor (of variances), or a line of
 // points would pass as a plane whose normal is that line's noise.
 constexpr double kMinSpreadOverNoise = 16.0;
-// A plane is fitted anew when its points have grown by this factor.
-constexpr float kRefitGrowth = 1.1F;
 // Above this many points the sums are halved: old points fade, single precision stays exact enough.
 constexpr float kMaxCount = 4096.0F;
 
@@ -26,59 +22,90 @@ double square(double x)
   return x * x;
 }
 
-struct Spread
+/** A symmetric matrix. */
+struct Symmetric
 {
-  Eigen::Vector3d eigenvalues;   // ascending [m^2]
-  Eigen::Matrix3d eigenvectors;  // columns
+  double xx, xy, xz, yy, yz, zz;
 };
 
-Spread spreadOf(const std::array<float, 6>& products, const Eigen::Vector3d& mean, double n)
+/** Determinants of the 2 x 2 parts: the product of a and this is det(a) I. */
+Symmetric adjugate(const Symmetric& a)
 {
-  Eigen::Matrix3d scatter;
-  const auto& s = products;
-  scatter << s[0], s[1], s[2], s[1], s[3], s[4], s[2], s[4], s[5];
-  scatter = scatter / n - mean * mean.transpose();
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(scatter);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  return {a.yy * a.zz - a.yz * a.yz, a.xz * a.yz - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
+          a.xx * a.zz - a.xz * a.xz, a.xy * a.xz - a.xx * a.yz, a.xx * a.yy - a.xy * a.xy};
 }
 
-std::array<float, 6> leverageOf(const Spread& spread, double n)
+/** How points spread. */
+struct Spread
 {
-  const Eigen::Vector3d e1 = spread.eigenvectors.col(1), e2 = spread.eigenvectors.col(2);
-  const Eigen::Matrix3f m =
-      ((e1 * e1.transpose() / spread.eigenvalues[1] + e2 * e2.transpose() / spread.eigenvalues[2]) /
-       n)
-          .cast<float>();
-  return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)};
+  Symmetric scatter;           // mean square distances from the mean along the axes [m^2]
+  double least, sum, product;  // least eigenvalue; sum and product of the two others
+};
+
+/** Newton's steps on the characteristic polynomial approach its least root from below. Where that
+ * root is no more than 1/16 of the next one, as in any plane that passes, five steps are exact to
+ * the last digits; elsewhere a root that is still too small is near enough to be refused. */
+double leastRoot(double trace, double minors, double determinant)
+{
+  double x = 0.0;
+  for (int step = 0; step < 5; ++step)
+  {
+    const double value = ((x - trace) * x + minors) * x - determinant;
+    const double slope = (3.0 * x - 2.0 * trace) * x + minors;
+    x -= value / std::max(slope, 1e-300);
+  }
+  return std::max(x, 0.0);
+}
+
+Spread spreadOf(const Symmetric& scatter)
+{
+  const Symmetric minors = adjugate(scatter);
+  const double trace = scatter.xx + scatter.yy + scatter.zz;
+  const double sum_of_minors = minors.xx + minors.yy + minors.zz;
+  const double determinant =
+      scatter.xx * minors.xx + scatter.xy * minors.xy + scatter.xz * minors.xz;
+  const double least = leastRoot(trace, sum_of_minors, determinant);
+  const double sum = trace - least;
+  return {scatter, least, sum, sum_of_minors - least * sum};
+}
+
+/** The smaller one of the two large eigenvalues. */
+double middleOf(const Spread& s)
+{
+  const double larger = 0.5 * (s.sum + std::sqrt(std::max(square(s.sum) - 4.0 * s.product, 0.0)));
+  return larger > 0.0 ? s.product / larger : 0.0;
+}
+
+/** Direction of the least spread. The columns of the adjugate of (scatter - least I) are multiples
+ * of it; the longest one is the most exact. */
+Eigen::Vector3d normalOf(const Spread& s)
+{
+  const Symmetric& a = s.scatter;
+  const Symmetric m = adjugate({a.xx - s.least, a.xy, a.xz, a.yy - s.least, a.yz, a.zz - s.least});
+  Eigen::Vector3d n(m.xx, m.xy, m.xz);
+  double longest = m.xx;
+  if (m.yy > longest)
+  {
+    n = {m.xy, m.yy, m.yz};
+    longest = m.yy;
+  }
+  if (m.zz > longest) n = {m.xz, m.yz, m.zz};
+  const double length = n.norm();
+  return length > 0.0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d(0.0, 0.0, 1.0);
+}
+
+/** (e1 e1^T / l1 + e2 e2^T / l2) / count: the inverse of the scatter within the plane, which by
+ * Cayley and Hamilton is (sum - scatter) / product there. */
+std::array<float, 6> leverageOf(const Spread& s, const Eigen::Vector3d& n, double count)
+{
+  const double scale = 1.0 / (s.product * count), across = s.sum - s.least;
+  const auto at = [&](double identity, double scatter, double normals)
+  { return static_cast<float>(scale * (identity * s.sum - scatter - across * normals)); };
+  const Symmetric& a = s.scatter;
+  return {at(1.0, a.xx, n.x() * n.x()), at(0.0, a.xy, n.x() * n.y()), at(0.0, a.xz, n.x() * n.z()),
+          at(1.0, a.yy, n.y() * n.y()), at(0.0, a.yz, n.y() * n.z()), at(1.0, a.zz, n.z() * n.z())};
 }
 }  // namespace
-
-float VoxelPlane::offsetVariance(float x, float y, float z) const
-{
-  const float dx = x - qx, dy = y - qy, dz = z - qz;
-  const auto& m = leverage;
-  const float distance = dx * (m[0] * dx + 2 * (m[1] * dy + m[2] * dz)) +
-                         dy * (m[3] * dy + 2 * m[4] * dz) + dz * m[5] * dz;
-  return variance * (inverse_count + distance);
-}
-
-void PlaneVoxel::add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam)
-{
-  const float x = offset.x(), y = offset.y(), z = offset.z();
-  count_ += 1;
-  sum_ = {sum_[0] + x, sum_[1] + y, sum_[2] + z};
-  beams_ = {beams_[0] + beam.x(), beams_[1] + beam.y(), beams_[2] + beam.z()};
-  products_ = {products_[0] + x * x, products_[1] + x * y, products_[2] + x * z,
-               products_[3] + y * y, products_[4] + y * z, products_[5] + z * z};
-}
-
-bool PlaneVoxel::claimRefit()
-{
-  if (refit_pending_ || count_ < kRefitGrowth * fitted_count_ + 1.0F) return false;
-  refit_pending_ = true;
-  return true;
-}
 
 PlaneVoxel::Contents PlaneVoxel::contents() const
 {
@@ -128,21 +155,29 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   plane_.variance = -1;
   if (count_ < rules.min_points) return;
 
-  const double n = count_;
+  const double n = count_, inverse = 1.0 / n;
   const Eigen::Vector3d mean = meanOffset().cast<double>();
-  const Spread spread = spreadOf(products_, mean, n);
-  const Eigen::Vector3f normal = spread.eigenvectors.col(0).cast<float>();
+  const auto about = [&](float sum, int i, int k) { return inverse * sum - mean[i] * mean[k]; };
+  const auto& s = products_;
+  const Spread spread = spreadOf(
+      {about(s[0], 0, 0), about(s[1], 0, 1), about(s[2], 0, 2), about(s[3], 1, 1),
+       about(s[4], 1, 2), about(s[5], 2, 2)});
+  const double noise = square(static_cast<double>(rules.point_noise));
+  const double thickest = square(static_cast<double>(rules.max_thickness));
+  // Three degrees of freedom went into the fit.
+  const double measured = spread.least * n / (n - 3.0);
+  if (!(measured <= thickest)) return;
+  if (middleOf(spread) < kMinSpreadOverNoise * std::max(measured, noise)) return;
+  const Eigen::Vector3d direction = normalOf(spread);
+  const Eigen::Vector3f normal = direction.cast<float>();
   const Eigen::Vector3f beams(beams_[0], beams_[1], beams_[2]);
   const auto incidence = static_cast<double>(std::abs(normal.dot(beams)) / count_);
   // One laser line on a bent surface spans a plane of its own, which contains the beams.
   if (incidence < static_cast<double>(rules.min_incidence)) return;
-  // Noise lies along the beams: little of it is left across a plane seen at a grazing angle. Three
-  // degrees of freedom went into the fit.
-  const double noise = square(static_cast<double>(rules.point_noise));
+  // Noise lies along the beams: little of it is left across a plane seen at a grazing angle.
   const double noise_across = noise * square(incidence);
-  const double across = std::max(spread.eigenvalues[0] * n / (n - 3.0), noise_across);
-  if (across > square(static_cast<double>(rules.max_thickness))) return;
-  if (spread.eigenvalues[1] < kMinSpreadOverNoise * std::max(across, noise)) return;
+  if (noise_across > thickest) return;
+  const double across = std::max(measured, noise_across);
 
   const Eigen::Vector3f q = center + mean.cast<float>();
   plane_.nx = normal.x();
@@ -154,7 +189,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   plane_.variance = static_cast<float>(across);
   plane_.roughness = static_cast<float>(across - noise_across);
   plane_.inverse_count = 1.0F / count_;
-  plane_.leverage = leverageOf(spread, n);
+  plane_.leverage = leverageOf(spread, direction, n);
   if (!was_valid && plane_.created_insertion == 0) plane_.created_insertion = scan;
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace fastlio
@@ -31,6 +32,8 @@ class VoxelGrid
   explicit VoxelGrid(double voxel_size)
       : size_(static_cast<float>(voxel_size)), inverse_size_(static_cast<float>(1.0 / voxel_size))
   {
+    for (std::uint8_t slot = 0; slot < kVoxelsPerBlock; ++slot)
+      offsets_[slot] = offsetOf(slot);
   }
 
   /** Whether a point is finite and inside of the numbered space. */
@@ -43,10 +46,10 @@ class VoxelGrid
   /** Of a point that it contains(). */
   [[nodiscard]] VoxelAddress addressOf(float x, float y, float z) const
   {
-    // floor() and arithmetic shifts keep negative coordinates in voxels of their own.
-    const auto ix = static_cast<std::int64_t>(std::floor(x * inverse_size_));
-    const auto iy = static_cast<std::int64_t>(std::floor(y * inverse_size_));
-    const auto iz = static_cast<std::int64_t>(std::floor(z * inverse_size_));
+    // Rounding down and arithmetic shifts keep negative coordinates in voxels of their own.
+    const std::int32_t ix = roundDown(x * inverse_size_);
+    const std::int32_t iy = roundDown(y * inverse_size_);
+    const std::int32_t iz = roundDown(z * inverse_size_);
     const std::uint8_t finest = rowMajor(ix & 3, iy & 3, iz & 3, 4);
     const std::uint8_t middle = rowMajor((ix >> 1) & 1, (iy >> 1) & 1, (iz >> 1) & 1, 2);
     return {
@@ -79,13 +82,13 @@ class VoxelGrid
   /** Centre of a voxel [m]. */
   [[nodiscard]] Eigen::Vector3f centerOf(std::uint64_t block_key, std::uint8_t slot) const
   {
-    const Eigen::Vector3f corner = cornerOf(block_key);
-    if (slot >= kCoarseSlot) return corner + Eigen::Vector3f::Constant(2 * size_);
-    const int n = slot >= kMiddleSlot ? 2 : 4;
-    const int i = slot >= kMiddleSlot ? slot - kMiddleSlot : slot;
-    const Eigen::Vector3i cell(i / (n * n), (i / n) % n, i % n);
-    const float edge = blockSize() / static_cast<float>(n);
-    return corner + (cell.cast<float>() + Eigen::Vector3f::Constant(0.5F)) * edge;
+    return cornerOf(block_key) + offsets_[slot];
+  }
+
+  /** Centre of a voxel minus the lowest corner of its block [m]. */
+  [[nodiscard]] const Eigen::Vector3f& centerInBlock(std::uint8_t slot) const
+  {
+    return offsets_[slot];
   }
 
  private:
@@ -93,14 +96,32 @@ class VoxelGrid
   static constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
   static constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
 
+  /** std::floor() of a number that fits: a call of a library, in a build for the baseline. */
+  [[nodiscard]] static std::int32_t roundDown(float number)
+  {
+    const auto towards_zero = static_cast<std::int32_t>(number);
+    return towards_zero - (number < static_cast<float>(towards_zero) ? 1 : 0);
+  }
+
   /** Position of a voxel among n x n x n. */
   [[nodiscard]] static std::uint8_t rowMajor(
-      std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t n)
+      std::int32_t x, std::int32_t y, std::int32_t z, std::int32_t n)
   {
     return static_cast<std::uint8_t>((x * n + y) * n + z);
   }
 
+  [[nodiscard]] Eigen::Vector3f offsetOf(std::uint8_t slot) const
+  {
+    if (slot >= kCoarseSlot) return Eigen::Vector3f::Constant(2 * size_);
+    const int n = slot >= kMiddleSlot ? 2 : 4;
+    const int i = slot >= kMiddleSlot ? slot - kMiddleSlot : slot;
+    const Eigen::Vector3i cell(i / (n * n), (i / n) % n, i % n);
+    const float edge = blockSize() / static_cast<float>(n);
+    return (cell.cast<float>() + Eigen::Vector3f::Constant(0.5F)) * edge;
+  }
+
   float size_, inverse_size_;
+  std::array<Eigen::Vector3f, kVoxelsPerBlock> offsets_;
 };
 
 }  // namespace fastlio

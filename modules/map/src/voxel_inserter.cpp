@@ -28,20 +28,32 @@ std::uint8_t shardOf(const VoxelGrid& grid, float x, float y, float z)
 }
 }  // namespace
 
-void VoxelInserter::collect(
-    std::uint8_t shard, const WorldPoints& points, const VoxelGrid& grid,
-    std::vector<Arrival>& arrivals) const
+/** One pass over the points, not one for each shard. */
+void VoxelInserter::sortByShard(
+    const WorldPoints& points, const VoxelGrid& grid, const Workers& workers)
 {
-  arrivals.clear();
-  for (std::size_t i = 0; i < shard_of_.size(); ++i)
+  shard_of_.resize(points.size());
+  workers.forEachChunk(
+      points.size(),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        for (std::size_t i = first; i < last; ++i)
+          shard_of_[i] = shardOf(grid, points.x[i], points.y[i], points.z[i]);
+      });
+  std::array<std::size_t, VoxelShards::kCount + 1> next{};  // the last counts what lies nowhere
+  for (const std::uint8_t shard : shard_of_)
+    ++next[shard];
+  std::size_t first = 0;
+  for (std::size_t shard = 0; shard < VoxelShards::kCount; ++shard)
   {
-    if (shard_of_[i] != shard) continue;
-    arrivals.push_back(
-        {static_cast<std::uint32_t>(i),
-         grid.addressOf(points.x[i], points.y[i], points.z[i]),
-         VoxelStorage::kNoBlock,
-         {}});
+    ranges_[shard] = {first, first + next[shard]};
+    next[shard] = first;
+    first = ranges_[shard].last;
   }
+  next[kNoShard] = first;
+  by_shard_.resize(points.size());
+  for (std::size_t i = 0; i < shard_of_.size(); ++i)
+    by_shard_[next[shard_of_[i]]++] = static_cast<std::uint32_t>(i);
 }
 
 /** Finds block and voxels of each point; adds those that it lacks. */
@@ -57,10 +69,11 @@ void VoxelInserter::findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& sto
   }
   for (Arrival& arrival : arrivals)
   {
+    const VoxelBlock& block = storage.block(arrival.block);
     for (std::size_t s = 0; s < kVoxelScales; ++s)
     {
       const std::uint8_t slot = arrival.address.slots[s];
-      std::uint32_t voxel = storage.block(arrival.block).voxels[slot];
+      std::uint32_t voxel = block.voxels[slot];
       if (voxel == VoxelStorage::kNoVoxel) voxel = storage.addVoxel(arrival.block, slot);
       arrival.voxels[s] = voxel;
     }
@@ -75,11 +88,12 @@ void VoxelInserter::addPoint(
   const std::uint64_t key = arrival.address.block_key;
   const Eigen::Vector3f point(points.x[i], points.y[i], points.z[i]);
   const Eigen::Vector3f beam = (point - context.origin).normalized();
+  const Eigen::Vector3f corner = context.grid.cornerOf(key);
   for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
     const std::uint8_t slot = arrival.address.slots[s];
     PlaneVoxel& voxel = storage.voxel(arrival.voxels[s]);
-    voxel.add(point - context.grid.centerOf(key, slot), beam);
+    voxel.add(point - (corner + context.grid.centerInBlock(slot)), beam);
     if (voxel.claimRefit()) refits.push_back({arrival.voxels[s], slot, key});
   }
 }
@@ -90,9 +104,15 @@ void VoxelInserter::insertShard(
 {
   std::vector<Arrival>& arrivals = benches_[shard].arrivals;
   std::vector<Refit>& refits = benches_[shard].refits;
-  collect(shard, points, context.grid, arrivals);
-  findVoxels(arrivals, storage);
+  arrivals.clear();
   refits.clear();
+  for (std::size_t k = ranges_[shard].first; k < ranges_[shard].last; ++k)
+  {
+    const std::uint32_t i = by_shard_[k];
+    const VoxelAddress address = context.grid.addressOf(points.x[i], points.y[i], points.z[i]);
+    arrivals.push_back({i, address, VoxelStorage::kNoBlock, {}});
+  }
+  findVoxels(arrivals, storage);
   for (std::size_t k = 0; k < arrivals.size(); ++k)
   {
     for (const std::uint32_t voxel : arrivals[std::min(k + kLookAhead, arrivals.size() - 1)].voxels)
@@ -108,14 +128,7 @@ void VoxelInserter::insert(
     const WorldPoints& points, const InsertionContext& context, const Workers& workers,
     VoxelShards& shards)
 {
-  shard_of_.resize(points.size());
-  workers.forEachChunk(
-      points.size(),
-      [&](std::size_t, std::size_t first, std::size_t last)
-      {
-        for (std::size_t i = first; i < last; ++i)
-          shard_of_[i] = shardOf(context.grid, points.x[i], points.y[i], points.z[i]);
-      });
+  sortByShard(points, context.grid, workers);
   workers.forEach(
       VoxelShards::kCount, [&](std::size_t shard)
       { insertShard(static_cast<std::uint8_t>(shard), points, context, shards[shard]); });

@@ -56,9 +56,13 @@ class VoxelInserter
     std::vector<Refit> refits;
   };
 
-  void collect(
-      std::uint8_t shard, const WorldPoints& points, const VoxelGrid& grid,
-      std::vector<Arrival>& arrivals) const;
+  /** Which of the points in by_shard_ are a shard's. */
+  struct Range
+  {
+    std::size_t first = 0, last = 0;
+  };
+
+  void sortByShard(const WorldPoints& points, const VoxelGrid& grid, const Workers& workers);
   static void findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& storage);
   static void addPoint(
       const Arrival& arrival, const WorldPoints& points, const InsertionContext& context,
@@ -67,7 +71,9 @@ class VoxelInserter
       std::uint8_t shard, const WorldPoints& points, const InsertionContext& context,
       VoxelStorage& storage);
 
-  std::vector<std::uint8_t> shard_of_;  // per point
+  std::vector<std::uint8_t> shard_of_;   // per point
+  std::vector<std::uint32_t> by_shard_;  // points, shard by shard
+  std::array<Range, VoxelShards::kCount> ranges_;
   std::array<Bench, VoxelShards::kCount> benches_;
 };
 

@@ -4,6 +4,8 @@
 #include "voxel_match.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace fastlio
 {
@@ -17,9 +19,9 @@ constexpr std::size_t kBatch = 32;
 struct Query
 {
   VoxelAddress address;
-  std::uint8_t shard = 0;
-  const VoxelBlock* block = nullptr;
-  std::array<std::uint32_t, kVoxelScales> voxels{};
+  const VoxelStorage* storage = nullptr;
+  const VoxelBlock* block = nullptr;  // none: no voxel is there
+  std::array<const VoxelPlane*, kVoxelScales> planes{};
 };
 
 using Batch = std::array<Query, kBatch>;
@@ -27,78 +29,91 @@ using Batch = std::array<Query, kBatch>;
 // No block has it: keys have fewer bits.
 constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
-void findBlocks(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
-    std::size_t count, Batch& batch)
+void findAddresses(
+    const VoxelGrid& grid, const WorldPoints& points, std::size_t first, std::size_t count,
+    Batch& batch)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
-    Query& query = batch[i];
     const float x = points.x[first + i], y = points.y[first + i], z = points.z[first + i];
-    if (!grid.contains(x, y, z))  // nor is a NaN anywhere
-    {
-      query.address.block_key = kNowhere;
-      query.block = nullptr;
-      continue;
-    }
-    query.address = grid.addressOf(x, y, z);
-    // Neighbours in the scan mostly share the block.
-    if (i > 0 && batch[i - 1].address.block_key == query.address.block_key)
-    {
-      query.block = batch[i - 1].block;
-      query.shard = batch[i - 1].shard;
-    }
-    else
-    {
-      query.shard = VoxelShards::shardOf(query.address.block_key);
-      const VoxelStorage& storage = shards[query.shard];
-      const std::uint32_t number = storage.find(query.address.block_key);
-      query.block = number == VoxelStorage::kNoBlock ? nullptr : &storage.block(number);
-    }
-    if (query.block != nullptr)
-      for (const std::uint8_t slot : query.address.slots)
-        __builtin_prefetch(&query.block->voxels[slot]);
+    if (grid.contains(x, y, z))
+      batch[i].address = grid.addressOf(x, y, z);
+    else  // nor is a NaN anywhere
+      batch[i].address.block_key = kNowhere;
   }
 }
 
-void findVoxels(const VoxelShards& shards, std::size_t count, Batch& batch)
+/** A loop of its own: so short that several blocks, which are far apart in the memory, are on their
+ * way at a time. */
+void findBlocks(const VoxelShards& shards, std::size_t count, Batch& batch)
+{
+  std::uint64_t key = kNowhere;
+  const VoxelStorage* storage = nullptr;
+  const VoxelBlock* block = nullptr;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Query& query = batch[i];
+    // Neighbours in the scan mostly share the block.
+    if (query.address.block_key != key)
+    {
+      key = query.address.block_key;
+      storage = &shards[VoxelShards::shardOf(key)];
+      const std::uint32_t number = storage->find(key);
+      block = number == VoxelStorage::kNoBlock ? nullptr : &storage->block(number);
+    }
+    query.storage = storage;
+    query.block = block;
+    if (block == nullptr) continue;
+    for (const std::uint8_t slot : query.address.slots)
+      __builtin_prefetch(&block->voxels[slot]);
+  }
+}
+
+void findPlanes(std::size_t count, Batch& batch)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
     Query& query = batch[i];
+    if (query.block == nullptr) continue;
     for (std::size_t s = 0; s < kVoxelScales; ++s)
     {
-      query.voxels[s] = query.block == nullptr ? VoxelStorage::kNoVoxel
-                                               : query.block->voxels[query.address.slots[s]];
-      __builtin_prefetch(&shards[query.shard].voxel(query.voxels[s]));
+      // Voxel number kNoVoxel exists and has no plane.
+      const std::uint32_t voxel = query.block->voxels[query.address.slots[s]];
+      query.planes[s] = &query.storage->voxel(voxel).plane();
+      __builtin_prefetch(query.planes[s]);
     }
   }
 }
 
-PlaneMatch bestPlane(const VoxelShards& shards, const Query& query, float x, float y, float z)
+/** The plane whose offset at the point is known best, and how well. */
+PlaneMatch bestPlane(const Query& query, float x, float y, float z)
 {
-  PlaneMatch best;
-  for (const std::uint32_t number : query.voxels)
+  std::size_t best = kVoxelScales;
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
-    // Voxel number kNoVoxel exists and has no plane.
-    const VoxelPlane& plane = shards[query.shard].voxel(number).plane();
+    const VoxelPlane& plane = *query.planes[s];
     if (!plane.valid()) continue;
     // What the surface departs from the plane stays where it is: like the plane's offset it is one
     // error for all points that meet it, in this scan and in the next.
     const float variance = plane.offsetVariance(x, y, z) + plane.roughness;
-    if (best.valid() && variance >= best.variance) continue;
-    best = {
-        plane.nx,
-        plane.ny,
-        plane.nz,
-        plane.offset(),
-        variance,
-        variance,
-        VoxelShards::numberOf(number, query.shard),
-        plane.created_insertion,
-        plane.normalVariance()};
+    if (variance >= least) continue;
+    least = variance;
+    best = s;
   }
-  return best;
+  if (best == kVoxelScales) return {};
+  const VoxelPlane& plane = *query.planes[best];
+  const std::uint32_t voxel = query.block->voxels[query.address.slots[best]];
+  return {
+      plane.nx,
+      plane.ny,
+      plane.nz,
+      plane.offset(),
+      least,
+      least,
+      VoxelShards::numberOf(voxel, VoxelShards::shardOf(query.address.block_key)),
+      plane.created_insertion,
+      plane.normalVariance()};
 }
 }  // namespace
 
@@ -110,11 +125,16 @@ void matchPlanes(
   for (std::size_t begin = first; begin < last; begin += kBatch)
   {
     const std::size_t count = std::min(kBatch, last - begin);
-    findBlocks(shards, grid, points, begin, count, batch);
-    findVoxels(shards, count, batch);
+    findAddresses(grid, points, begin, count, batch);
+    findBlocks(shards, count, batch);
+    findPlanes(count, batch);
     for (std::size_t i = 0; i < count; ++i)
-      matches[begin + i] = bestPlane(
-          shards, batch[i], points.x[begin + i], points.y[begin + i], points.z[begin + i]);
+    {
+      const std::size_t k = begin + i;
+      matches[k] = batch[i].block == nullptr
+                       ? PlaneMatch{}
+                       : bestPlane(batch[i], points.x[k], points.y[k], points.z[k]);
+    }
   }
 }
 

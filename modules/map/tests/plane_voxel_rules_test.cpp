@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace fastlio;
 using namespace fastlio::testing;
 
@@ -37,6 +39,33 @@ TEST(PlaneVoxel, HasNoPlaneFromALine)
     }
     voxel.fit(Vector3f::Zero(), rulesWithNoise(0.02), 1);
     EXPECT_FALSE(voxel.plane().valid());
+  }
+}
+
+TEST(PlaneVoxel, HasNoPlaneFromPointsWithoutExtent)
+{
+  // Exactly so, where differences of products leave nothing or a rounding error of either sign.
+  for (const float min_points : {3.0F, 6.0F})
+  {
+    PlaneRules rules = rulesWithNoise(0.02);
+    rules.min_points = min_points;
+    for (const int count : {3, 4, 7, 100})
+    {
+      PlaneVoxel point, line, far_line;
+      for (int i = 0; i < count; ++i)
+      {
+        const float t = 0.01F * float(i % 7) - 0.03F;
+        point.add({0.1F, -0.2F, 0.3F}, {0.0F, 0.0F, 1.0F});
+        line.add({t, t, t}, {0.0F, 0.0F, 1.0F});
+        far_line.add({0.7F + t, 0.7F, -0.7F}, {0.0F, 0.0F, 1.0F});
+      }
+      for (PlaneVoxel* voxel : {&point, &line, &far_line})
+      {
+        voxel->fit(Vector3f::Zero(), rules, 1);
+        EXPECT_FALSE(voxel->plane().valid()) << count;
+        EXPECT_FALSE(std::isnan(voxel->plane().variance)) << count;
+      }
+    }
   }
 }
 

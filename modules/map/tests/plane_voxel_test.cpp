@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "plane_patches.h"
+#include <fastlio/map/plane_fit.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace fastlio;
 using namespace fastlio::testing;
@@ -111,4 +113,35 @@ TEST(PlaneVoxel, LosesLittleFarFromTheOrigin)
   voxel.fit(center.cast<float>(), rulesWithNoise(0.02), 1);
   ASSERT_TRUE(voxel.plane().valid());
   EXPECT_NEAR(distanceTo(voxel.plane(), center + plane.at(0.3, 0.3)), 0.0, 1e-3);
+}
+
+TEST(PlaneVoxel, LeverageIsTheInverseOfTheScatterWithinThePlane)
+{
+  // Against an eigenvalue decomposition of the points themselves.
+  Random random(15);
+  for (int k = 0; k < 100; ++k)
+  {
+    const TruePlane plane = planeAcross(random.axis(), random.uniform(-0.2, 0.2));
+    const double length = random.uniform(0.2, 0.8), width = random.uniform(0.2, 0.8);
+    PlaneVoxel voxel;
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 60; ++i)
+    {
+      const Vector3d p = plane.at(random.uniform(-length, length), random.uniform(-width, width)) +
+                         random.normal(0.01) * plane.n;
+      points.push_back(p);
+      voxel.add(p.cast<float>(), plane.n.cast<float>());
+    }
+    const auto expected = fitPlane(momentsOf(points.data(), points.size()));
+    voxel.fit(Vector3f::Zero(), rulesWithNoise(1e-4), 1);
+    const VoxelPlane& fitted = voxel.plane();
+    ASSERT_TRUE(expected.has_value() && fitted.valid());
+    EXPECT_NEAR(double(fitted.variance), expected->eigenvalues[0] * 60 / 57, 1e-7);
+    EXPECT_NEAR(std::abs(expected->normal.dot(Vector3d(fitted.nx, fitted.ny, fitted.nz))), 1, 1e-6);
+    const Vector3d p = plane.at(random.uniform(-1, 1), random.uniform(-1, 1));
+    const double variance = planeOffsetVariance(*expected, p, expected->eigenvalues[0] * 60 / 57);
+    const Vector3f q = p.cast<float>();
+    EXPECT_NEAR(
+        double(fitted.offsetVariance(q.x(), q.y(), q.z())), variance, 1e-3 * variance + 1e-9);
+  }
 }

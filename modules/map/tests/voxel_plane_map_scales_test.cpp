@@ -111,3 +111,21 @@ TEST(VoxelPlaneMap, EqualsThreeVoxelGridsAndTakesTheBestScale)
   }
   EXPECT_GT(valid, queries.size() * 8 / 10);
 }
+
+TEST(VoxelPlaneMap, PointsOnAFaceBelongToTheVoxelAbove)
+{
+  // Rounding towards zero would give those around the origin one voxel, and whole negative numbers
+  // rounded down by one too many would shift theirs.
+  for (const float inside : {0.0F, 0.01F, 0.49F})
+  {
+    VoxelPlaneMap map(halfMetre());
+    Cloud cloud;
+    for (int i = -5; i <= 5; ++i)
+      cloud.add({kSize * float(i), kSize * float(-i), kSize * float(i) + inside * kSize});
+    map.insert(worldPoints(cloud), {0.0, 0.0, 3.0});
+    EXPECT_EQ(map.pointCount(), 11U);
+    for (const Xyz& p : cloud.points)
+      map.insert(worldPoints({{p.x + 0.5F * kSize, p.y + 0.5F * kSize, p.z}}), {0.0, 0.0, 3.0});
+    EXPECT_EQ(map.pointCount(), 11U) << "the middles of the same voxels";
+  }
+}

@@ -11,15 +11,20 @@ void transformToWorld(
     const BodyPoints& body, const Pose& T_world_imu, std::size_t first, std::size_t last,
     WorldPoints& world)
 {
-  const Mat3& R = T_world_imu.R;
-  const Vec3& t = T_world_imu.p;
-  for (std::size_t i = first; i < last; ++i)
+  const Mat3 R = T_world_imu.R;
+  const Vec3 t = T_world_imu.p;
+  const float *bx = body.x.data(), *by = body.y.data(), *bz = body.z.data();
+  const auto row = [&](int k, float* result)
   {
-    const double x = body.x[i], y = body.y[i], z = body.z[i];
-    world.x[i] = static_cast<float>(R(0, 0) * x + R(0, 1) * y + R(0, 2) * z + t.x());
-    world.y[i] = static_cast<float>(R(1, 0) * x + R(1, 1) * y + R(1, 2) * z + t.y());
-    world.z[i] = static_cast<float>(R(2, 0) * x + R(2, 1) * y + R(2, 2) * z + t.z());
-  }
+    const double rx = R(k, 0), ry = R(k, 1), rz = R(k, 2), shift = t[k];
+    for (std::size_t i = first; i < last; ++i)
+      result[i] = static_cast<float>(
+          rx * static_cast<double>(bx[i]) + ry * static_cast<double>(by[i]) +
+          rz * static_cast<double>(bz[i]) + shift);
+  };
+  row(0, world.x.data());
+  row(1, world.y.data());
+  row(2, world.z.data());
 }
 
 PlaneMeasurement planeMeasurement(

@@ -69,6 +69,8 @@ class Downsampler
   {
     std::array<std::uint32_t, kBins> counts{};  //!< of usable points, by logarithm of the range
     std::size_t usable = 0, invalid = 0, near = 0, far = 0;
+
+    void countDropped(float squared_range, float least_squared_range);
   };
 
   [[nodiscard]] Ranges gateRanges(

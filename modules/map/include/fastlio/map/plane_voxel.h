@@ -43,7 +43,14 @@ struct VoxelPlane
 
   /** Variance of the plane's offset at a point, as of a regression's prediction: of its mean, and
    * of its tilt with the distance from the centroid [m^2]. */
-  [[nodiscard]] float offsetVariance(float x, float y, float z) const;
+  [[nodiscard]] float offsetVariance(float x, float y, float z) const
+  {
+    const float dx = x - qx, dy = y - qy, dz = z - qz;
+    const auto& m = leverage;
+    const float distance = dx * (m[0] * dx + 2 * (m[1] * dy + m[2] * dz)) +
+                           dy * (m[3] * dy + 2 * m[4] * dz) + dz * m[5] * dz;
+    return variance * (inverse_count + distance);
+  }
 };
 
 /** The sums of a voxel, relative to its centre so that single precision suffices. */
@@ -51,10 +58,23 @@ class PlaneVoxel
 {
  public:
   /** \param offset point minus voxel centre [m] \param beam unit vector from the sensor */
-  void add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam);
+  void add(const Eigen::Vector3f& offset, const Eigen::Vector3f& beam)
+  {
+    const float x = offset.x(), y = offset.y(), z = offset.z();
+    count_ += 1;
+    sum_ = {sum_[0] + x, sum_[1] + y, sum_[2] + z};
+    beams_ = {beams_[0] + beam.x(), beams_[1] + beam.y(), beams_[2] + beam.z()};
+    products_ = {products_[0] + x * x, products_[1] + x * y, products_[2] + x * z,
+                 products_[3] + y * y, products_[4] + y * z, products_[5] + z * z};
+  }
 
   /** True once after enough points have joined since the last fit to make another one worth it. */
-  [[nodiscard]] bool claimRefit();
+  [[nodiscard]] bool claimRefit()
+  {
+    if (refit_pending_ || count_ < kRefitGrowth * fitted_count_ + 1.0F) return false;
+    refit_pending_ = true;
+    return true;
+  }
 
   /** Fits the plane by the rules: smallest eigenvector of the scatter. A voxel that is too thick, a
    * line, or seen edge-on has none. */
@@ -79,6 +99,9 @@ class PlaneVoxel
   [[nodiscard]] Eigen::Vector3f meanOffset() const;
 
  private:
+  // A plane is fitted anew when its points have grown by this factor.
+  static constexpr float kRefitGrowth = 1.1F;
+
   VoxelPlane plane_;
   float count_ = 0;
   float fitted_count_ = 0;
