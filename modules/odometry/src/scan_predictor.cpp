@@ -12,9 +12,11 @@ ScanPrediction ScanPredictor::predict(
     const SystematicCovariance& systematic, bool trusted)
 {
   imu.inputsBetween(from.stamp_ns, end_ns, imu_.hold, inputs_);
+  imu.forEachSample(
+      from.stamp_ns + 1, end_ns, [this](const ImuSample& sample) { noise_.add(sample); });
   imu_rate_.clear();
   const Prediction propagated = propagateThrough(
-      from.filter, inputs_, end_ns, imu_.noise, imu.inflations(),
+      from.filter, inputs_, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
       [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!imu_rate_wanted_ || !trusted) return;
@@ -41,7 +43,7 @@ std::optional<ImuRateState> ScanPredictor::predictNewest(
   if (stamp_ns <= from.stamp_ns) return std::nullopt;
   imu.inputsBetween(from.stamp_ns, stamp_ns, imu_.hold, inputs_);
   const Prediction p = propagateThrough(
-      from.filter, inputs_, stamp_ns, imu_.noise, imu.inflations(),
+      from.filter, inputs_, stamp_ns, noise_.atLeast(imu_.noise), imu.inflations(),
       [](std::int64_t, const Prediction&) {});
   if (!isFinite(p.state.x) || !p.state.P.allFinite()) return std::nullopt;
   return imuRateState(stamp_ns, p.state, systematic(p), imu);

@@ -6,6 +6,7 @@
 
 #include "prediction.h"
 #include <fastlio/imu/imu_buffer.h>
+#include <fastlio/imu/noise_measurement.h>
 #include <fastlio/odometry/imu_rate.h>
 #include <fastlio/odometry/odometry_options.h>
 
@@ -64,6 +65,7 @@ class ScanPredictor
  private:
   ImuOptions imu_;
   bool imu_rate_wanted_;
+  NoiseMeasurement noise_;
   std::vector<ImuSample> inputs_;
   std::vector<ImuRateState> imu_rate_;
 };

@@ -52,6 +52,14 @@ class ImuBuffer
   [[nodiscard]] std::vector<ImuSample> samplesBetween(
       std::int64_t begin_ns, std::int64_t end_ns) const;
 
+  /** Calls \a use for the samples of [begin_ns, end_ns], oldest first. */
+  template <typename Use>
+  void forEachSample(std::int64_t begin_ns, std::int64_t end_ns, const Use& use) const
+  {
+    for (std::size_t i = firstAfter(begin_ns - 1); i < firstAfter(end_ns); ++i)
+      use(samples_[i]);
+  }
+
   /** Notes a span of time in which the samples are worse than their noise says. */
   void addInflation(const NoiseInflation& inflation) { inflations_.push_back(inflation); }
   [[nodiscard]] const std::vector<NoiseInflation>& inflations() const { return inflations_; }

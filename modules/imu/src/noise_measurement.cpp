@@ -1,0 +1,54 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/imu/noise_measurement.h>
+#include <fastlio/math/time.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kShare = 1.0 / 3.0;  // of the measured density that counts
+constexpr double kMemory = 50.0;      // samples that an estimate averages over
+constexpr double kLeast = 20.0;       // fewer tell nothing
+// Third differences of three axes: their mean square over the variance of one axis.
+constexpr double kGain = 3.0 * 20.0;
+constexpr double kMostUnevenSpacing = 1.8;  // beyond it, a sample is missing
+}  // namespace
+
+void NoiseMeasurement::add(const ImuSample& sample)
+{
+  const auto& b = before_;
+  if (known_ == before_.size())
+  {
+    const double dt = toSeconds(sample.stamp_ns - b[0].stamp_ns);
+    const double mean_dt = toSeconds(b[0].stamp_ns - b[2].stamp_ns) / 2.0;
+    if (dt > kMostUnevenSpacing * mean_dt)
+      known_ = 0;
+    else
+    {
+      const Vec3 gyro = sample.gyro - 3.0 * (b[0].gyro - b[1].gyro) - b[2].gyro;
+      const Vec3 accel = sample.accel - 3.0 * (b[0].accel - b[1].accel) - b[2].accel;
+      count_ = std::min(count_ + 1.0, kMemory);
+      gyro_variance_ += (gyro.squaredNorm() / kGain * mean_dt - gyro_variance_) / count_;
+      accel_variance_ += (accel.squaredNorm() / kGain * mean_dt - accel_variance_) / count_;
+    }
+  }
+  before_ = {sample, b[0], b[1]};
+  known_ = std::min(known_ + 1, before_.size());
+}
+
+ImuNoise NoiseMeasurement::atLeast(const ImuNoise& noise) const
+{
+  ImuNoise grown = noise;
+  if (count_ < kLeast) return grown;
+  grown.gyro_noise_density = std::max(noise.gyro_noise_density, kShare * std::sqrt(gyro_variance_));
+  grown.accel_noise_density =
+      std::max(noise.accel_noise_density, kShare * std::sqrt(accel_variance_));
+  return grown;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,79 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/imu/noise_measurement.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::int64_t kPeriodNs = 5'000'000;
+const ImuNoise kSensor{5e-4, 5e-3, 2e-5, 2e-4};
+
+/** Samples of a shaken hand, with white noise of the given densities. */
+NoiseMeasurement measured(double gyro_density, double accel_density, int samples)
+{
+  std::mt19937 engine(7);
+  std::normal_distribution<double> normal;
+  const double root_rate = std::sqrt(200.0);
+  NoiseMeasurement measurement;
+  for (int i = 0; i < samples; ++i)
+  {
+    const double t = 0.005 * i;
+    ImuSample sample;
+    sample.stamp_ns = i * kPeriodNs;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sample.gyro[axis] =
+          8.0 * std::sin(12.0 * t + axis) + gyro_density * root_rate * normal(engine);
+      sample.accel[axis] =
+          15.0 * std::cos(15.0 * t + axis) + accel_density * root_rate * normal(engine);
+    }
+    measurement.add(sample);
+  }
+  return measurement;
+}
+}  // namespace
+
+TEST(NoiseMeasurement, CountsAThirdOfWhatItSees)
+{
+  const ImuNoise noise = measured(6e-3, 0.09, 400).atLeast(kSensor);
+  EXPECT_NEAR(noise.gyro_noise_density, 2e-3, 5e-4);
+  EXPECT_NEAR(noise.accel_noise_density, 0.03, 0.008);
+  EXPECT_EQ(noise.gyro_bias_walk, kSensor.gyro_bias_walk);
+}
+
+TEST(NoiseMeasurement, MotionIsNoNoise)
+{
+  const ImuNoise noise = measured(5e-4, 5e-3, 400).atLeast(kSensor);
+  EXPECT_EQ(noise.gyro_noise_density, kSensor.gyro_noise_density);
+  EXPECT_EQ(noise.accel_noise_density, kSensor.accel_noise_density);
+}
+
+TEST(NoiseMeasurement, FewSamplesTellNothing)
+{
+  EXPECT_EQ(
+      measured(1.0, 10.0, 20).atLeast(kSensor).gyro_noise_density, kSensor.gyro_noise_density);
+}
+
+TEST(NoiseMeasurement, AGapIsNoNoise)
+{
+  NoiseMeasurement measurement;
+  std::int64_t stamp = 0;
+  for (int i = 0; i < 400; ++i)
+  {
+    stamp += i % 10 == 0 ? 20 * kPeriodNs : kPeriodNs;
+    ImuSample sample;
+    sample.stamp_ns = stamp;
+    sample.gyro.setConstant(i / 10);  // jumps in every gap
+    measurement.add(sample);
+  }
+  EXPECT_EQ(measurement.atLeast(kSensor).gyro_noise_density, kSensor.gyro_noise_density);
+}
+
+}  // namespace fastlio
