@@ -16,7 +16,9 @@ namespace fastlio
 namespace
 {
 constexpr const char* kFooter = R"(Files in the output directory:
-  recording.rawlog  IMU (label 'imu') and LiDAR (label 'lidar'), in the order of their stamps
+  recording.rawlog  IMU (label 'imu') and LiDAR (label 'lidar'), in the order of their stamps; with
+                    gnss.rate also GNSS (label 'gnss'), with wheels.rate wheel odometry (label
+                    'wheels')
   ground_truth.tum  true pose of the IMU at 200 Hz
   config.yaml       parameters for fastlio-replay that match the simulated sensors
   scenario.json     all settings, true biases, errors of the sensors, gravity and mounting

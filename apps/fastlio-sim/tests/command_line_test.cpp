@@ -117,6 +117,16 @@ TEST_F(FastlioSim, RealisticSensorsHaveErrorsThatOnlyTheScenarioTells)
   EXPECT_NE(truth["T_imu_lidar"]["position_m"][0], scenario["settings"]["lidar.pose"][0]);
 }
 
+TEST_F(FastlioSim, ReceiversOfGnssAreTold)
+{
+  const ProcessResult result = run(
+      {"town", "--duration", "3", "--stride", "100", "--set", "gnss.rate=2", "--set",
+       "gnss.latitude=36.5", "-q", "-o", path("out")});
+  EXPECT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_EQ(truthOf("out")["truth"]["gnss"]["datum"]["latitude_deg"], 36.5);
+  EXPECT_EQ(truthOf("out")["counts"]["gnss_fixes"], 7);
+}
+
 TEST_F(FastlioSim, WrongNamesGetTheNearestOne)
 {
   const ProcessResult scenario = run({"--scenario", "ofice", "-o", path("out")});
@@ -135,7 +145,10 @@ TEST_F(FastlioSim, WrongValuesAreRefusedWithWhatIsAllowed)
        {Arguments{"office", "--duration", "-3"}, Arguments{"office", "--imu-rate", "fast"},
         Arguments{"office", "--scan-rate", "0"}, Arguments{"office", "--lidar", "sonar"},
         Arguments{"office", "--set", "imu.rate"}, Arguments{"office", "--no-such-option"},
-        Arguments{"office", "--set", "lidar.min_range=200"}, Arguments{}})
+        Arguments{"office", "--set", "lidar.min_range=200"},
+        Arguments{"town", "--set", "world.length=100"},
+        Arguments{"town", "--set", "gnss.multipath=2"},
+        Arguments{"town", "--set", "gnss.lever_arm=1,2"}, Arguments{}})
   {
     const ProcessResult result = run(arguments);
     EXPECT_EQ(result.exit_status, 1) << result.output;

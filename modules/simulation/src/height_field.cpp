@@ -16,7 +16,8 @@ namespace
 {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNearest = 1e-6;
-constexpr double kSeam = 1e-9;  // triangles overlap by this fraction, so that no ray slips through
+constexpr double kAbove = 1e-3;  // rays that pass higher above a cell cannot hit it [m]
+constexpr double kSeam = 1e-9;   // triangles overlap by this fraction, so that no ray slips through
 
 struct Span
 {
@@ -91,6 +92,11 @@ double HeightField::height(double x, double y) const
                : node(i, j) + b * (middle - node(i, j)) + a * (node(i + 1, j + 1) - middle);
 }
 
+double HeightField::highestNode(int i, int j) const
+{
+  return std::max({node(i, j), node(i + 1, j), node(i, j + 1), node(i + 1, j + 1)});
+}
+
 std::optional<RayHit> HeightField::castCell(const Ray& ray, int i, int j, double max_range) const
 {
   // In cell coordinates (a, b) in [0, 1]^2 each triangle is z = z0 + ga a + gb b.
@@ -130,11 +136,16 @@ std::optional<RayHit> HeightField::cast(const Ray& ray, double max_range) const
   const Vec3 entry = o + span.begin * d;
   AxisWalk x = startWalk(o.x(), d.x(), entry.x(), e.cell, e.cells_x);
   AxisWalk y = startWalk(o.y(), d.y(), entry.y(), e.cell, e.cells_y);
+  double entered = span.begin;
   while (x.cell >= 0 && x.cell < e.cells_x && y.cell >= 0 && y.cell < e.cells_y)
   {
-    if (auto hit = castCell(ray, x.cell, y.cell, max_range)) return hit;
     AxisWalk& nearer = x.next < y.next ? x : y;
+    // Most cells lie below all of the ray's way through them.
+    const double lowest = o.z() + std::min(entered * d.z(), nearer.next * d.z());
+    if (!(lowest > highestNode(x.cell, y.cell) + kAbove))
+      if (auto hit = castCell(ray, x.cell, y.cell, max_range)) return hit;
     if (nearer.next > span.end) return std::nullopt;
+    entered = nearer.next;
     nearer.cell += nearer.step;
     nearer.next += nearer.delta;
   }

@@ -130,6 +130,18 @@ CObservationIMU::Ptr toImuObservation(const ImuSample& sample)
   return observation;
 }
 
+mrpt::obs::CObservationOdometry::Ptr toWheelObservation(const WheelReading& reading)
+{
+  auto observation = mrpt::obs::CObservationOdometry::Create();
+  observation->sensorLabel = kWheelsLabel;
+  observation->timestamp = toMrptTime(reading.stamp_ns);
+  observation->odometry =
+      mrpt::poses::CPose2D(reading.x, reading.y, std::remainder(reading.heading, kTwoPi));
+  observation->hasVelocities = true;
+  observation->velocityLocal = {reading.speed, 0.0, reading.turn_rate};
+  return observation;
+}
+
 CObservationVelodyneScan::Ptr toVelodyneScan(
     const FiredSweep& fired, const SimulationSettings& settings)
 {

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "path_timing.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/simulation/path_builder.h>
 
@@ -17,13 +18,6 @@ constexpr double kSampleDistance = 0.05;  // of the polyline before smoothing [m
 
 using Points = std::vector<Vec3>;
 
-/** Closed polyline of n points at equal distances along a closed polyline. */
-struct Resampled
-{
-  Points points;
-  double length = 0.0;
-};
-
 std::vector<double> closedArcLengths(const Points& p)
 {
   std::vector<double> lengths{0.0};
@@ -32,20 +26,20 @@ std::vector<double> closedArcLengths(const Points& p)
   return lengths;
 }
 
-Resampled resample(const Points& corners, std::size_t n)
+/** Closed polyline of n points at equal distances along a closed polyline. \param at arc length (or
+ * time) of each corner; the last element closes the loop */
+Points resample(const Points& corners, const std::vector<double>& at, std::size_t n)
 {
-  const std::vector<double> at = closedArcLengths(corners);
-  Resampled result;
-  result.length = at.back();
+  Points result;
   std::size_t segment = 0;
   for (std::size_t i = 0; i < n; ++i)
   {
-    const double s = result.length * static_cast<double>(i) / static_cast<double>(n);
+    const double s = at.back() * static_cast<double>(i) / static_cast<double>(n);
     while (at[segment + 1] < s)
       ++segment;
     const double fraction = (s - at[segment]) / std::max(at[segment + 1] - at[segment], 1e-12);
     const Vec3& a = corners[segment];
-    result.points.push_back(a + fraction * (corners[(segment + 1) % corners.size()] - a));
+    result.push_back(a + fraction * (corners[(segment + 1) % corners.size()] - a));
   }
   return result;
 }
@@ -67,11 +61,11 @@ Points averaged(const Points& p, std::size_t half)
 
 Points roundedRoute(const Route& route)
 {
-  const double length = closedArcLengths(route.corners).back();
-  const auto n = static_cast<std::size_t>(std::ceil(length / kSampleDistance)) + 1;
+  const std::vector<double> lengths = closedArcLengths(route.corners);
+  const auto n = static_cast<std::size_t>(std::ceil(lengths.back() / kSampleDistance)) + 1;
   const auto half = static_cast<std::size_t>(
       std::clamp(0.5 * route.corner_cut / kSampleDistance, 0.0, 0.25 * static_cast<double>(n)));
-  return averaged(averaged(resample(route.corners, n).points, half), half);
+  return averaged(averaged(resample(route.corners, lengths, n), half), half);
 }
 
 /** Directions of travel, without jumps of 2 pi; the last element closes the loop. */
@@ -112,11 +106,12 @@ CarrierPath followRoute(const Route& route)
 {
   requireValid(route);
   const Points rounded = roundedRoute(route);
-  const double step = route.speed * route.knot_time;
-  const double length = closedArcLengths(rounded).back();
-  const auto n = static_cast<std::size_t>(std::max(8.0, std::round(length / step)));
-  Points points = resample(rounded, n).points;
-  const double spacing = length / route.speed / static_cast<double>(n);
+  const bool steady = route.acceleration <= 0.0;
+  const std::vector<double> at = steady ? closedArcLengths(rounded) : timesAlong(rounded, route);
+  const double step = steady ? route.speed * route.knot_time : route.knot_time;
+  const auto n = static_cast<std::size_t>(std::max(8.0, std::round(at.back() / step)));
+  Points points = resample(rounded, at, n);
+  const double spacing = (steady ? at.back() / route.speed : at.back()) / static_cast<double>(n);
   if (route.ground)
     for (auto& p : points)
       p.z() += route.ground(p.x(), p.y());
@@ -173,6 +168,28 @@ void addThrustTilt(CarrierPath& path, double gravity)
     const double left = -std::sin(yaw) * thrust.x() + std::cos(yaw) * thrust.y();
     pitch.push_back(std::atan2(ahead, thrust.z()));
     roll.push_back(-std::asin(left / thrust.norm()));
+  }
+  path.channels[CarrierPath::kPitch].spline = UniformSpline(std::move(pitch), spacing);
+  path.channels[CarrierPath::kRoll].spline = UniformSpline(std::move(roll), spacing);
+}
+
+void addGroundTilt(CarrierPath& path, const std::function<double(double x, double y)>& ground)
+{
+  constexpr double kSpacing = 0.5, kHalfBase = 0.7;  // [s], [m]
+  const auto n = static_cast<std::size_t>(std::max(8.0, std::round(path.loop_time / kSpacing)));
+  const double spacing = path.loop_time / static_cast<double>(n);
+  std::vector<double> pitch, roll;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const double u = spacing * static_cast<double>(i);
+    const double x = path.channels[CarrierPath::kX].value(u);
+    const double y = path.channels[CarrierPath::kY].value(u);
+    const double yaw = path.channels[CarrierPath::kYaw].value(u);
+    const double dx = kHalfBase * std::cos(yaw), dy = kHalfBase * std::sin(yaw);
+    const double ahead = ground(x + dx, y + dy) - ground(x - dx, y - dy);
+    const double left = ground(x - dy, y + dx) - ground(x + dy, y - dx);
+    pitch.push_back(-std::atan2(ahead, 2.0 * kHalfBase));
+    roll.push_back(std::atan2(left, 2.0 * kHalfBase));
   }
   path.channels[CarrierPath::kPitch].spline = UniformSpline(std::move(pitch), spacing);
   path.channels[CarrierPath::kRoll].spline = UniformSpline(std::move(roll), spacing);

@@ -33,7 +33,13 @@ enum class NoiseSource : std::uint32_t
   CarrierVibration,
   FalseReturn,
   PacketLoss,
-  Outage
+  Outage,
+  GnssWhite,
+  GnssDrift,
+  GnssOutage,
+  GnssMultipath,
+  Wheels,
+  Session
 };
 
 /** A sequence that depends on seed, source and index only. */

@@ -4,6 +4,8 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/simulation/realistic.h>
 
+#include <set>
+
 namespace fastlio
 {
 namespace
@@ -48,8 +50,9 @@ SimulationSettings realistic(SimulationSettings settings)
   settings.surface = {0.05, 0.01};
   settings.carrier.vibration_accel = 0.5;
   settings.carrier.vibration_gyro = 0.02;
-  // Nobody walks behind a multirotor or a car.
-  settings.carrier.body = settings.scenario != "uav" && settings.scenario != "car";
+  // Nobody walks behind a multirotor or a vehicle.
+  const std::set<std::string> alone{"uav", "car", "town", "facades"};
+  settings.carrier.body = alone.count(settings.scenario) == 0;
   // The carrier is nearer than what most drivers keep, but not than what the sensors measure.
   if (settings.carrier.body) settings.lidar.min_range = 0.3;
   return settings;

@@ -38,8 +38,8 @@ std::string serialized(const mrpt::serialization::CSerializable& object)
   return {static_cast<const char*>(stream.getRawBufferData()), static_cast<std::size_t>(length)};
 }
 
-/** A sweep on its way to the file. */
-struct EncodedSweep
+/** An observation on its way to the file. */
+struct Encoded
 {
   std::int64_t stamp_ns = 0;
   std::string bytes;
@@ -49,36 +49,64 @@ struct EncodedSweep
 class RawlogFile
 {
  public:
-  RawlogFile(const std::string& path, const std::vector<ImuSample>& samples)
-      : samples_(samples), file_(path)
+  /** \param aids observations of other sensors, in the order of their stamps */
+  RawlogFile(
+      const std::string& path, const std::vector<ImuSample>& samples, std::vector<Encoded> aids)
+      : samples_(samples), aids_(std::move(aids)), file_(path)
   {
   }
 
-  void write(const EncodedSweep& sweep)
+  void write(const Encoded& sweep)
   {
-    writeImuUntil(sweep.stamp_ns);
+    writeUntil(sweep.stamp_ns);
     file_.write(sweep.bytes);
   }
 
   void finish()
   {
-    writeImuUntil(std::numeric_limits<std::int64_t>::max());
+    writeUntil(std::numeric_limits<std::int64_t>::max());
     file_.commit();
   }
 
  private:
-  void writeImuUntil(std::int64_t stamp_ns)
+  void writeUntil(std::int64_t stamp_ns)
   {
     for (; next_ < samples_.size() && samples_[next_].stamp_ns <= stamp_ns; ++next_)
+    {
+      // Of what has one stamp, the IMU comes first.
+      writeAidsBefore(samples_[next_].stamp_ns);
       file_.write(serialized(*toImuObservation(samples_[next_])));
+    }
+    writeAidsBefore(stamp_ns);
+  }
+
+  void writeAidsBefore(std::int64_t stamp_ns)
+  {
+    for (; next_aid_ < aids_.size() && aids_[next_aid_].stamp_ns < stamp_ns; ++next_aid_)
+      file_.write(aids_[next_aid_].bytes);
   }
 
   const std::vector<ImuSample>& samples_;
+  std::vector<Encoded> aids_;
   GzipFile file_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0, next_aid_ = 0;
 };
 
-EncodedSweep encodeSweep(const Simulation& simulation, std::size_t index)
+/** What the sensors beside LiDAR and IMU deliver, in the order of stamps. */
+std::vector<Encoded> encodeAids(const Simulation& simulation)
+{
+  std::vector<Encoded> aids;
+  for (const GnssFix& fix : simulation.gnss())
+    aids.push_back({fix.stamp_ns, serialized(*toGnssObservation(fix, simulation.settings().gnss))});
+  for (const WheelReading& reading : simulation.wheels())
+    aids.push_back({reading.stamp_ns, serialized(*toWheelObservation(reading))});
+  std::stable_sort(
+      aids.begin(), aids.end(),
+      [](const Encoded& a, const Encoded& b) { return a.stamp_ns < b.stamp_ns; });
+  return aids;
+}
+
+Encoded encodeSweep(const Simulation& simulation, std::size_t index)
 {
   const auto observation = toLidarObservation(simulation, index);
   return {toNanoseconds(observation->timestamp), serialized(*observation)};
@@ -88,14 +116,14 @@ void writeRawlog(
     const Simulation& simulation, const std::string& path, const RecordingProgress& progress)
 {
   registerBridgeClasses();
-  RawlogFile file(path, simulation.imu().samples);
+  RawlogFile file(path, simulation.imu().samples, encodeAids(simulation));
   const Workers workers(0);
   const std::size_t total = simulation.scanCount();
   std::size_t done = 0;
-  std::vector<EncodedSweep> coming, ready;
+  std::vector<Encoded> coming, ready;
   const auto writeReady = [&]
   {
-    for (const EncodedSweep& sweep : ready)
+    for (const Encoded& sweep : ready)
     {
       file.write(sweep);
       if (progress) progress(++done, total);

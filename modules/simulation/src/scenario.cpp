@@ -49,6 +49,11 @@ void onCarRoof(SimulationSettings& s)
   s.imu.rate = 100.0;
 }
 
+void onScooter(SimulationSettings& s)
+{
+  s.lidar.T_imu_lidar = mounting({0.15, 0.0, 0.4}, 2.0, 1.5, -1.0);
+}
+
 void shaken(SimulationSettings& s)
 {
   indoors(s);
@@ -71,6 +76,13 @@ CarrierPath startOf(const CarrierPath& path)
   return still;
 }
 
+/** A scene that no setting changes. */
+template <Scene (*scene)()>
+Scene always(const WorldSettings& /*settings*/)
+{
+  return scene();
+}
+
 Scene restScene()
 {
   Scene scene = officeScene();
@@ -89,41 +101,55 @@ std::vector<ScenarioRow> makeTable()
 {
   return {
       {{"campus", "hand-held walk of 140 m between buildings and trees, back to the start; VLP-16"},
-       campusScene,
+       always<campusScene>,
        handHeld},
       {{"office", "hand-held walk through rooms and a corridor, back to the start; VLP-16"},
-       officeScene,
+       always<officeScene>,
        indoors},
       {{"uav", "multirotor at 6 m/s around buildings, tilting and vibrating; Livox"},
-       uavScene,
+       always<uavScene>,
        bySolidState},
       {{"car", "car at 8.5 m/s around city blocks; 64 lines, IMU at 100 Hz"},
-       streetScene,
+       always<streetScene>,
        onCarRoof},
       {{"shake", "shaken by hand in a room, above 500 deg/s; 64 lines, IMU at 400 Hz"},
-       shakeScene,
+       always<shakeScene>,
        shaken,
        20.0},
-      {{"spin", "turning at more than 1000 deg/s in a hall; VLP-16"}, spinScene, indoors, 25.0},
+      {{"spin", "turning at more than 1000 deg/s in a hall; VLP-16"},
+       always<spinScene>,
+       indoors,
+       25.0},
       {{"stairs", "four flights of stairs up and down again, hand-held; VLP-16"},
-       stairsScene,
+       always<stairsScene>,
        indoors},
       {{"tunnel", "straight tunnel without any feature along its axis, hand-held; VLP-16"},
-       tunnelScene,
+       always<tunnelScene>,
        handHeld},
       {{"open_area", "seaport-like wide area with few things to see; VLP-16, IMU at 100 Hz"},
-       openAreaScene,
+       always<openAreaScene>,
        atSeaport},
-      {{"crowd", "the campus walk among people and vans in motion; VLP-16"}, crowdScene, handHeld},
+      {{"crowd", "the campus walk among people and vans in motion; VLP-16"},
+       always<crowdScene>,
+       handHeld},
       {{"park", "hand-held walk over hills among trees, bushes and round buildings; VLP-16"},
-       parkScene,
+       always<parkScene>,
        handHeld},
       {{"rotunda", "hand-held walk around the drum of a round, cluttered hall; VLP-16"},
-       rotundaScene,
+       always<rotundaScene>,
        indoors},
-      {{"rest", "stands still in the office; VLP-16"}, restScene, indoors, 30.0},
+      {{"town", "ride of 1.2 km through the streets of a town, some of them again; VLP-16"},
+       townScene,
+       onScooter},
+      {{"facades", "ride along a street whose facades repeat every 17.5 m, there and back; VLP-16"},
+       always<facadesScene>,
+       onScooter},
+      {{"corridors", "hand-held walk through six corridors that look alike on two floors; VLP-16"},
+       always<corridorsScene>,
+       indoors},
+      {{"rest", "stands still in the office; VLP-16"}, always<restScene>, indoors, 30.0},
       {{"rest_crowd", "stands still on the campus among people and vans in motion; VLP-16"},
-       crowdAtRest,
+       always<crowdAtRest>,
        handHeld,
        30.0},
   };

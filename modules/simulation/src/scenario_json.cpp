@@ -46,6 +46,36 @@ Json lasersJson(const LidarErrors& errors)
       {"range_offset_m", errors.range_offset}, {"elevation_offset_rad", errors.elevation_offset}};
 }
 
+/** Times [s] from the start of the first to the end of the last of successive fixes for which
+ * something holds. */
+template <typename Predicate>
+Json spansJson(const Simulation& simulation, Predicate holds)
+{
+  Json spans = Json::array();
+  bool held = false;
+  for (const GnssFix& fix : simulation.gnss())
+  {
+    const double t = simulation.secondsSinceStart(fix.stamp_ns);
+    if (holds(fix) && !held) spans.push_back({t, t});
+    if (holds(fix)) spans.back()[1] = t;
+    held = holds(fix);
+  }
+  return spans;
+}
+
+Json gnssJson(const Simulation& simulation)
+{
+  const GnssSettings& s = simulation.settings().gnss;
+  return {
+      {"world", "x east, y north, z up; origin: the datum"},
+      {"datum",
+       {{"latitude_deg", s.latitude}, {"longitude_deg", s.longitude}, {"height_m", s.height}}},
+      {"geoid_m", s.geoid},
+      {"lever_arm_m", vectorJson(s.lever_arm)},
+      {"outages_s", spansJson(simulation, [](const GnssFix& f) { return !f.known; })},
+      {"multipath_s", spansJson(simulation, [](const GnssFix& f) { return f.multipath; })}};
+}
+
 double pathLength(const Simulation& simulation)
 {
   constexpr double kStep = 0.01;
@@ -68,6 +98,7 @@ Json truthJson(const Simulation& simulation)
       {"start_pose", poseJson(simulation.motion().pose(0.0))},
       {"end_pose", poseJson(simulation.motion().pose(s.duration))},
       {"path_length_m", pathLength(simulation)}};
+  if (!simulation.gnss().empty()) truth["gnss"] = gnssJson(simulation);
   if (bias.empty()) return truth;
   truth["initial_bias"] = biasJson(bias.front());
   truth["final_bias"] = biasJson(bias.back());
@@ -89,7 +120,9 @@ std::string scenarioJson(const Simulation& simulation)
        {"counts",
         {{"sweeps", simulation.scanCount()},
          {"imu_samples", simulation.imu().samples.size()},
-         {"imu_samples_lost", simulation.imu().lost}}}});
+         {"imu_samples_lost", simulation.imu().lost},
+         {"gnss_fixes", simulation.gnss().size()},
+         {"wheel_readings", simulation.wheels().size()}}}});
 }
 
 }  // namespace fastlio

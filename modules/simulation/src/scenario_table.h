@@ -13,7 +13,7 @@ namespace fastlio
 struct ScenarioRow
 {
   ScenarioInfo info;
-  Scene (*scene)();
+  Scene (*scene)(const WorldSettings&);
   void (*adapt)(SimulationSettings&);  //!< changes what differs from the general defaults
   double duration = 0.0;  //!< [s]; 0: one loop of the path with rest, start, stop and rest
 };

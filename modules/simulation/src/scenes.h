@@ -5,16 +5,29 @@
 #pragma once
 
 #include <fastlio/simulation/path_builder.h>
+#include <fastlio/simulation/settings.h>
 #include <fastlio/simulation/world.h>
 
 namespace fastlio
 {
-/** Where the platform goes and what stands there. */
+/** A thing that may stand elsewhere on another day: successive bodies of a world. */
+struct Movable
+{
+  std::size_t first, count;
+};
+
+/** Where the platform goes and what stands there on the first day. */
 struct Scene
 {
   CarrierPath path;
   WorldDescription world;
+  std::vector<Movable> movable;               //!< in the order of their bodies
+  std::vector<std::vector<Primitive>> spare;  //!< things that are only there on other days
+  double blend = 2.0;                         //!< time from rest to full speed, and back [s]
 };
+
+/** Tells of what was appended to a scene's bodies since there were so many that it is one thing. */
+void noteMovable(Scene& scene, std::size_t bodies_before);
 
 // Indoors (scenes_indoor.cpp).
 [[nodiscard]] Scene officeScene();
@@ -23,12 +36,19 @@ struct Scene
 [[nodiscard]] Scene stairsScene();
 [[nodiscard]] Scene tunnelScene();
 
+// Alike at many places (scenes_corridors.cpp, scenes_facades.cpp).
+[[nodiscard]] Scene corridorsScene();
+[[nodiscard]] Scene facadesScene();
+
 // Outdoors (scenes_outdoor.cpp).
 [[nodiscard]] Scene campusScene();
 [[nodiscard]] Scene uavScene();
 [[nodiscard]] Scene streetScene();
 [[nodiscard]] Scene openAreaScene();
 [[nodiscard]] Scene crowdScene();
+
+// Towns (scenes_town.cpp).
+[[nodiscard]] Scene townScene(const WorldSettings& settings);
 
 // Hardly any planes (scenes_curved.cpp).
 [[nodiscard]] Scene parkScene();

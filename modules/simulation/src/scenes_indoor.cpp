@@ -71,10 +71,13 @@ Scene officeScene()
   Bodies& bodies = scene.world.bodies;
   bodies = officeBuilding();
   const std::vector<Vec3> way = officeWaypoints();
+  const std::size_t walls = bodies.size();
   unsigned seed = 11;
   for (const double x : {0.0, 8.0, 16.0})
     for (const double y : {0.0, 7.2})
       appendFurniture(bodies, {x, y, x + 8, y + 4.8, 7, ++seed, way});
+  for (std::size_t i = walls; i < bodies.size(); ++i)
+    scene.movable.push_back({i, 1});
   Route route;
   route.corners = way;
   route.speed = 1.0;

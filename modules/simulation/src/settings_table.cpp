@@ -226,8 +226,8 @@ Rows makeTable()
 {
   Rows table;
   for (const Rows& rows :
-       {generalRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(), imuFaultRows(),
-        imperfectionRows()})
+       {generalRows(), worldRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(),
+        imuFaultRows(), imperfectionRows(), aidRows()})
     table.insert(table.end(), rows.begin(), rows.end());
   return table;
 }

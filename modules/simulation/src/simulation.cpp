@@ -5,6 +5,7 @@
 #include "caster.h"
 #include "random_stream.h"
 #include "scenario_table.h"
+#include "session_changes.h"
 #include <fastlio/math/time.h>
 #include <fastlio/simulation/packet_loss.h>
 #include <fastlio/simulation/settings_table.h>
@@ -25,13 +26,14 @@ bool walksOneLoop(const SimulationSettings& s, const ScenarioRow& row, const Car
   return s.duration <= 0.0 && row.duration <= 0.0 && path.loop_time > 0.0;
 }
 
-MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, const CarrierPath& path)
+MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, const Scene& scene)
 {
   MotionTiming timing;
+  timing.blend = scene.blend;
   timing.rest = s.rest;
   timing.rate = s.speed;
   timing.start = s.path_start;
-  if (walksOneLoop(s, row, path)) timing.stop_at = s.path_start + path.loop_time;
+  if (walksOneLoop(s, row, scene.path)) timing.stop_at = s.path_start + scene.path.loop_time;
   return timing;
 }
 
@@ -106,8 +108,9 @@ struct Simulation::Parts
   {
     requireValid(settings);
     const ScenarioRow& row = findScenario(settings.scenario);
-    Scene scene = row.scene();
-    const MotionTiming timing = timingFor(settings, row, scene.path);
+    Scene scene = row.scene(settings.world);
+    applySession(scene, settings.world);
+    const MotionTiming timing = timingFor(settings, row, scene);
     addVibration(scene.path, settings);
     return {
         completed(settings, row, timing), Motion(std::move(scene.path), timing),
@@ -122,6 +125,8 @@ Simulation::Simulation(Parts parts)
       motion_(std::move(parts.motion)),
       world_(std::move(parts.world)),
       imu_(simulateImu(motion_, settings_)),
+      gnss_(simulateGnss(motion_, settings_)),
+      wheels_(simulateWheels(motion_, settings_)),
       lidar_(makeLidarModel(settings_.lidar, settings_.start_ns + kFirstShotNs)),
       lidar_errors_(drawLidarErrors(settings_)),
       scan_count_(completeSweeps(*lidar_, settings_.start_ns + nanoseconds(settings_.duration)))

@@ -5,18 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 namespace fastlio
 {
 namespace
 {
-/** A uniform number in [low, high), the same on every platform. */
-double draw(std::mt19937& engine, double low, double high)
-{
-  return low + (high - low) * (static_cast<double>(engine()) / 4294967296.0);
-}
-
 Mat3 yawRotation(double yaw)
 {
   return expSO3({0.0, 0.0, yaw});
@@ -142,18 +135,18 @@ void appendCar(Bodies& bodies, double x, double y, double base, double yaw)
 
 void appendFurniture(Bodies& bodies, const FurnitureArea& area)
 {
-  std::mt19937 engine(area.seed);
+  Draws draw(area.seed);
   for (int made = 0, tried = 0; made < area.pieces && tried < 50 * area.pieces; ++tried)
   {
-    const double x = draw(engine, area.min_x + 0.5, area.max_x - 0.5);
-    const double y = draw(engine, area.min_y + 0.5, area.max_y - 0.5);
-    const double length = draw(engine, 0.5, 1.4), width = draw(engine, 0.3, 0.7);
-    const double height = draw(engine, 0.5, 1.9), yaw = draw(engine, -0.3, 0.3);
+    const double x = draw(area.min_x + 0.5, area.max_x - 0.5);
+    const double y = draw(area.min_y + 0.5, area.max_y - 0.5);
+    const double length = draw(0.5, 1.4), width = draw(0.3, 0.7);
+    const double height = draw(0.5, 1.9), yaw = draw(-0.3, 0.3);
     const bool blocks = std::any_of(
         area.keep_free.begin(), area.keep_free.end(),
         [&](const Vec3& p) { return std::hypot(p.x() - x, p.y() - y) < 0.9 + 0.5 * length; });
     if (blocks) continue;
-    bodies.push_back(box({x, y, length, width, height, 0.0, yaw, draw(engine, 0.2, 0.8)}));
+    bodies.push_back(box({x, y, length, width, height, 0.0, yaw, draw(0.2, 0.8)}));
     ++made;
   }
 }

@@ -6,8 +6,28 @@
 
 #include <fastlio/simulation/world.h>
 
+#include <random>
+
 namespace fastlio
 {
+/** Uniform numbers in [low, high), the same on every platform. */
+class Draws
+{
+ public:
+  explicit Draws(unsigned seed) : engine_(seed) {}
+
+  [[nodiscard]] double operator()(double low, double high)
+  {
+    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
+  }
+  [[nodiscard]] bool chance(double probability) { return (*this)(0.0, 1.0) < probability; }
+  /** 0 to count - 1. */
+  [[nodiscard]] int below(int count) { return static_cast<int>((*this)(0.0, count)); }
+
+ private:
+  std::mt19937 engine_;
+};
+
 using Bodies = std::vector<Primitive>;
 
 /** A box that stands on z = base. */

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "recording_files.h"
 #include "short_simulation.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/rawlog/rawlog_source.h>
@@ -20,40 +21,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <unistd.h>
 
 namespace fastlio
 {
 namespace
 {
 using mrpt::obs::CObservationVelodyneScan;
-std::string contentOf(const std::string& path)
-{
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-/** A directory that is removed again. */
-class TemporaryDirectory
-{
- public:
-  TemporaryDirectory()
-      : path_(
-            std::filesystem::temp_directory_path() /
-            ("simulation_test_" + std::to_string(::getpid()) + "_" + std::to_string(++count)))
-  {
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  [[nodiscard]] std::string path() const { return path_.string(); }
-
- private:
-  static inline int count = 0;
-  std::filesystem::path path_;
-};
+using testing::contentOf;
+using testing::TemporaryDirectory;
 
 TEST(VelodynePackets, OurDecoderFindsEveryPointWithItsTime)
 {

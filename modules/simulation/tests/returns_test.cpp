@@ -199,7 +199,8 @@ TEST(Realistic, TurnsOnEverySettingOfImperfectionsButTheCrowd)
     EXPECT_GT(value, 0.0);
   EXPECT_EQ(real.imu.errors.bits, 16);
   EXPECT_TRUE(real.carrier.body);
-  EXPECT_FALSE(realistic(defaultSettings("uav")).carrier.body);
+  for (const char* alone : {"uav", "car", "town", "facades"})
+    EXPECT_FALSE(realistic(defaultSettings(alone)).carrier.body) << alone;
 }
 
 TEST(Realistic, ConfigTellsNoneOfTheErrorsAndTheScenarioAll)

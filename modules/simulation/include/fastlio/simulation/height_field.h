@@ -37,6 +37,7 @@ class HeightField
 
  private:
   [[nodiscard]] double node(int i, int j) const;
+  [[nodiscard]] double highestNode(int i, int j) const;
   [[nodiscard]] std::optional<RayHit> castCell(
       const Ray& ray, int i, int j, double max_range) const;
 

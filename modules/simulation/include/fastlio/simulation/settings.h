@@ -144,6 +144,39 @@ struct SurfaceSettings
   double mirrors = 0.0;  //!< share of flat, upright surfaces that reflect like a mirror
 };
 
+/** A receiver of satellite navigation; off. The world's x axis points east, y north, z up, and its
+ * origin is the datum. */
+struct GnssSettings
+{
+  double rate = 0.0;               //!< fixes per second; 0: no receiver [Hz]
+  double noise = 1.0;              //!< standard deviation east and north, twice that up [m]
+  double correlation_time = 30.0;  //!< of half of the variance; 0: all of it is white [s]
+  double outage_interval = 0.0;    //!< one outage per so much time; 0: none [s]
+  double outage_length = 20.0;     //!< no position is known for so long then [s]
+  double multipath = 0.0;          //!< fraction of fixes that are 5 to 30 m off
+  Vec3 lever_arm = Vec3::Zero();   //!< antenna in the IMU frame [m]
+  double latitude = 48.1;          //!< of the datum [deg]
+  double longitude = 11.6;         //!< of the datum [deg]
+  double height = 560.0;           //!< of the datum above the ellipsoid WGS84 [m]
+  double geoid = 46.0;             //!< height of the geoid above the ellipsoid [m]
+};
+
+/** Encoders of two driven wheels, 1 m apart; off. */
+struct WheelSettings
+{
+  double rate = 0.0;         //!< readings per second; 0: no wheels [Hz]
+  double scale_error = 0.0;  //!< distances are measured too long by this fraction
+  double noise = 0.01;       //!< of each wheel's distance, standard deviation after 1 m [m/sqrt(m)]
+};
+
+/** What stands in the world; for scenarios that say so. */
+struct WorldSettings
+{
+  double length = 1200.0;  //!< town: length of the ride [m]; the town grows with it
+  int session = 0;         //!< another day: things that can be moved stand elsewhere; 0: the first
+  double changes = 0.3;    //!< fraction of such things that another day changes
+};
+
 /** A simulated recording. Defaults per scenario: defaultSettings(). */
 struct SimulationSettings
 {
@@ -155,10 +188,13 @@ struct SimulationSettings
   double rest = 2.5;                                  //!< time at rest at the start [s]
   double speed = 1.0;                                 //!< factor on the motion's speed
   double path_start = 0.0;  //!< where on the scenario's path to start: time of its motion [s]
+  WorldSettings world;
   LidarSettings lidar;
   ImuSettings imu;
   CarrierSettings carrier;
   SurfaceSettings surface;
+  GnssSettings gnss;
+  WheelSettings wheels;
 };
 
 }  // namespace fastlio

@@ -15,10 +15,12 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/simulation/gnss_model.h>
 #include <fastlio/simulation/imu_model.h>
 #include <fastlio/simulation/lidar_errors.h>
 #include <fastlio/simulation/lidar_model.h>
 #include <fastlio/simulation/scenario.h>
+#include <fastlio/simulation/wheel_model.h>
 #include <fastlio/simulation/world.h>
 
 #include <memory>
@@ -54,6 +56,8 @@ class Simulation
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const ImuRecording& imu() const { return imu_; }
+  [[nodiscard]] const std::vector<GnssFix>& gnss() const { return gnss_; }
+  [[nodiscard]] const std::vector<WheelReading>& wheels() const { return wheels_; }
   [[nodiscard]] const LidarErrors& lidarErrors() const { return lidar_errors_; }
 
   /** Number of complete sweeps. */
@@ -80,6 +84,8 @@ class Simulation
   Motion motion_;
   World world_;
   ImuRecording imu_;
+  std::vector<GnssFix> gnss_;
+  std::vector<WheelReading> wheels_;
   std::unique_ptr<const LidarModel> lidar_;
   LidarErrors lidar_errors_;
   std::size_t scan_count_ = 0;
