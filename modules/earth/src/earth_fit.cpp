@@ -1,0 +1,271 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "weighted_yaw_fit.h"
+#include <fastlio/earth/earth_fit.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kMostPointsForPairs = 64;
+constexpr int kMostSteps = 100;       // of the graduated non-convexity; 40 are usual
+constexpr double kStepOfMu = 1.4;     // as in the paper
+constexpr int kMostRefinements = 20;  // until the used points stay the same; 3 are usual
+constexpr double kNarrowestGate = 1.0;
+
+std::string called(const Correspondence& point, std::size_t index)
+{
+  return point.name.empty() ? "number " + std::to_string(index + 1)
+                            : "'" + printable(point.name) + "'";
+}
+
+void requireUsable(const std::vector<Correspondence>& points, const EarthFitOptions& options)
+{
+  if (points.size() < 2)
+    throw std::invalid_argument(
+        "control points: " + std::to_string(points.size()) +
+        "; give at least two, far apart, for the heading of the map");
+  if (!(options.map_std_m >= 0) || !(options.gate >= kNarrowestGate) ||
+      !(options.most_yaw_std_deg > 0))
+    throw std::invalid_argument(
+        "control points: the map's standard deviation is at least 0 m, the gate at least 1 and the "
+        "largest standard deviation of the heading above 0 deg");
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!points[i].map.allFinite() || !points[i].enu.allFinite() || !(points[i].std_m > 0) ||
+        !std::isfinite(points[i].std_m))
+      throw std::invalid_argument(
+          "control point " + called(points[i], i) +
+          ": coordinates are not finite, or its standard deviation is not above 0 m");
+}
+
+/** The points, and what a robust cost takes for each of them. */
+class Problem
+{
+ public:
+  Problem(const std::vector<Correspondence>& points, const EarthFitOptions& options)
+      : points_(points), gate_(options.gate * options.gate)
+  {
+    information_.reserve(points.size());
+    for (const Correspondence& point : points)
+      information_.push_back(
+          1.0 / (point.std_m * point.std_m + options.map_std_m * options.map_std_m));
+  }
+
+  [[nodiscard]] std::size_t size() const { return points_.size(); }
+  /** 1 / m^2 */
+  [[nodiscard]] double information(std::size_t i) const { return information_[i]; }
+  /** A squared normalized residual that is longer contradicts. */
+  [[nodiscard]] double gate() const { return gate_; }
+
+  [[nodiscard]] Pose fit(const std::vector<double>& weights) const
+  {
+    std::vector<double> information(weights);
+    for (std::size_t i = 0; i < size(); ++i)
+      information[i] *= information_[i];
+    return weightedYawFit(points_, information);
+  }
+  [[nodiscard]] double squared(const Pose& pose, std::size_t i) const
+  {
+    return (pose * points_[i].map - points_[i].enu).squaredNorm() * information_[i];
+  }
+  [[nodiscard]] double truncatedCost(const Pose& pose) const
+  {
+    double cost = 0;
+    for (std::size_t i = 0; i < size(); ++i)
+      cost += std::min(squared(pose, i), gate_);
+    return cost;
+  }
+  [[nodiscard]] std::vector<double> within(const Pose& pose) const
+  {
+    std::vector<double> weights(size());
+    for (std::size_t i = 0; i < size(); ++i)
+      weights[i] = squared(pose, i) <= gate_ ? 1.0 : 0.0;
+    return weights;
+  }
+
+ private:
+  const std::vector<Correspondence>& points_;
+  std::vector<double> information_;
+  double gate_;
+};
+
+double sum(const std::vector<double>& weights)
+{
+  double total = 0;
+  for (const double weight : weights)
+    total += weight;
+  return total;
+}
+
+/** The weight of a point on the way from a convex cost (mu small) to the truncated one (Yang et
+ * al., eq. 14). */
+double graduatedWeight(double squared, double gate, double mu)
+{
+  if (squared <= mu / (mu + 1.0) * gate) return 1.0;
+  if (squared >= (mu + 1.0) / mu * gate) return 0.0;
+  return std::sqrt(gate * mu * (mu + 1.0) / squared) - mu;
+}
+
+/** All points at first; those that fit badly lose their weight step by step. */
+Pose graduatedFit(const Problem& problem)
+{
+  std::vector<double> weights(problem.size(), 1.0);
+  Pose pose = problem.fit(weights);
+  double worst = 0;
+  for (std::size_t i = 0; i < problem.size(); ++i)
+    worst = std::max(worst, problem.squared(pose, i));
+  if (worst <= problem.gate()) return pose;
+  double mu = problem.gate() / (2.0 * worst - problem.gate());
+  for (int step = 0; step < kMostSteps; ++step, mu *= kStepOfMu)
+  {
+    bool is_decided = true;
+    for (std::size_t i = 0; i < problem.size(); ++i)
+    {
+      weights[i] = graduatedWeight(problem.squared(pose, i), problem.gate(), mu);
+      is_decided = is_decided && (weights[i] == 0.0 || weights[i] == 1.0);
+    }
+    if (sum(weights) <= 0) break;
+    pose = problem.fit(weights);
+    if (is_decided) break;
+  }
+  return pose;
+}
+
+/** With the points within the gate, until these stay the same. */
+Pose refined(const Problem& problem, Pose pose)
+{
+  std::vector<double> used = problem.within(pose);
+  for (int i = 0; i < kMostRefinements && sum(used) >= 2; ++i)
+  {
+    pose = problem.fit(used);
+    std::vector<double> now = problem.within(pose);
+    if (now == used) break;
+    used = std::move(now);
+  }
+  return pose;
+}
+
+Pose robustFit(const Problem& problem)
+{
+  Pose best = refined(problem, graduatedFit(problem));
+  double least = problem.truncatedCost(best);
+  const auto consider = [&](std::size_t i, std::size_t j)
+  {
+    std::vector<double> pair(problem.size(), 0.0);
+    pair[i] = pair[j] = 1.0;
+    const Pose candidate = refined(problem, problem.fit(pair));
+    const double cost = problem.truncatedCost(candidate);
+    if (cost >= least) return;
+    least = cost;
+    best = candidate;
+  };
+  if (problem.size() <= kMostPointsForPairs)
+    for (std::size_t i = 0; i < problem.size(); ++i)
+      for (std::size_t j = i + 1; j < problem.size(); ++j)
+        consider(i, j);
+  return best;
+}
+
+/** The pair whose distance differs most between map and earth, in words. */
+std::string worstDistance(const std::vector<Correspondence>& points)
+{
+  const std::size_t count = std::min(points.size(), kMostPointsForPairs);
+  std::string text;
+  double worst = -1;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 1; j < count; ++j)
+    {
+      const double map_m = (points[i].map - points[j].map).norm();
+      const double earth_m = (points[i].enu - points[j].enu).norm();
+      if (std::abs(map_m - earth_m) <= worst) continue;
+      worst = std::abs(map_m - earth_m);
+      text = "from " + called(points[i], i) + " to " + called(points[j], j) + " it is " +
+             fixedText(map_m, 2) + " m in the map and " + fixedText(earth_m, 2) + " m on the earth";
+    }
+  return text;
+}
+
+void requireAgreement(
+    const std::vector<Correspondence>& points, const std::vector<double>& used,
+    const EarthFitOptions& options)
+{
+  const double count = sum(used);
+  if (count >= 2 && 2 * count > static_cast<double>(points.size())) return;
+  throw std::runtime_error(
+      "control points contradict each other: no more than " + fixedText(count, 0) + " of " +
+      std::to_string(points.size()) + " agree within " + shortestText(options.gate) +
+      " standard deviations; " + worstDistance(points) +
+      "; check the coordinates, or give larger standard deviations if the map has drifted");
+}
+
+void requireHeading(double yaw_std_rad, const EarthFit& fit, const EarthFitOptions& options)
+{
+  const double yaw_std_deg = yaw_std_rad * kDegPerRad;
+  if (yaw_std_deg <= options.most_yaw_std_deg) return;
+  throw std::runtime_error(
+      "control points do not show the heading of the map: the " + std::to_string(fit.used()) +
+      " in use lie within " + fixedText(fit.horizontal_spread_m, 2) +
+      " m of their centre (rms, horizontal)" +
+      (std::isfinite(yaw_std_deg)
+           ? ", which leaves a standard deviation of " + fixedText(yaw_std_deg, 1) +
+                 " deg, more than " + shortestText(options.most_yaw_std_deg)
+           : "") +
+      "; give points that lie further apart");
+}
+
+/** What is left at each point, and sums of it. */
+void addResiduals(
+    const std::vector<Correspondence>& points, const Problem& problem,
+    const std::vector<double>& used, EarthFit& fit)
+{
+  double squares_m = 0, squares = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3 residual = fit.T_enu_map * points[i].map - points[i].enu;
+    const double squared = problem.squared(fit.T_enu_map, i);
+    fit.residuals.push_back({points[i].name, residual, std::sqrt(squared), used[i] > 0});
+    squares_m += used[i] * residual.squaredNorm();
+    squares += used[i] * squared;
+  }
+  fit.rms_m = std::sqrt(squares_m / sum(used));
+  fit.variance_factor = squares / (3 * sum(used) - 4);
+}
+}  // namespace
+
+std::size_t EarthFit::used() const
+{
+  return static_cast<std::size_t>(std::count_if(
+      residuals.begin(), residuals.end(), [](const EarthResidual& r) { return r.is_used; }));
+}
+
+EarthFit fitToEarth(const std::vector<Correspondence>& points, const EarthFitOptions& options)
+{
+  requireUsable(points, options);
+  const Problem problem(points, options);
+  const std::vector<double> all(points.size(), 1.0);
+  EarthFit fit;
+  fit.T_enu_map = options.robust ? robustFit(problem) : problem.fit(all);
+  const std::vector<double> used = options.robust ? problem.within(fit.T_enu_map) : all;
+  requireAgreement(points, used, options);
+  fit.yaw_rad = std::atan2(fit.T_enu_map.R(1, 0), fit.T_enu_map.R(0, 0));
+  addResiduals(points, problem, used, fit);
+  std::vector<double> information(used);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    information[i] *= problem.information(i);
+  const YawObservability seen = yawObservability(points, information, fit.T_enu_map);
+  fit.horizontal_spread_m = seen.horizontal_spread_m;
+  requireHeading(seen.yaw_std_rad, fit, options);
+  fit.covariance = seen.covariance;
+  return fit;
+}
+
+}  // namespace fastlio

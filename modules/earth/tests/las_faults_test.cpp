@@ -1,0 +1,162 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "folder_listing.h"
+#include "las_points.h"
+
+#include <cmath>
+#include <csignal>
+#include <stdexcept>
+#include <sys/resource.h>
+
+namespace fastlio
+{
+namespace
+{
+using testing::contentOf;
+using testing::failureOf;
+using testing::namesIn;
+using testing::point;
+using testing::TemporaryFolder;
+using testing::written;
+
+TEST(LasFaults, FarPointsAreRefusedByNumberAndPlace)
+{
+  const TemporaryFolder folder;
+  LasOptions fine;
+  fine.scale_m = 0.0001;
+  LasWriter writer(folder.file("map.las"), fine);
+  writer.add(point(691'000, 5'334'000, 520));
+  writer.add(point(691'000 + 214'000, 5'334'000, 520));
+  EXPECT_EQ(
+      failureOf([&] { writer.add(point(691'000 + 215'000, 5'334'000, 520)); }),
+      "LAS: the point number 3 at (906000, 5334000, 520) m does not fit: coordinates reach 214748 "
+      "m "
+      "from the offset (691000, 5334000, 0) at steps of 0.0001 m; remove the point, give larger "
+      "steps, or split the map");
+  const std::string first =
+      failureOf([&] { LasWriter(folder.file("b.las"), {}).add(point(NAN, 0, 0)); });
+  EXPECT_EQ(first.find("LAS: the point number 1 at (nan, 0, 0) m does not fit"), 0U) << first;
+  EXPECT_THROW(LasWriter(folder.file("b.las"), {}).add(point(0, INFINITY, 0)), std::runtime_error);
+}
+
+TEST(LasFaults, ARefusedPointLeavesTheFileAsItWas)
+{
+  const TemporaryFolder folder;
+  const std::string expected = written(folder, {}, 2);
+  LasWriter writer(folder.file("map.las"), {});
+  EXPECT_THROW(writer.add(point(NAN, 0, 0)), std::runtime_error);
+  writer.add(point(691'000, 5'334'000.25, 520));
+  EXPECT_THROW(writer.add(point(1e12, 0, 0)), std::runtime_error);
+  writer.add(point(691'001, 5'334'000.25, 520));
+  writer.commit();
+  EXPECT_EQ(contentOf(folder.file("map.las")), expected);
+}
+
+/** Files of this process end at a size, as on a full disk. */
+class FileSizeLimit
+{
+ public:
+  explicit FileSizeLimit(rlim_t bytes)
+  {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limited = before_;
+    limited.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~FileSizeLimit()
+  {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    (void)std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_ = {};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST(LasFaults, AFullDiskIsAnErrorAndLeavesNothing)
+{
+  const TemporaryFolder folder;
+  const FileSizeLimit limit(100'000);
+  const std::string failure = failureOf(
+      [&]
+      {
+        LasWriter writer(folder.file("map.las"), {});
+        try
+        {
+          for (int i = 0; i < 10'000; ++i)
+            writer.add(point(i, 0, 0));
+        }
+        catch (const std::runtime_error&)
+        {
+          EXPECT_THROW(writer.commit(), std::logic_error);
+          throw;
+        }
+      });
+  EXPECT_EQ(failure.find("cannot write '" + folder.file("map.las") + "': "), 0U) << failure;
+  EXPECT_EQ(namesIn(folder), "");
+}
+
+TEST(LasFaults, NothingStaysOfAnUnfinishedFile)
+{
+  const TemporaryFolder folder;
+  {
+    LasWriter writer(folder.file("map.las"), {});
+    for (int i = 0; i < 10'000; ++i)
+      writer.add(point(i, 0, 0));
+  }
+  EXPECT_EQ(namesIn(folder), "");
+}
+
+TEST(LasFaults, BadOptionsAreRefused)
+{
+  const TemporaryFolder folder;
+  const auto refusal = [&](const LasOptions& options, const char* name = "map.las")
+  { return failureOf([&] { const LasWriter writer(folder.file(name), options); }); };
+  LasOptions options;
+  EXPECT_NE(refusal(options, "map.laz").find("(LAZ), which is not built in"), std::string::npos);
+  EXPECT_NE(refusal(options, "MAP.LAZ").find("(LAZ)"), std::string::npos);
+  EXPECT_EQ(refusal(options, "laz"), "none");
+  options.scale_m = 0;
+  EXPECT_EQ(
+      refusal(options), "LAS: a step of the coordinates of 0 m; give 1e-6 to 1 m, like 0.001");
+  options.scale_m = NAN;
+  EXPECT_NE(refusal(options), "none");
+  options = {};
+  options.wkt = std::string(65535, 'x');
+  EXPECT_EQ(
+      refusal(options),
+      "LAS: a reference system of 65535 bytes of WKT; the format holds 65534, without zeros");
+  options.wkt.pop_back();
+  EXPECT_EQ(refusal(options), "none");
+  options = {};
+  options.software = std::string(33, 'x');
+  EXPECT_NE(refusal(options), "none");
+  options = {};
+  options.intensity_scale = INFINITY;
+  EXPECT_NE(refusal(options), "none");
+  options = {};
+  options.offset = Vec3(0, NAN, 0);
+  EXPECT_EQ(refusal(options), "LAS: the offset is not finite");
+}
+
+TEST(LasFaults, PipesAreRefusedAtOnce)
+{
+  EXPECT_EQ(
+      failureOf([] { const LasWriter writer("/dev/null", {}); }),
+      "cannot write '/dev/null' as LAS: its header is completed in the end, which a pipe or a "
+      "device cannot; give a file");
+}
+
+TEST(LasFaults, AMissingFolderIsNamed)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.file("none/map.las");
+  const std::string failure = failureOf([&] { const LasWriter writer(path, {}); });
+  EXPECT_EQ(failure.find("cannot write '" + path + "': "), 0U) << failure;
+}
+}  // namespace
+}  // namespace fastlio
