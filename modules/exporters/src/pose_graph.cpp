@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/exporters/graph_files.h>
 #include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
@@ -68,9 +69,9 @@ Aligned6 quaternionCovariance(const RelativePose& edge)
   return J * edge.covariance * J.transpose();
 }
 
-std::string ids(std::size_t from)
+std::string ids(const GraphFileEdge& edge)
 {
-  return std::to_string(from) + " " + std::to_string(from + 1);
+  return std::to_string(edge.from) + " " + std::to_string(edge.to);
 }
 
 std::string mrptVertex(std::size_t id, const Pose& pose)
@@ -78,10 +79,10 @@ std::string mrptVertex(std::size_t id, const Pose& pose)
   return "VERTEX3 " + std::to_string(id) + anglesText(pose) + "\n";
 }
 
-std::string mrptEdge(std::size_t from, const RelativePose& edge)
+std::string mrptEdge(const GraphFileEdge& edge)
 {
-  return "EDGE3 " + ids(from) + anglesText(edge.T_a_b) +
-         upperTriangle(information(anglesCovariance(edge))) + "\n";
+  return "EDGE3 " + ids(edge) + anglesText(edge.motion.T_a_b) +
+         upperTriangle(information(anglesCovariance(edge.motion))) + "\n";
 }
 
 std::string g2oVertex(std::size_t id, const Pose& pose)
@@ -89,17 +90,28 @@ std::string g2oVertex(std::size_t id, const Pose& pose)
   return "VERTEX_SE3:QUAT " + std::to_string(id) + " " + poseColumns(pose, ' ') + "\n";
 }
 
-std::string g2oEdge(std::size_t from, const RelativePose& edge)
+std::string g2oEdge(const GraphFileEdge& edge)
 {
-  return "EDGE_SE3:QUAT " + ids(from) + " " + poseColumns(edge.T_a_b, ' ') +
-         upperTriangle(information(quaternionCovariance(edge))) + "\n";
+  return "EDGE_SE3:QUAT " + ids(edge) + " " + poseColumns(edge.motion.T_a_b, ' ') +
+         upperTriangle(information(quaternionCovariance(edge.motion))) + "\n";
 }
 
-struct GraphFormat
+template <typename Vertex, typename Edge>
+std::string graphText(
+    const std::vector<Pose>& poses, const std::vector<GraphFileEdge>& edges, const Vertex& vertex,
+    const Edge& edge)
 {
-  std::string (*vertex)(std::size_t id, const Pose& pose);
-  std::string (*edge)(std::size_t from, const RelativePose& edge);
-};
+  std::string text;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    text += vertex(i, poses[i]);
+  if (!poses.empty()) text += "FIX 0\n";
+  for (const GraphFileEdge& one : edges)
+    text += edge(one);
+  return text;
+}
+
+using GraphFormat =
+    std::string (*)(const std::vector<Pose>& poses, const std::vector<GraphFileEdge>& edges);
 
 class GraphExporter : public Exporter
 {
@@ -119,11 +131,14 @@ class GraphExporter : public Exporter
     std::vector<TrackedPose> frames;
     for (const TrackedPose& pose : track_.poses())
       if (rule_.accept(pose.T_world_body)) frames.push_back(pose);
+    std::vector<Pose> poses;
+    std::vector<GraphFileEdge> edges;
     for (std::size_t i = 0; i < frames.size(); ++i)
-      file_.write(format_.vertex(i, frames[i].T_world_body));
-    if (!frames.empty()) file_.write("FIX 0\n");
-    for (std::size_t i = 0; i + 1 < frames.size(); ++i)
-      file_.write(format_.edge(i, relativePose(frames[i], frames[i + 1])));
+    {
+      poses.push_back(frames[i].T_world_body);
+      if (i > 0) edges.push_back({i - 1, i, relativePose(frames[i - 1], frames[i])});
+    }
+    file_.write(format_(poses, edges));
     return {file_.commit()};
   }
 
@@ -135,16 +150,24 @@ class GraphExporter : public Exporter
 };
 }  // namespace
 
+std::string mrptGraphText(const std::vector<Pose>& poses, const std::vector<GraphFileEdge>& edges)
+{
+  return graphText(poses, edges, mrptVertex, mrptEdge);
+}
+
+std::string g2oGraphText(const std::vector<Pose>& poses, const std::vector<GraphFileEdge>& edges)
+{
+  return graphText(poses, edges, g2oVertex, g2oEdge);
+}
+
 std::unique_ptr<Exporter> makeGraphExporter(const ExportTarget& options)
 {
-  return std::make_unique<GraphExporter>(
-      options.path("poses.graph"), options, GraphFormat{mrptVertex, mrptEdge});
+  return std::make_unique<GraphExporter>(options.path("poses.graph"), options, mrptGraphText);
 }
 
 std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options)
 {
-  return std::make_unique<GraphExporter>(
-      options.path("poses.g2o"), options, GraphFormat{g2oVertex, g2oEdge});
+  return std::make_unique<GraphExporter>(options.path("poses.g2o"), options, g2oGraphText);
 }
 
 }  // namespace fastlio

@@ -1,8 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "report_figure.h"
-
+#include <fastlio/exporters/report_figure.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "report_charts.h"
-#include "report_figure.h"
+#include <fastlio/exporters/report_figure.h>
 #include <fastlio/options/number_text.h>
 
 namespace fastlio

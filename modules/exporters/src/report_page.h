@@ -7,6 +7,7 @@
 #include "report_map.h"
 #include "report_reference.h"
 #include "report_series.h"
+#include <fastlio/exporters/report_figure.h>
 #include <fastlio/exporters/run_summary.h>
 
 #include <string>
@@ -46,9 +47,6 @@ struct RunVerdict
 [[nodiscard]] std::string adviceHtml();
 /** What differs from run to run of the same input: times and memory. */
 [[nodiscard]] std::string measuredFactsHtml(const RunSummary& run);
-
-/** The style of the page. */
-[[nodiscard]] std::string reportStyle();
 
 /** The whole page. */
 [[nodiscard]] std::string reportPage(const ReportContent& content);

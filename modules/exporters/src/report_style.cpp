@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "report_page.h"
+#include <fastlio/exporters/report_figure.h>
 
 namespace fastlio
 {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "report_advice.h"
-#include "report_figure.h"
 #include "report_page.h"
+#include <fastlio/exporters/report_figure.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>

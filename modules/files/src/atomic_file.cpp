@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <random>
+#include <stdexcept>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -139,6 +140,23 @@ void AtomicFile::writeThrough(std::string_view bytes)
     if (count < 0) failWriting(path_);
     bytes.remove_prefix(static_cast<std::size_t>(count));
     bytes_ += static_cast<std::uintmax_t>(count);
+  }
+}
+
+void AtomicFile::overwrite(std::uintmax_t offset, std::string_view bytes)
+{
+  if (!isRewritable()) failWriting(path_, "a pipe or a device takes bytes in their order only");
+  flush();
+  if (offset > bytes_ || bytes.size() > bytes_ - offset)
+    throw std::logic_error("AtomicFile: bytes that were not written yet cannot be replaced");
+  while (!bytes.empty())
+  {
+    const ssize_t count =
+        pwrite(file_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) failWriting(path_);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += static_cast<std::uintmax_t>(count);
   }
 }
 

@@ -57,6 +57,28 @@ TEST(OutputFiles, LeaveNothingWhenNeverCommitted)
   EXPECT_EQ(namesIn(folder), "");
 }
 
+TEST(OutputFiles, BytesAreReplacedWhereTheyAre)
+{
+  const TemporaryFolder folder;
+  AtomicFile file(folder.file("a.bin"));
+  ASSERT_TRUE(file.isRewritable());
+  file.write("0 points;" + std::string(100'000, 'x'));
+  file.overwrite(0, "9");
+  file.write("end");
+  EXPECT_THROW(file.overwrite(100'010, "end"), std::logic_error);
+  file.overwrite(100'009, "END");
+  EXPECT_EQ(file.commit().bytes, 100'012U);
+  EXPECT_EQ(contentOf(folder.file("a.bin")), "9 points;" + std::string(100'000, 'x') + "END");
+}
+
+TEST(OutputFiles, ADeviceCannotBeRewritten)
+{
+  AtomicFile file("/dev/null");
+  file.write("header");
+  EXPECT_FALSE(file.isRewritable());
+  EXPECT_THROW(file.overwrite(0, "h"), std::runtime_error);
+}
+
 TEST(OutputFiles, TemporaryNamesAreNotPredictable)
 {
   const TemporaryFolder folder;

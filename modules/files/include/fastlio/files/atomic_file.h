@@ -41,6 +41,14 @@ class AtomicFile
    * \exception std::runtime_error the disk refused them */
   void write(std::string_view bytes);
 
+  /** Replaces bytes that write() has taken, as a header does that counts what follows it.
+   * \exception std::logic_error they would go beyond what was written
+   * \exception std::runtime_error the disk refused them, or isRewritable() is false */
+  void overwrite(std::uintmax_t offset, std::string_view bytes);
+
+  /** False for a pipe, a device and the standard output of the process. */
+  [[nodiscard]] bool isRewritable() const { return !temporary_.empty(); }
+
   /** Brings the bytes to the disk, then renames.
    * \exception std::runtime_error the bytes did not reach the disk or the rename failed; an older
    * file is still there */

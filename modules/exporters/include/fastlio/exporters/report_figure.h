@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file report_figure.h One figure of a report (internal). */
+/** \file report_figure.h What pages are made of: style, text, figures. */
 #pragma once
 
 #include <fastlio/plot/svg_plot.h>
@@ -24,5 +24,8 @@ struct LegendEntry
 [[nodiscard]] std::string figureHtml(
     const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
     const std::vector<LegendEntry>& legend, const std::string& remark);
+
+/** The style of a page, for light and dark screens. */
+[[nodiscard]] std::string reportStyle();
 
 }  // namespace fastlio
