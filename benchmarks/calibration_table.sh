@@ -16,7 +16,7 @@ shift 2
 [ $# -gt 0 ] || set -- office campus park
 seeds=${SEEDS:-1 2 3}
 
-program() { echo "$build/apps/$1/$1"; }
+program() { echo "$build/bin/$1"; }
 flatten() { awk -f "$(dirname "$0")/flatten_json.awk" "$1"; }
 
 # replay FOLDER PARAMETERS NAME: evaluations of a run, with the first poses aligned and with all poses aligned.

@@ -14,7 +14,7 @@ build=$1
 output=$2
 shift 2
 
-program() { echo "$build/apps/$1/$1"; }
+program() { echo "$build/bin/$1"; }
 
 all_scenarios() { "$(program fastlio-sim)" --list | awk '/^  [a-z_]+ / { print $1 }'; }
 

@@ -3,7 +3,7 @@
 
 #include "batch.h"
 
-#include "run_names.h"
+#include "../shared/run_names.h"
 #include <fastlio/exporters/run_summary.h>
 
 #include <mrpt/core/format.h>

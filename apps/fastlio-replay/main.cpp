@@ -5,9 +5,9 @@
 
 #include "batch.h"
 #include "command_line.h"
-#include "interruption.h"
+#include "../shared/interruption.h"
 #include "replay_run.h"
-#include "run_names.h"
+#include "../shared/run_names.h"
 #include "run_report.h"
 #include "run_setup.h"
 #include <fastlio/files/failure_text.h>

@@ -3,7 +3,7 @@
 
 #include "replay_run.h"
 
-#include "interruption.h"
+#include "../shared/interruption.h"
 #include "run_counts.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/failure_text.h>

@@ -13,7 +13,8 @@ namespace fastlio
 [[nodiscard]] std::string recordingName(const std::string& path);
 
 /** A folder that is not there yet, in the current one: "walk-run", or "walk-run-2" and so on. */
-[[nodiscard]] std::string freeRunFolder(const std::string& recording);
+[[nodiscard]] std::string freeRunFolder(
+    const std::string& recording, const std::string& suffix = "-run");
 
 /** Makes "latest", in the current folder, a symbolic link to the folder of a run.
  * \return why it was not made; what is no symbolic link stays as it is */

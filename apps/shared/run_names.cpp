@@ -26,9 +26,9 @@ std::string recordingName(const std::string& path)
   return stem.empty() || stem == "." || stem == ".." || stem == "-" ? "recording" : stem;
 }
 
-std::string freeRunFolder(const std::string& recording)
+std::string freeRunFolder(const std::string& recording, const std::string& suffix)
 {
-  const std::string first = recordingName(recording) + "-run";
+  const std::string first = recordingName(recording) + suffix;
   std::string folder = first;
   for (int number = 2; fs::symlink_status(folder).type() != fs::file_type::not_found; ++number)
     folder = first + "-" + std::to_string(number);

@@ -1,0 +1,244 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file main.cpp fastlio-map: recordings in, a consistent map out. */
+
+#include "../shared/interruption.h"
+#include "../shared/run_names.h"
+#include "command_line.h"
+#include "map_outputs.h"
+#include "session_input.h"
+#include "session_verdicts.h"
+#include <fastlio/files/failure_text.h>
+#include <fastlio/files/same_file.h>
+#include <fastlio/mapping/map_report.h>
+#include <fastlio/math/stopwatch.h>
+#include <fastlio/options/number_text.h>
+
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <unistd.h>
+
+namespace
+{
+using namespace fastlio;
+
+/** Why the program ends, and with which status. */
+struct Failure
+{
+  ExitStatus status;
+  std::string text;
+};
+
+/** Runs what may throw std::invalid_argument for what the user asks, others for the input. */
+template <typename Step>
+auto checked(Step step)
+{
+  try
+  {
+    return step();
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw Failure{ExitStatus::Usage, failureText(e)};
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{ExitStatus::InputUnusable, failureText(e)};
+  }
+}
+
+RunFolderPlan folderPlan(
+    const MapArguments& arguments, const MapFiles& files, const std::vector<std::string>& inputs)
+{
+  std::vector<FileUse> used, made;
+  for (const std::string& input : inputs)
+    used.push_back({input, "recording"});
+  if (!arguments.config_file.empty()) used.push_back({arguments.config_file, "--config"});
+  if (!arguments.control_points.empty())
+    used.push_back({arguments.control_points, "--control-points"});
+  for (const std::string& name : files.names())
+    made.push_back(
+        {(std::filesystem::path(arguments.output_directory) / name).string(), "--output-dir"});
+  requireDistinctFiles(used, made);
+  RunFolderPlan plan{
+      arguments.output_directory, files.names(), "summary.json", "exit_status",
+      arguments.overwrite};
+  requireReplaceable(plan);
+  return plan;
+}
+
+/** A line that is overwritten, on terminals only. */
+PassHooks hooksOf(bool quiet)
+{
+  PassHooks hooks;
+  hooks.interrupted = [] { return interrupted(); };
+  if (quiet || isatty(STDERR_FILENO) == 0) return hooks;
+  hooks.progress = [last = -1](const std::string& what, double share) mutable
+  {
+    const int percent = static_cast<int>(100.0 * share);
+    if (percent == last) return;
+    last = percent;
+    std::cerr << "\r\033[K" << what << ": " << percent << " %" << std::flush;
+  };
+  return hooks;
+}
+
+void requirePoses(const BuiltMap& map)
+{
+  for (const SessionOutcome& session : map.sessions)
+    if (session.statistics.poses() == 0)
+    {
+      const auto trouble = session.statistics.firstTrouble();
+      throw Failure{
+          ExitStatus::OdometryFailed, "the odometry found no pose in '" + session.name + "'" +
+                                          (trouble ? ": " + trouble->message : std::string())};
+    }
+}
+
+void endIfInterrupted(bool is_interrupted)
+{
+  if (is_interrupted) throw Failure{ExitStatus::Interrupted, "interrupted; nothing was written"};
+}
+
+/** Writes a page or a record; what goes wrong is told beside the others. */
+void write(const MapFiles& files, const char* kind, const std::string& text, MapAccount& account)
+{
+  if (!files.wants(kind)) return;
+  try
+  {
+    account.outputs.push_back(writeFileAtomically(files.path(kind), text));
+  }
+  catch (const std::exception& e)
+  {
+    account.output_problems.push_back(failureText(e));
+    account.status = ExitStatus::OutputFailed;
+  }
+}
+
+/** \exception Failure the outputs would destroy something */
+RunFolderPlan checkedFolder(
+    const MapArguments& arguments, const MapFiles& files, std::size_t runs,
+    const std::vector<std::string>& recordings)
+{
+  if (files.wants("simplemap") && runs > 1)
+    throw Failure{ExitStatus::Usage, "--export simplemap takes one run, not several"};
+  try
+  {
+    return folderPlan(arguments, files, recordings);
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{ExitStatus::Usage, failureText(e)};
+  }
+}
+
+/** Once all files are complete: what only the run before has written. */
+void removeLeftovers(const RunFolder& folder, const MapAccount& account)
+{
+  if (!account.output_problems.empty()) return;
+  std::vector<std::string> kept = account.inputs;
+  for (const OutputFile& file : account.outputs)
+    kept.push_back(file.path);
+  folder.removeLeftovers(kept);
+}
+
+/** The end of a run, for people. */
+void report(const MapArguments& arguments, const MapAccount& account)
+{
+  if (!arguments.quiet)
+    for (const std::string& note : account.notes)
+      std::cout << note << '\n';
+  for (const std::string& problem : account.output_problems)
+    std::cerr << "fastlio-map: " << problem << '\n';
+  if (!arguments.quiet)
+    std::cout << mapSentence(account) << ".\nWritten: " << arguments.output_directory << " in "
+              << fixedText(account.wall_seconds, 1) << " s; status " << toString(account.status)
+              << '\n';
+}
+
+ExitStatus run(const MapArguments& arguments)
+{
+  const Stopwatch stopwatch;
+  const std::vector<RunInput> inputs = checked([&] { return runInputs(arguments); });
+  std::vector<std::string> names, recordings;
+  for (const RunInput& input : inputs)
+  {
+    names.push_back(input.name);
+    recordings.insert(recordings.end(), input.files.begin(), input.files.end());
+  }
+  const MapFiles files(arguments, names);
+  const RunFolderPlan plan = checkedFolder(arguments, files, inputs.size(), recordings);
+  const std::vector<Session> sessions = checked([&] { return openSessions(arguments, inputs); });
+  // What does not depend on the recordings is checked before hours of work.
+  auto place = checked([&] { return georeference({}, arguments.control_points, arguments.crs); });
+  catchInterruptions();
+  const PassHooks hooks = hooksOf(arguments.quiet);
+  const auto workers = std::make_shared<const Workers>(arguments.threads);
+  const BuiltMap map = checked(
+      [&] {
+        return buildMap(sessions, BuildOptions{{}, arguments.use_gnss}, workers, hooks);
+      });
+  endIfInterrupted(map.interrupted);
+  if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });
+  requirePoses(map);
+  std::optional<RunFolder> folder;
+  std::optional<MapOutputs> outputs;
+  try
+  {
+    folder.emplace(plan);
+    outputs.emplace(arguments, files, sessions);
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{ExitStatus::OutputFailed, failureText(e)};
+  }
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    if (isInMap(map, i)) endIfInterrupted(!outputs->add(sessions[i], i, map.result, hooks));
+  outputs->finish(map.result, MapOutputs::frameOf(sessions.front(), arguments.frame), place);
+  if (hooks.progress) std::cerr << "\r\033[K";
+  MapAccount account{
+      MRPT_FASTLIO_VERSION,
+      recordings,
+      arguments.config_file.empty() ? "defaults" : arguments.config_file,
+      map,
+      place,
+      agreements(map.result),
+      outputs->points(),
+      notesOf(sessions, map),
+      outputs->files(),
+      outputs->problems(),
+      0.0,
+      statusOf(map, outputs->problems())};
+  write(files, "report", mapReportHtml(account), account);
+  account.wall_seconds = 1e-3 * stopwatch.milliseconds();
+  write(files, "summary", mapSummaryJson(account), account);
+  removeLeftovers(*folder, account);
+  report(arguments, account);
+  return account.status;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  auto parsed = parseCommandLine(argc, argv);
+  if (const auto* status = std::get_if<int>(&parsed)) return *status;
+  auto& arguments = std::get<MapArguments>(parsed);
+  try
+  {
+    if (arguments.output_directory.empty())
+      arguments.output_directory = freeRunFolder(arguments.runs.front(), "-map");
+    return static_cast<int>(run(arguments));
+  }
+  catch (const Failure& failure)
+  {
+    std::cerr << "fastlio-map: " << failure.text << '\n';
+    return static_cast<int>(failure.status);
+  }
+  catch (const std::exception& e)
+  {
+    std::cerr << "fastlio-map: " << failureText(e) << '\n';
+    return static_cast<int>(ExitStatus::Usage);
+  }
+}

@@ -1,0 +1,234 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "map_outputs.h"
+
+#include <fastlio/exporters/graph_files.h>
+#include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/files/failure_text.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace fastlio
+{
+namespace
+{
+OutputMapOptions mapOptions(const MapArguments& arguments, const Config& config)
+{
+  constexpr double kPointsPerMillion = 1e6;
+  OutputMapOptions options;
+  options.spacing = config.odometry.map.output_spacing;
+  options.tile_size = config.exporters.tile_size;
+  options.points_in_memory =
+      static_cast<std::size_t>(config.exporters.map_memory * kPointsPerMillion);
+  options.directory = arguments.output_directory;
+  return options;
+}
+
+ExportTarget targetOf(const MapFiles& files, const Session& session, const OutputFrame& frame)
+{
+  ExportTarget target;
+  target.directory = std::filesystem::path(files.path("simplemap")).parent_path().string();
+  target.frame = frame;
+  target.parameters = session.config().exporters;
+  target.recording = {session.files(), session.selection(), session.plan().bridge};
+  target.time_offset = session.config().odometry.lidar.time_offset;
+  return target;
+}
+
+/** A motion between poses of the IMU as that between poses of a body on it. */
+RelativePose ofBody(const RelativePose& imu, const Pose& T_imu_body)
+{
+  RelativePose body;
+  body.T_a_b = T_imu_body.inverse() * imu.T_a_b * T_imu_body;
+  // R' = X^T R X, p' = X^T (R x + p - x): by the attitude error of R, which is in the frame of b.
+  const Mat3 back = T_imu_body.R.transpose();
+  Matrix6 J = Matrix6::Zero();
+  J.topLeftCorner<3, 3>() = back;
+  J.bottomLeftCorner<3, 3>() = -back * imu.T_a_b.R * skew(T_imu_body.p);
+  J.bottomRightCorner<3, 3>() = back;
+  body.covariance = J * imu.covariance * J.transpose();
+  return body;
+}
+
+/** The graph with what was accepted, at the corrected poses. */
+struct GraphContent
+{
+  std::vector<Pose> poses;
+  std::vector<GraphFileEdge> edges;
+};
+
+GraphContent graphOf(const MappingResult& result, const Pose& T_imu_body)
+{
+  GraphContent content;
+  for (const Pose& node : result.estimate.nodes)
+    content.poses.push_back(node * T_imu_body);
+  for (std::size_t i = 0; i < result.graph.edges.size(); ++i)
+  {
+    const GraphEdge& edge = result.graph.edges[i];
+    if (edge.robust && result.estimate.edge_weights.at(i) < 0.5) continue;
+    content.edges.push_back({edge.a, edge.b, ofBody(edge.measured, T_imu_body)});
+  }
+  return content;
+}
+}  // namespace
+
+bool isOfSession(const std::string& kind)
+{
+  static const std::set<std::string> kinds = {"trajectory", "states", "covariance", "simplemap"};
+  return kinds.count(kind) > 0;
+}
+
+MapFiles::MapFiles(const MapArguments& arguments, const std::vector<std::string>& sessions)
+    : directory_(arguments.output_directory), sessions_(sessions)
+{
+  const auto& names = arguments.exporters;
+  for (const MapFileKind& kind : mapFileKinds())
+  {
+    const bool is_named = std::find(names.begin(), names.end(), kind.name) != names.end();
+    // The record of the folder is always written.
+    if ((names.empty() ? kind.standard : is_named) || std::string(kind.name) == "summary")
+      kinds_.push_back(kind);
+  }
+}
+
+bool MapFiles::wants(const std::string& kind) const
+{
+  return std::any_of(
+      kinds_.begin(), kinds_.end(), [&kind](const MapFileKind& k) { return kind == k.name; });
+}
+
+bool MapFiles::wantsMap() const
+{
+  const std::vector<std::string> kinds = {"ply", "pcd", "text", "las", "metricmap"};
+  return std::any_of(
+      kinds.begin(), kinds.end(), [this](const std::string& kind) { return wants(kind); });
+}
+
+std::string MapFiles::nameOf(const MapFileKind& kind, std::size_t session) const
+{
+  const std::string file = kind.file;
+  if (!isOfSession(kind.name) || sessions_.size() < 2) return file;
+  const std::size_t dot = file.rfind('.');
+  return file.substr(0, dot) + "." + sessions_.at(session) + file.substr(dot);
+}
+
+std::string MapFiles::path(const std::string& kind) const
+{
+  return path(kind, 0);
+}
+
+std::string MapFiles::path(const std::string& kind, std::size_t session) const
+{
+  const auto& all = mapFileKinds();
+  const auto found = std::find_if(
+      all.begin(), all.end(), [&kind](const MapFileKind& k) { return kind == k.name; });
+  return (std::filesystem::path(directory_) / nameOf(*found, session)).string();
+}
+
+std::vector<std::string> MapFiles::names() const
+{
+  std::vector<std::string> names;
+  for (const MapFileKind& kind : kinds_)
+    for (std::size_t session = 0; session < (isOfSession(kind.name) ? sessions_.size() : 1);
+         ++session)
+      names.push_back(nameOf(kind, session));
+  return names;
+}
+
+MapOutputs::MapOutputs(
+    const MapArguments& arguments, const MapFiles& files, const std::vector<Session>& sessions)
+    : plan_(files), frame_(arguments.frame), map_(mapOptions(arguments, sessions.front().config()))
+{
+  const auto add = [&](const char* kind, std::unique_ptr<Exporter> (*make)(const std::string&))
+  {
+    if (files.wants(kind)) of_map_.add(make(files.path(kind)), files.path(kind));
+  };
+  add("ply", makePlyMapExporter);
+  add("pcd", makePcdMapExporter);
+  add("text", makeTextMapExporter);
+  add("metricmap", makeMetricMapExporter);
+  add("planes", makePlanesExporter);
+  if (files.wants("planes"))
+  {
+    VoxelPlaneOptions options;
+    options.voxel_size = sessions.front().config().odometry.map.voxel_size;
+    planes_ = std::make_unique<VoxelPlaneMap>(options);
+  }
+}
+
+OutputFrame MapOutputs::frameOf(const Session& session, const std::string& frame)
+{
+  return {frame, frame == "imu" ? Pose{} : session.plan().T_vehicle_imu.inverse()};
+}
+
+bool MapOutputs::add(
+    const Session& session, std::size_t number, const MappingResult& result, const PassHooks& hooks)
+{
+  ExporterSet& of_session = of_sessions_.emplace_back();
+  const OutputFrame frame = frameOf(session, frame_);
+  const auto path = [&](const char* kind) { return plan_.path(kind, number); };
+  if (plan_.wants("trajectory"))
+    of_session.add(makeTumExporter(path("trajectory"), frame), path("trajectory"));
+  if (plan_.wants("states")) of_session.add(makeStatesExporter(path("states")), path("states"));
+  if (plan_.wants("covariance"))
+    of_session.add(makeCovarianceExporter(path("covariance"), frame), path("covariance"));
+  if (plan_.wants("simplemap"))
+    of_session.add(makeSimpleMapExporter(targetOf(plan_, session, frame)), path("simplemap"));
+  return placeScans(
+      session, number, result, [this](const PlacedScan& scan) { take(scan); }, hooks);
+}
+
+void MapOutputs::take(const PlacedScan& scan)
+{
+  of_sessions_.back().onScan(scan.result);
+  if (scan.points.size() == 0) return;
+  if (planes_) planes_->insert(scan.points, scan.sensor_origin);
+  if (!plan_.wantsMap()) return;
+  try
+  {
+    map_.insert(outputPointsOf(scan.points, scan.fields));
+  }
+  catch (const std::exception& e)
+  {
+    of_map_.giveUpMap(failureText(e));
+  }
+}
+
+void MapOutputs::collect(RunSummary summary)
+{
+  written_.insert(written_.end(), summary.outputs.begin(), summary.outputs.end());
+  problems_.insert(problems_.end(), summary.output_problems.begin(), summary.output_problems.end());
+}
+
+void MapOutputs::finish(
+    const MappingResult& result, const OutputFrame& frame, const std::optional<Georeference>& place)
+{
+  for (ExporterSet& of_session : of_sessions_)
+    collect(of_session.finish({}, map_));
+  collect(of_map_.finish({}, map_, planes_.get()));
+  const GraphContent graph = graphOf(result, frame.T_imu_body);
+  const auto write = [&](const char* kind, const auto& make)
+  {
+    if (!plan_.wants(kind)) return;
+    try
+    {
+      written_.push_back(make(plan_.path(kind)));
+    }
+    catch (const std::exception& e)
+    {
+      problems_.push_back(failureText(e));
+    }
+  };
+  write(
+      "graph", [&](const std::string& path)
+      { return writeFileAtomically(path, mrptGraphText(graph.poses, graph.edges)); });
+  write(
+      "g2o", [&](const std::string& path)
+      { return writeFileAtomically(path, g2oGraphText(graph.poses, graph.edges)); });
+  write("las", [&](const std::string& path) { return writeLasMap(path, map_, place); });
+}
+
+}  // namespace fastlio

@@ -1,0 +1,88 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_outputs.h The files of a map. */
+#pragma once
+
+#include "command_line.h"
+#include <fastlio/exporters/exporter.h>
+#include <fastlio/exporters/output_map.h>
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/exporters/run_folder.h>
+#include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/mapping/georeference.h>
+#include <fastlio/mapping/map_builder.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** Which files a command line asks for. */
+class MapFiles
+{
+ public:
+  MapFiles(const MapArguments& arguments, const std::vector<std::string>& sessions);
+
+  [[nodiscard]] bool wants(const std::string& kind) const;
+  [[nodiscard]] bool wantsMap() const;
+  /** Path of a file of the whole map. */
+  [[nodiscard]] std::string path(const std::string& kind) const;
+  /** Path of a file of a session. */
+  [[nodiscard]] std::string path(const std::string& kind, std::size_t session) const;
+  /** Names of all files, without the folder. */
+  [[nodiscard]] std::vector<std::string> names() const;
+
+ private:
+  [[nodiscard]] std::string nameOf(const MapFileKind& kind, std::size_t session) const;
+
+  std::string directory_;
+  std::vector<std::string> sessions_;
+  std::vector<MapFileKind> kinds_;  //!< wanted
+};
+
+/** Whether there is one file of a kind for each session. */
+[[nodiscard]] bool isOfSession(const std::string& kind);
+
+/** The second pass: corrected scans into files. */
+class MapOutputs
+{
+ public:
+  /** Opens the files. \exception std::runtime_error one cannot be opened */
+  MapOutputs(
+      const MapArguments& arguments, const MapFiles& files, const std::vector<Session>& sessions);
+
+  /** The body of a session whose poses are written. */
+  [[nodiscard]] static OutputFrame frameOf(const Session& session, const std::string& frame);
+
+  /** Puts the scans of one session in their places. \return false: interrupted */
+  bool add(
+      const Session& session, std::size_t number, const MappingResult& result,
+      const PassHooks& hooks);
+
+  /** Completes the map, and writes the graph. */
+  void finish(
+      const MappingResult& result, const OutputFrame& frame,
+      const std::optional<Georeference>& place);
+
+  [[nodiscard]] const std::vector<OutputFile>& files() const { return written_; }
+  [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
+  [[nodiscard]] std::size_t points() const { return map_.size(); }
+
+ private:
+  void take(const PlacedScan& scan);
+  void collect(RunSummary summary);
+
+  const MapFiles& plan_;
+  std::string frame_;
+  OutputMap map_;
+  std::unique_ptr<VoxelPlaneMap> planes_;
+  std::vector<ExporterSet> of_sessions_;  //!< get their names when all scans are in their places
+  ExporterSet of_map_;
+  std::vector<OutputFile> written_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,141 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "session_input.h"
+
+#include "../shared/run_names.h"
+#include <fastlio/config/config_yaml.h>
+#include <fastlio/files/input_file.h>
+#include <fastlio/files/same_file.h>
+#include <fastlio/recordings/recording_reader.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* kRecord = "summary.json";
+
+/** Where the recording of a run is now: as its record has it, or beside its folder. */
+std::string locate(const std::string& recorded, const fs::path& folder)
+{
+  const fs::path path(recorded);
+  const fs::path parent = fs::absolute(folder).parent_path();
+  for (const fs::path& place : {path, parent / path, parent / path.filename()})
+  {
+    std::error_code ignored;
+    if (fs::exists(place, ignored)) return place.string();
+  }
+  throw std::runtime_error(
+      "the recording '" + recorded + "' of the run '" + folder.string() +
+      "' is not there any more; give the recording itself");
+}
+
+RunInput inputOfFolder(const std::string& folder)
+{
+  const fs::path record = fs::path(folder) / kRecord;
+  std::ifstream file(record);
+  if (!file)
+    throw std::runtime_error(
+        "the folder '" + folder + "' has no " + kRecord +
+        ": it is none that fastlio-replay has written, and no recording");
+  RunInput input;
+  try
+  {
+    const Json json = Json::parse(file);
+    for (const Json& recorded : json.at("input").at("files"))
+      input.files.push_back(locate(recorded.at("path").get<std::string>(), folder));
+    // JSON is YAML, too.
+    input.parameters =
+        loadConfig(mrpt::containers::yaml::FromText(json.at("parameters").dump()), record.string());
+  }
+  catch (const Json::exception& e)
+  {
+    throw std::runtime_error(
+        "'" + record.string() + "' is not the summary of a run of fastlio-replay: " + e.what());
+  }
+  if (input.files.empty()) throw std::runtime_error("'" + record.string() + "' names no recording");
+  input.name = recordingName(folder);
+  return input;
+}
+
+bool isRunFolder(const std::string& path)
+{
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) && recordingFormatOf(path) == nullptr;
+}
+
+void requireReadable(const std::vector<std::string>& files)
+{
+  for (const std::string& file : files)
+    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
+      throw std::runtime_error("the recording '" + file + "' " + *problem);
+}
+
+void makeNamesUnique(std::vector<RunInput>& inputs)
+{
+  std::set<std::string> taken;
+  for (RunInput& input : inputs)
+  {
+    const std::string name = input.name;
+    for (int n = 2; !taken.insert(input.name).second; ++n)
+      input.name = name + "-" + std::to_string(n);
+  }
+}
+}  // namespace
+
+std::vector<RunInput> runInputs(const MapArguments& arguments)
+{
+  std::vector<RunInput> inputs;
+  for (const std::string& run : arguments.runs)
+  {
+    if (isRunFolder(run))
+      inputs.push_back(inputOfFolder(run));
+    else if (arguments.join && !inputs.empty())
+      inputs.front().files.push_back(run);
+    else
+      inputs.push_back({recordingName(run), {run}, std::nullopt});
+  }
+  std::vector<std::string> all;
+  for (const RunInput& input : inputs)
+  {
+    requireReadable(input.files);
+    all.insert(all.end(), input.files.begin(), input.files.end());
+  }
+  requireGivenOnce(all);
+  makeNamesUnique(inputs);
+  return inputs;
+}
+
+std::vector<Session> openSessions(
+    const MapArguments& arguments, const std::vector<RunInput>& inputs)
+{
+  std::vector<Session> sessions;
+  for (const RunInput& input : inputs)
+  {
+    ConfigFile given;
+    if (input.parameters) given.config = *input.parameters;
+    if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);
+    for (const std::string& setting : arguments.settings)
+      given.lines[applySetting(setting, given.config)] = 0;
+    given.config.odometry.threads = arguments.threads;
+    validate(given.config);
+    // What a run used holds the values of the preset already.
+    const bool all_given = input.parameters && arguments.config_file.empty();
+    sessions.emplace_back(
+        input.name, input.files, given.config,
+        [&](std::string_view key) { return all_given || given.lines.count(std::string(key)) > 0; });
+  }
+  return sessions;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "session_verdicts.h"
+
+namespace fastlio
+{
+bool isInMap(const BuiltMap& map, std::size_t session)
+{
+  return session < map.result.anchors.size() && map.result.anchors[session].found;
+}
+
+ExitStatus statusOf(const BuiltMap& map, const std::vector<std::string>& output_problems)
+{
+  if (!output_problems.empty()) return ExitStatus::OutputFailed;
+  const auto rank = [](ExitStatus status)
+  {
+    switch (status)
+    {
+      case ExitStatus::InputBroken:
+        return 3;
+      case ExitStatus::OdometryFailed:
+        return 2;
+      case ExitStatus::Degraded:
+        return 1;
+      default:
+        return 0;
+    }
+  };
+  ExitStatus worst = ExitStatus::Ok;
+  for (std::size_t i = 0; i < map.sessions.size(); ++i)
+  {
+    const SessionOutcome& session = map.sessions[i];
+    if (!isInMap(map, i) && rank(worst) < rank(ExitStatus::Degraded)) worst = ExitStatus::Degraded;
+    RunSummary summary;
+    summary.statistics = session.statistics;
+    summary.diagnostics = session.diagnostics;
+    for (const ReadProblem& problem : session.pass.problems)
+      summary.input_problems.push_back(problem.message);
+    const ExitStatus status = exitStatusOf(summary);
+    if (rank(status) > rank(worst)) worst = status;
+  }
+  return worst;
+}
+
+std::vector<std::string> notesOf(const std::vector<Session>& sessions, const BuiltMap& map)
+{
+  std::vector<std::string> notes;
+  for (const Session& session : sessions)
+    for (const std::string& note : session.notes())
+      notes.push_back(session.name() + ": " + note);
+  for (const SessionOutcome& session : map.sessions)
+    for (const ReadProblem& problem : session.pass.problems)
+      notes.push_back(session.name + ": " + problem.message);
+  for (const SessionOutcome& session : map.sessions)
+    notes.insert(notes.end(), session.problems.begin(), session.problems.end());
+  for (std::size_t i = 0; i < map.sessions.size(); ++i)
+    if (!isInMap(map, i))
+      notes.push_back(
+          map.sessions[i].name +
+          ": its place in the map was not found, so that it is not part of it. Two of its submaps "
+          "have to show places that the map has; a longer recording, or one that passes more of "
+          "the "
+          "same places, may be found");
+  if (const std::size_t fixes = map.gnss.fixes; fixes > 0) notes.push_back(gnssSentence(map.gnss));
+  return notes;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,42 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file georeference.h Where a map is on the earth, by GNSS or by control points, and its points in
+ * the coordinates of surveyors. */
+#pragma once
+
+#include <fastlio/earth/control_points.h>
+#include <fastlio/earth/reference_system.h>
+#include <fastlio/exporters/output_map.h>
+#include <fastlio/mapping/gnss.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** The place of a map. */
+struct Georeference
+{
+  std::string source;  //!< "GNSS" or "control points"
+  GeodeticPoint datum;
+  Pose T_enu_map;
+  std::string crs;                       //!< of projected coordinates, as it was given
+  std::vector<EarthResidual> residuals;  //!< of control points
+  double rms_m = 0.0;                    //!< of them
+};
+
+/** By control points, or else by GNSS; nothing when neither tells the place.
+ * \param crs of projected coordinates; empty: the UTM zone of the place
+ * \exception std::runtime_error the control points cannot be used
+ * \exception std::invalid_argument the reference system is unknown */
+[[nodiscard]] std::optional<Georeference> georeference(
+    const GnssOutcome& gnss, const std::string& control_points, const std::string& crs);
+
+/** Writes the points of a map as LAS 1.4: in projected coordinates, or in those of the map where
+ * its place is not known. \exception std::runtime_error the file cannot be written */
+OutputFile writeLasMap(
+    const std::string& path, const OutputMap& map, const std::optional<Georeference>& place);
+
+}  // namespace fastlio

@@ -1,0 +1,57 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_report.h A built map for people (a page) and for programs (JSON). */
+#pragma once
+
+#include <fastlio/exporters/run_summary.h>
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/mapping/georeference.h>
+#include <fastlio/mapping/map_builder.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** How well two passes over the same surfaces agree: the median distance across planes of the one
+ * submap from those of the other. */
+struct ClosureAgreement
+{
+  std::size_t closure = 0;  //!< index among MappingResult::closures
+  double before = 0.0;      //!< with the poses of the odometry [m]
+  double after = 0.0;       //!< with the corrected ones [m]
+};
+
+/** Of the accepted closures. */
+[[nodiscard]] std::vector<ClosureAgreement> agreements(const MappingResult& result);
+
+/** What is told about a map. */
+struct MapAccount
+{
+  std::string version;
+  std::vector<std::string> inputs;
+  std::string configuration;
+  const BuiltMap& map;
+  std::optional<Georeference> place;
+  std::vector<ClosureAgreement> agreements;
+  std::size_t points = 0;           //!< of the map
+  std::vector<std::string> notes;   //!< for people
+  std::vector<OutputFile> outputs;  //!< files that are complete
+  std::vector<std::string> output_problems;
+  double wall_seconds = 0.0;
+  ExitStatus status = ExitStatus::Ok;
+};
+
+/** One sentence: what came out. */
+[[nodiscard]] std::string mapSentence(const MapAccount& account);
+
+/** `summary.json`. */
+[[nodiscard]] std::string mapSummaryJson(const MapAccount& account);
+
+/** `report.html`: the path before and after, closures and why others were rejected, walls that were
+ * seen twice. Opens without a network. */
+[[nodiscard]] std::string mapReportHtml(const MapAccount& account);
+
+}  // namespace fastlio

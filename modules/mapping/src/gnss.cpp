@@ -1,0 +1,244 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "graph_factors.h"
+#include <fastlio/exporters/recording_access.h>
+#include <fastlio/mapping/gnss.h>
+#include <fastlio/math/statistics.h>
+#include <fastlio/sensors/conversions.h>
+
+#include <mrpt/core/format.h>
+#include <mrpt/obs/CObservationGPS.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using mrpt::obs::CObservationGPS;
+using mrpt::obs::gnss::Message_NMEA_GGA;
+
+// Vertical errors of satellite positions are about twice the horizontal ones.
+constexpr double kVerticalOverHorizontal = 2.0;
+constexpr double kLeastFixes = 10;
+constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
+constexpr double kMostCorrelation = 0.98;
+constexpr double kGaussian = 1.4826;  // standard deviation over median absolute deviation
+
+/** Standard deviation of a fix by its quality: field 6 of GGA [m]. */
+double stdOf(int quality)
+{
+  switch (quality)
+  {
+    case 2:
+      return 0.7;  // with satellite-based corrections
+    case 4:
+      return 0.03;  // carrier phase, whole cycles
+    case 5:
+      return 0.3;  // carrier phase, no whole cycles
+    default:
+      return 2.0;
+  }
+}
+
+GnssFix fixOf(const CObservationGPS& observation, const Pose& T_imu_vehicle)
+{
+  const auto& fields = observation.getMsgByClass<Message_NMEA_GGA>().fields;
+  GnssFix fix;
+  fix.stamp_ns = toNanoseconds(observation.timestamp);
+  fix.place = {
+      fields.latitude_degrees, fields.longitude_degrees,
+      fields.altitude_meters + fields.geoidal_distance};
+  const bool has_dilution = fields.thereis_HDOP && fields.HDOP > 0.0F;
+  fix.horizontal_std = stdOf(fields.fix_quality) *
+                       (has_dilution ? std::max(1.0, static_cast<double>(fields.HDOP)) : 1.0);
+  fix.vertical_std = kVerticalOverHorizontal * fix.horizontal_std;
+  const auto& sensor = observation.sensorPose;
+  fix.antenna = T_imu_vehicle * Vec3(sensor.x(), sensor.y(), sensor.z());
+  return fix;
+}
+}  // namespace
+
+std::vector<GnssFix> readGnss(const Session& session, std::vector<std::string>& problems)
+{
+  std::vector<GnssFix> fixes;
+  std::size_t without_fix = 0, nowhere = 0;
+  const Pose T_imu_vehicle = session.plan().T_vehicle_imu.inverse();
+  forEachObservation(
+      {session.files(), session.selection(), session.plan().bridge},
+      [&](const mrpt::obs::CObservation::Ptr& observation)
+      {
+        const auto* gps = dynamic_cast<const CObservationGPS*>(observation.get());
+        if (gps == nullptr || !gps->hasMsgClass<Message_NMEA_GGA>()) return true;
+        const int quality = gps->getMsgByClass<Message_NMEA_GGA>().fields.fix_quality;
+        if (quality == 0 || quality > 5)
+        {
+          ++without_fix;
+          return true;
+        }
+        const GnssFix fix = fixOf(*gps, T_imu_vehicle);
+        if (problemOf(fix.place) == nullptr)
+          fixes.push_back(fix);
+        else
+          ++nowhere;
+        return true;
+      });
+  std::stable_sort(
+      fixes.begin(), fixes.end(),
+      [](const GnssFix& a, const GnssFix& b) { return a.stamp_ns < b.stamp_ns; });
+  if (without_fix > 0)
+    problems.push_back(
+        session.name() + ": " + std::to_string(without_fix) + " positions of GNSS have no fix");
+  if (nowhere > 0)
+    problems.push_back(
+        session.name() + ": " + std::to_string(nowhere) +
+        " positions of GNSS are no place on the earth");
+  return fixes;
+}
+
+std::string gnssSentence(const GnssOutcome& outcome)
+{
+  if (!outcome.used) return "GNSS is not used: " + outcome.reason;
+  return mrpt::format(
+      "GNSS: %zu of %zu positions agree, to %.2f m horizontally and %.2f m vertically; errors that "
+      "follow each other are correlated by %.2f",
+      outcome.fixes - outcome.rejected, outcome.fixes, outcome.horizontal_std, outcome.vertical_std,
+      outcome.correlation);
+}
+
+void GnssFactors::add(
+    const std::vector<GnssFix>& fixes, const PoseTrack& track, std::size_t session,
+    const Mapper& mapper)
+{
+  if (fixes.empty()) return;
+  if (!frame_) frame_.emplace(fixes.front().place);
+  const std::vector<Submap>& submaps = mapper.submaps();
+  for (const GnssFix& fix : fixes)
+  {
+    const auto pose = track.at(fix.stamp_ns);
+    if (!pose) continue;
+    std::optional<std::size_t> node;
+    for (std::size_t i = 0; i < submaps.size(); ++i)
+      if (submaps[i].session == session && submaps[i].reference.stamp_ns <= fix.stamp_ns) node = i;
+    if (!node) continue;
+    Sighting sighting;
+    sighting.stamp_ns = fix.stamp_ns;
+    sighting.factor.node = *node;
+    sighting.factor.lever =
+        submaps[*node].reference.T_world_body.inverse() * (pose->T_world_body * fix.antenna);
+    sighting.factor.position = frame_->enuOf(fix.place);
+    const double h2 = fix.horizontal_std * fix.horizontal_std;
+    sighting.factor.covariance = Vec3(h2, h2, fix.vertical_std * fix.vertical_std).asDiagonal();
+    sightings_.push_back(sighting);
+  }
+}
+
+namespace
+{
+/** How good the fixes are, and for how long their errors last, by what is left over. */
+void measure(
+    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps,
+    GnssOutcome& outcome)
+{
+  std::vector<double> horizontal, vertical;
+  double product = 0.0, square = 0.0;
+  Vec3 before = Vec3::Zero();
+  std::size_t session_before = 0;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    const PositionFactor& factor = graph.positions[i];
+    if (estimate.position_weights[i] < 0.5) continue;
+    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
+    horizontal.push_back(std::abs(e.x()));
+    horizontal.push_back(std::abs(e.y()));
+    vertical.push_back(std::abs(e.z()));
+    const std::size_t session = submaps.at(factor.node).session;
+    if (square > 0.0 && session == session_before) product += e.head<2>().dot(before.head<2>());
+    square += e.head<2>().squaredNorm();
+    before = e;
+    session_before = session;
+  }
+  outcome.horizontal_std = std::max(0.005, kGaussian * median(std::move(horizontal)));
+  outcome.vertical_std = std::max(0.01, kGaussian * median(std::move(vertical)));
+  outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
+}
+
+/** Leaves out the fixes that contradict the others, and gives the rest the noise that was measured.
+ * \return how many were left out */
+std::size_t keepAgreeing(
+    PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome)
+{
+  const double lasting = (1.0 + outcome.correlation) / (1.0 - outcome.correlation);
+  const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
+  const double v2 = lasting * std::pow(outcome.vertical_std, 2);
+  // The wider covariance must not let wrong fixes in: those that were found out stay out.
+  std::vector<PositionFactor> kept;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    if (estimate.position_weights[i] < 0.5) continue;
+    kept.push_back(graph.positions[i]);
+    kept.back().covariance = Vec3(h2, h2, v2).asDiagonal();
+  }
+  const std::size_t rejected = graph.positions.size() - kept.size();
+  graph.positions = std::move(kept);
+  return rejected;
+}
+}  // namespace
+
+GnssOutcome GnssFactors::applyTo(MappingResult& result) const
+{
+  GnssOutcome outcome;
+  outcome.fixes = sightings_.size();
+  if (static_cast<double>(sightings_.size()) < kLeastFixes)
+  {
+    outcome.reason = "there are " + std::to_string(sightings_.size()) +
+                     " positions of GNSS at poses of the run: too few";
+    return outcome;
+  }
+  outcome.datum = frame_->datum();
+  std::vector<Correspondence> points;
+  double way = 0.0;
+  for (const Sighting& sighting : sightings_)
+  {
+    const PositionFactor& factor = sighting.factor;
+    points.push_back(
+        {result.estimate.nodes.at(factor.node) * factor.lever,
+         factor.position,
+         std::sqrt(factor.covariance(2, 2)),
+         {}});
+    way = std::max(way, result.submaps.at(factor.node).travel);
+  }
+  EarthFitOptions options;
+  options.map_std_m = kDriftOfOdometry * way;
+  options.most_yaw_std_deg = 15.0;  // the graph makes it better
+  PoseGraph graph = result.graph;
+  try
+  {
+    graph.T_earth_world = fitToEarth(points, options).T_enu_map;
+  }
+  catch (const std::exception& e)
+  {
+    outcome.reason = e.what();
+    return outcome;
+  }
+  graph.nodes = result.estimate.nodes;
+  for (const Sighting& sighting : sightings_)
+    graph.positions.push_back(sighting.factor);
+  GraphEstimate estimate = optimize(graph, false);
+  measure(graph, estimate, result.submaps, outcome);
+  outcome.rejected = keepAgreeing(graph, estimate, outcome);
+  graph.nodes = estimate.nodes;
+  graph.T_earth_world = estimate.T_earth_world;
+  estimate = optimize(graph);
+  outcome.used = true;
+  outcome.T_enu_world = *estimate.T_earth_world;
+  outcome.covariance = estimate.earth_covariance;
+  result.graph = std::move(graph);
+  result.estimate = std::move(estimate);
+  result.corrected = true;
+  return outcome;
+}
+
+}  // namespace fastlio

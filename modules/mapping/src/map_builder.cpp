@@ -1,0 +1,101 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapper_parts.h"
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/mapping/map_builder.h>
+
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+std::function<void(double)> progressOf(const PassHooks& hooks, const std::string& what)
+{
+  if (!hooks.progress) return {};
+  return [&hooks, what](double share) { hooks.progress(what, share); };
+}
+
+bool isInterrupted(const PassHooks& hooks)
+{
+  return hooks.interrupted && hooks.interrupted();
+}
+
+/** The odometry over one session into submaps. */
+SessionOutcome addSession(
+    const Session& session, std::size_t number, Mapper& mapper, PoseTrack& track,
+    const PassHooks& hooks)
+{
+  SessionOutcome outcome;
+  outcome.name = session.name();
+  SubmapBuilder submaps(number);
+  std::optional<CalibrationCheck> calibration;
+  const auto use = [&](const ScanResult& result, const Odometry& odometry)
+  {
+    outcome.statistics.add(result);
+    outcome.diagnostics = odometry.diagnostics();
+    track.add(result);
+    if (hasPose(result.status)) calibration = result.statistics.calibration;
+    if (auto submap = submaps.add(result, odometry.registeredPoints(), odometry.mapOrigin()))
+      mapper.add(std::move(*submap));
+    return !isInterrupted(hooks);
+  };
+  outcome.pass = session.run(use, progressOf(hooks, session.name() + ": odometry"));
+  if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
+  if (calibration) mapper.setExtrinsicMoment(number, extrinsicMoment(*calibration));
+  return outcome;
+}
+}  // namespace
+
+BuiltMap buildMap(
+    const std::vector<Session>& sessions, const BuildOptions& options,
+    const std::shared_ptr<const Workers>& workers, const PassHooks& hooks)
+{
+  BuiltMap built;
+  Mapper mapper(options.limits, workers);
+  GnssFactors gnss;
+  for (std::size_t i = 0; i < sessions.size() && !built.interrupted; ++i)
+  {
+    PoseTrack track(OutputFrame{});
+    built.sessions.push_back(addSession(sessions[i], i, mapper, track, hooks));
+    SessionOutcome& outcome = built.sessions.back();
+    if (options.use_gnss)
+    {
+      const std::vector<GnssFix> fixes = readGnss(sessions[i], outcome.problems);
+      outcome.fixes = fixes.size();
+      gnss.add(fixes, track, i, mapper);
+    }
+    built.interrupted = built.sessions.back().pass.stopped;
+  }
+  built.result = mapper.finish();
+  built.gnss = gnss.applyTo(built.result);
+  return built;
+}
+
+bool placeScans(
+    const Session& session, std::size_t number, const MappingResult& result,
+    const std::function<void(const PlacedScan&)>& use, const PassHooks& hooks)
+{
+  const CorrectedTrajectory trajectory(result, number);
+  WorldPoints placed;
+  const SessionPass pass = session.run(
+      [&](const ScanResult& scan, const Odometry& odometry)
+      {
+        const WorldPoints& registered = odometry.registeredPoints();
+        const ScanResult corrected = trajectory.corrected(scan);
+        const bool moves = trajectory.changes() && hasPose(scan.status);
+        if (moves)
+          moved(
+              registered, odometry.mapOrigin(),
+              trajectory.correctionAt(scan.stamp_ns, scan.filter.x.pose()), placed);
+        use(
+            {corrected, moves ? placed : registered, odometry.registeredFields(),
+             corrected.filter.x.p});
+        return !isInterrupted(hooks);
+      },
+      progressOf(hooks, session.name() + ": map"));
+  return !pass.stopped;
+}
+
+}  // namespace fastlio

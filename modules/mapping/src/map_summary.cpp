@@ -1,0 +1,217 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/mapping/map_report.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/statistics.h>
+#include <fastlio/options/number_text.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fastlio
+{
+namespace
+{
+using MapJson = nlohmann::ordered_json;
+
+MapJson vectorJson(const Vec3& v)
+{
+  return {v.x(), v.y(), v.z()};
+}
+
+double medianOf(const std::vector<ClosureAgreement>& all, double ClosureAgreement::*member)
+{
+  std::vector<double> values;
+  values.reserve(all.size());
+  for (const ClosureAgreement& one : all)
+    values.push_back(one.*member);
+  return median(std::move(values));
+}
+
+MapJson anchorsJson(const MappingResult& result, std::size_t session);
+
+MapJson sessionsJson(const BuiltMap& map)
+{
+  MapJson json = MapJson::array();
+  for (std::size_t number = 0; number < map.sessions.size(); ++number)
+  {
+    const SessionOutcome& session = map.sessions[number];
+    MapJson problems = MapJson::array();
+    for (const ReadProblem& problem : session.pass.problems)
+      problems.push_back(problem.message);
+    MapJson diagnostics = MapJson::array();
+    for (const Diagnostic& diagnostic : session.diagnostics)
+      diagnostics.push_back({{"stamp_ns", diagnostic.stamp_ns}, {"text", diagnostic.text}});
+    json.push_back(
+        {{"name", session.name},
+         {"scans", session.statistics.scans()},
+         {"poses", session.statistics.poses()},
+         {"path_length_m", session.statistics.pathLength()},
+         {"duration_s", session.statistics.duration()},
+         {"in_map", anchorsJson(map.result, number)},
+         {"gnss_fixes", session.fixes},
+         {"scans_in_trouble", session.statistics.health().troubled()},
+         {"input_problems", problems},
+         {"diagnostics", diagnostics}});
+  }
+  return json;
+}
+
+MapJson submapsJson(const MappingResult& result)
+{
+  MapJson json = MapJson::array();
+  for (std::size_t i = 0; i < result.submaps.size(); ++i)
+  {
+    const Submap& submap = result.submaps[i];
+    const Pose& corrected = result.estimate.nodes.at(i);
+    const Matrix6& covariance = result.estimate.covariances.at(i);
+    json.push_back(
+        {{"session", submap.session},
+         {"stamp_ns", submap.reference.stamp_ns},
+         {"scans", submap.scans},
+         {"planes", submap.planes.size()},
+         {"odometry_xyz_m", vectorJson(submap.reference.T_world_body.p)},
+         {"xyz_m", vectorJson(corrected.p)},
+         {"xyz_std_m",
+          vectorJson(Vec3(covariance.diagonal().tail<3>().cwiseMax(0.0).cwiseSqrt()))}});
+  }
+  return json;
+}
+
+MapJson closuresJson(const MappingResult& result)
+{
+  MapJson json = MapJson::array();
+  for (const Closure& closure : result.closures)
+  {
+    const RegistrationEvidence& found = closure.registration.evidence;
+    const Pose& T = closure.registration.motion.T_a_b;
+    MapJson margin = nullptr;  // no other place was found
+    if (std::isfinite(found.margin)) margin = found.margin;
+    json.push_back(
+        {{"a", closure.a},
+         {"b", closure.b},
+         {"verdict", toString(closure.verdict)},
+         {"reason", closure.reason},
+         {"overlap", found.overlap},
+         {"inlier_ratio", found.inlier_ratio},
+         {"score", found.score},
+         {"upright_score", found.upright_score},
+         {"residual_rms_m", found.residual_rms},
+         {"margin", margin},
+         {"moved_m", (T.p - closure.predicted.T_a_b.p).norm()},
+         {"xyz_m", vectorJson(T.p)},
+         {"rotation_deg", vectorJson(Vec3(kDegPerRad * logSO3(T.R)))}});
+  }
+  return json;
+}
+
+MapJson anchorsJson(const MappingResult& result, std::size_t session)
+{
+  if (session >= result.anchors.size()) return {{"found", false}};
+  const SessionAnchor& anchor = result.anchors[session];
+  return {
+      {"found", anchor.found},
+      {"probability", anchor.probability},
+      {"submaps_tried", anchor.tried},
+      {"submaps_recognised", anchor.support}};
+}
+
+MapJson gnssJson(const GnssOutcome& gnss)
+{
+  return {
+      {"used", gnss.used},
+      {"reason", gnss.reason},
+      {"fixes", gnss.fixes},
+      {"rejected", gnss.rejected},
+      {"horizontal_std_m", gnss.horizontal_std},
+      {"vertical_std_m", gnss.vertical_std},
+      {"correlation", gnss.correlation}};
+}
+
+MapJson placeJson(const std::optional<Georeference>& place)
+{
+  if (!place) return nullptr;
+  MapJson residuals = MapJson::array();
+  for (const EarthResidual& residual : place->residuals)
+    residuals.push_back(
+        {{"name", residual.name},
+         {"residual_enu_m", vectorJson(residual.residual_m)},
+         {"used", residual.is_used}});
+  const Mat3& R = place->T_enu_map.R;
+  return {
+      {"source", place->source},
+      {"crs", place->crs},
+      {"datum",
+       {{"latitude_deg", place->datum.latitude_deg},
+        {"longitude_deg", place->datum.longitude_deg},
+        {"height_m", place->datum.height_m}}},
+      {"T_enu_map",
+       {{"xyz_m", vectorJson(place->T_enu_map.p)},
+        {"rotation_rows",
+         {vectorJson(R.row(0).transpose()), vectorJson(R.row(1).transpose()),
+          vectorJson(R.row(2).transpose())}}}},
+      {"rms_m", place->rms_m},
+      {"control_points", residuals}};
+}
+
+double largestMove(const MappingResult& result)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < result.submaps.size(); ++i)
+    largest = std::max(
+        largest,
+        (result.estimate.nodes.at(i).p - result.submaps[i].reference.T_world_body.p).norm());
+  return largest;
+}
+}  // namespace
+
+std::string mapSentence(const MapAccount& account)
+{
+  const MappingResult& result = account.map.result;
+  const std::string looked = std::to_string(result.submaps.size()) + " submaps, " +
+                             std::to_string(result.closures.size()) + " possible closures: ";
+  if (result.accepted() == 0)
+    return looked +
+           "none was accepted; trajectory and map are those of the odometry. A run that passes no "
+           "place twice has none";
+  return looked + std::to_string(result.accepted()) + " accepted. Poses moved by up to " +
+         fixedText(largestMove(result), 3) + " m; surfaces that were seen twice are " +
+         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::after), 0) +
+         " mm apart (median), before " +
+         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::before), 0) + " mm";
+}
+
+std::string mapSummaryJson(const MapAccount& account)
+{
+  const MappingResult& result = account.map.result;
+  MapJson outputs = MapJson::array();
+  for (const OutputFile& file : account.outputs)
+    outputs.push_back({{"path", file.path}, {"bytes", file.bytes}});
+  const MapJson json = {
+      {"program", "fastlio-map"},
+      {"version", account.version},
+      {"status", toString(account.status)},
+      {"exit_status", static_cast<int>(account.status)},
+      {"result", mapSentence(account)},
+      {"configuration", account.configuration},
+      {"inputs", account.inputs},
+      {"notes", account.notes},
+      {"wall_seconds", account.wall_seconds},
+      {"map_points", account.points},
+      {"corrected", result.corrected},
+      {"closures_accepted", result.accepted()},
+      {"largest_correction_m", largestMove(result)},
+      {"surfaces_apart_before_m", medianOf(account.agreements, &ClosureAgreement::before)},
+      {"surfaces_apart_after_m", medianOf(account.agreements, &ClosureAgreement::after)},
+      {"gnss", gnssJson(account.map.gnss)},
+      {"earth", placeJson(account.place)},
+      {"sessions", sessionsJson(account.map)},
+      {"submaps", submapsJson(result)},
+      {"closures", closuresJson(result)},
+      {"outputs", outputs},
+      {"output_problems", account.output_problems}};
+  return json.dump(2, ' ', false, MapJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fastlio

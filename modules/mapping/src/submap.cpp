@@ -1,0 +1,101 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapper_parts.h"
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/mapping/submap.h>
+#include <fastlio/math/statistics.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kShortest = 3.0,
+                 kLongest = 12.0;  // of a submap, where the rule leaves it open [m]
+constexpr double kLengthOverRange = 0.5;
+
+TrackedPose trackedPoseOf(const ScanResult& result)
+{
+  const PoseEstimate estimate = poseEstimateOf(result.filter, Pose{});
+  TrackedPose pose;
+  pose.stamp_ns = result.stamp_ns;
+  pose.T_world_body = estimate.T_world_body;
+  pose.covariance = estimate.covariance;
+  pose.map_covariance = result.map_covariance;
+  return pose;
+}
+
+double medianRange(const WorldPoints& points, const Vec3& sensor)
+{
+  std::vector<double> ranges;
+  ranges.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ranges.push_back((Vec3(
+                          static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+                          static_cast<double>(points.z[i])) -
+                      sensor)
+                         .norm());
+  return median(std::move(ranges));
+}
+}  // namespace
+
+SubmapBuilder::SubmapBuilder(std::size_t session, SubmapRule rule)
+    : session_(session),
+      rule_(rule),
+      surfaces_(std::make_unique<VoxelPlaneMap>(VoxelPlaneOptions{}))
+{
+}
+
+SubmapBuilder::~SubmapBuilder() = default;
+SubmapBuilder::SubmapBuilder(SubmapBuilder&&) noexcept = default;
+SubmapBuilder& SubmapBuilder::operator=(SubmapBuilder&&) noexcept = default;
+
+void SubmapBuilder::begin(
+    const TrackedPose& pose, const WorldPoints& registered, const Vec3& origin)
+{
+  current_ = {};
+  current_.session = session_;
+  current_.reference = pose;
+  current_.travel = travel_;
+  surfaces_->clear();
+  const double range = medianRange(registered, pose.T_world_body.p - origin);
+  length_ =
+      rule_.length > 0.0 ? rule_.length : std::clamp(kLengthOverRange * range, kShortest, kLongest);
+}
+
+std::optional<Submap> SubmapBuilder::add(
+    const ScanResult& result, const WorldPoints& registered, const Vec3& origin)
+{
+  if (!hasPose(result.status)) return std::nullopt;
+  const TrackedPose pose = trackedPoseOf(result);
+  if (last_.stamp_ns != 0) travel_ += (pose.T_world_body.p - last_.T_world_body.p).norm();
+  last_ = pose;
+  std::optional<Submap> ended;
+  const Pose& reference = current_.reference.T_world_body;
+  const bool is_full = travel_ - current_.travel >= length_ ||
+                       logSO3(reference.R.transpose() * pose.T_world_body.R).norm() >= rule_.turn;
+  const bool may_end = static_cast<double>(current_.scans) >= rule_.least_scans;
+  if (current_.scans > 0 && may_end && is_full) ended = finish();
+  if (current_.scans == 0) begin(pose, registered, origin);
+  moved(registered, origin, current_.reference.T_world_body.inverse(), local_);
+  if (local_.size() > 0)
+    surfaces_->insert(local_, current_.reference.T_world_body.inverse() * pose.T_world_body.p);
+  current_.last_ns = pose.stamp_ns;
+  ++current_.scans;
+  return ended;
+}
+
+std::optional<Submap> SubmapBuilder::finish()
+{
+  if (current_.scans == 0) return std::nullopt;
+  Submap ended = std::move(current_);
+  ended.planes = surfaces_->bestPlanes();
+  current_ = {};
+  return ended;
+}
+
+}  // namespace fastlio
