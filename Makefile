@@ -11,6 +11,7 @@ SCENARIOS_DIR ?= scenarios-output
 CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
 TUNE_DIR ?= tune-output
+MAP_DIR ?= map-output
 FUZZ_SECONDS ?= 600
 
 BUILD_DIR := build/$(PRESET)
@@ -20,7 +21,7 @@ PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark demo replay scenarios calibration-table tune-demo tune-proxy tune-effects \
+  benchmark demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
   experiments docs format lint packages test-packages test-trixie clean
 
 help:
@@ -34,6 +35,7 @@ help:
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make calibration-table  errors of realistic rigs before and after fastlio-calibrate"
+	@echo "make map-table  errors of realistic rides before and after fastlio-map"
 	@echo "make tune-demo  fastlio-tune makes a bad parameter file better, on simulated recordings"
 	@echo "make tune-proxy  rank correlation of its proxy with true errors; RECORDINGS=DIR as above"
 	@echo "make tune-effects  what each of ten keys does to the error, of four platforms"
@@ -109,6 +111,9 @@ demo: configure
 
 calibration-table: build
 	benchmarks/calibration_table.sh $(BUILD_DIR) $(CALIBRATION_DIR)
+
+map-table: build
+	benchmarks/map_table.sh $(BUILD_DIR) $(MAP_DIR)
 
 tune-demo: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)

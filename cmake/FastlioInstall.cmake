@@ -79,7 +79,7 @@ function(fastlio_install_package)
   install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME} COMPONENT runtime)
   install(FILES cmake/bash_completion RENAME fastlio-replay COMPONENT runtime
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-  foreach(program fastlio-sim fastlio-eval fastlio-info fastlio-calibrate fastlio-import fastlio-tune)
+  foreach(program fastlio-sim fastlio-eval fastlio-info fastlio-calibrate fastlio-import fastlio-tune fastlio-map)
     install(FILES cmake/bash_completion RENAME ${program} COMPONENT runtime
       DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
   endforeach()

@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "librsvg2-bin")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "${FASTLIO_DEB_runtime} (= ${PROJECT_VERSION})")
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
-  "Programs (fastlio-replay, fastlio-sim, fastlio-eval, fastlio-info, fastlio-calibrate, fastlio-import, fastlio-tune), shared libraries and parameter files.")
+  "Programs (fastlio-replay, fastlio-sim, fastlio-eval, fastlio-info, fastlio-calibrate, fastlio-import, fastlio-tune, fastlio-map), shared libraries and parameter files.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers and CMake files to link the modules.")
 set(CPACK_COMPONENT_PLUGIN_DESCRIPTION "Module that MRPT programs load: map and odometry classes.")
 include(CPack)

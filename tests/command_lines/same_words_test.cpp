@@ -37,6 +37,7 @@ const Program kPrograms[] = {
     {"fastlio-sim", {"-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
     {"fastlio-import", {"-o,--output", "--overwrite"}, "--overwrit"},
     {"fastlio-calibrate", {"-c,--config", "-o,--output", "--set", "--json"}, "--jsn"},
+    {"fastlio-map", {"-c,--config", "-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
     {"fastlio-tune", {"-c,--config", "-o,--output", "--json"}, "--jsn"},
 };
 
