@@ -37,7 +37,12 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
   app.add_option("input,--input-rawlog", arguments.recordings, "Recordings of the same rig")
       ->type_name("FILE")
       ->required();
-  app.add_flag("--join", arguments.join, "The files are parts of one recording, in this order");
+  auto* join =
+      app.add_flag("--join", arguments.join, "The files are parts of one recording, in this order");
+  app.add_flag(
+         "--no-join", arguments.no_join,
+         "Each file is a recording of its own, also one that continues another")
+      ->excludes(join);
   app.add_option(
          "-c,--config", arguments.config_file,
          "Parameters of the rig (YAML), to begin with; calibration.*_std are what is known before")

@@ -23,6 +23,7 @@ struct CalibrateArguments
 {
   std::vector<std::string> recordings;
   bool join = false;                  //!< the files are parts of one recording
+  bool no_join = false;               //!< none of them is a part of another
   std::vector<std::string> settings;  //!< KEY=VALUE, over the file
   std::string config_file;            //!< empty: defaults
   std::string output = "calibration.yaml";

@@ -11,6 +11,7 @@
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/survey/input_plan.h>
+#include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
 
 #include <filesystem>
@@ -49,8 +50,12 @@ std::vector<CalibrationRecording> recordingsOf(const CalibrateArguments& argumen
   { return std::filesystem::path(file).filename().string(); };
   if (arguments.join) return {{nameOf(arguments.recordings.front()), arguments.recordings}};
   std::vector<CalibrationRecording> recordings;
-  for (const std::string& file : arguments.recordings)
-    recordings.push_back({nameOf(file), {file}});
+  for (const RecordingParts& parts :
+       arguments.no_join ? withoutJoining(arguments.recordings) : joinParts(arguments.recordings))
+  {
+    if (parts.files.size() > 1 && !arguments.quiet) std::cout << describe(parts) << '\n';
+    recordings.push_back({nameOf(parts.files.front()), parts.files});
+  }
   return recordings;
 }
 

@@ -66,8 +66,12 @@ void addOptions(CLI::App& app, MapArguments& arguments)
          "of several, all show the same place")
       ->type_name("RUN")
       ->required();
-  app.add_flag(
+  auto* join = app.add_flag(
       "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
+  app.add_flag(
+         "--no-join", arguments.no_join,
+         "Each recording is a run of its own, also one that continues another")
+      ->excludes(join);
   app.add_option("-c,--config", arguments.config_file, "Parameters (YAML)")->type_name("FILE.yaml");
   app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
       ->type_name("KEY=VALUE")

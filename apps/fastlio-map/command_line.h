@@ -15,6 +15,7 @@ struct MapArguments
 {
   std::vector<std::string> runs;       //!< recordings, or folders of runs
   bool join = false;                   //!< the recordings are parts of one
+  bool no_join = false;                //!< none of them is a part of another
   std::string config_file;             //!< empty: defaults
   std::vector<std::string> settings;   //!< KEY=VALUE, over the file
   std::string output_directory;        //!< empty: one named after the first run

@@ -167,6 +167,7 @@ ExitStatus run(const MapArguments& arguments)
   {
     names.push_back(input.name);
     recordings.insert(recordings.end(), input.files.begin(), input.files.end());
+    if (!input.note.empty() && !arguments.quiet) std::cout << input.note << '\n';
   }
   const MapFiles files(arguments, names);
   const RunFolderPlan plan = checkedFolder(arguments, files, inputs.size(), recordings);

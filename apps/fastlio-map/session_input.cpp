@@ -8,10 +8,12 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/recordings/recording_reader.h>
+#include <fastlio/survey/recording_parts.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -81,6 +83,18 @@ void requireReadable(const std::vector<std::string>& files)
       throw std::runtime_error("the recording '" + file + "' " + *problem);
 }
 
+/** The recordings that are named themselves, not by the folder of a run. */
+std::vector<RecordingParts> recordingsOf(const MapArguments& arguments)
+{
+  std::vector<std::string> files;
+  std::copy_if(
+      arguments.runs.begin(), arguments.runs.end(), std::back_inserter(files),
+      [](const std::string& run) { return !isRunFolder(run); });
+  if (files.empty()) return {};
+  if (arguments.join) return {{files}};
+  return arguments.no_join ? withoutJoining(files) : joinParts(files);
+}
+
 void makeNamesUnique(std::vector<RunInput>& inputs)
 {
   std::set<std::string> taken;
@@ -96,14 +110,19 @@ void makeNamesUnique(std::vector<RunInput>& inputs)
 std::vector<RunInput> runInputs(const MapArguments& arguments)
 {
   std::vector<RunInput> inputs;
+  const std::vector<RecordingParts> recordings = recordingsOf(arguments);
+  auto recording = recordings.begin();
   for (const std::string& run : arguments.runs)
   {
     if (isRunFolder(run))
+    {
       inputs.push_back(inputOfFolder(run));
-    else if (arguments.join && !inputs.empty())
-      inputs.front().files.push_back(run);
-    else
-      inputs.push_back({recordingName(run), {run}, std::nullopt});
+      continue;
+    }
+    // Further parts have come with the first one.
+    if (recording == recordings.end() || recording->files.front() != run) continue;
+    inputs.push_back({recordingName(run), recording->files, std::nullopt, describe(*recording)});
+    ++recording;
   }
   std::vector<std::string> all;
   for (const RunInput& input : inputs)

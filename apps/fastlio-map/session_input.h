@@ -19,6 +19,7 @@ struct RunInput
   std::string name;  //!< different for each run, fit for a file name
   std::vector<std::string> files;
   std::optional<Config> parameters;  //!< of a run's folder: all, as they were used
+  std::string note = {};             //!< on files that were joined; empty: nothing
 };
 
 /** What the arguments name, folders of runs taken apart.

@@ -5,6 +5,7 @@
 
 #include "../shared/run_names.h"
 #include <fastlio/exporters/run_summary.h>
+#include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/core/format.h>
 
@@ -68,12 +69,18 @@ std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
     runs.push_back({arguments});
     return runs;
   }
-  for (const std::string& recording : arguments.input_files)
+  const auto recordings =
+      arguments.no_join ? withoutJoining(arguments.input_files) : joinParts(arguments.input_files);
+  // One run needs no folders below that of the user.
+  const bool in_folders = recordings.size() > 1 && !arguments.output_directory.empty();
+  for (const RecordingParts& recording : recordings)
   {
-    BatchRun run{arguments};
-    run.arguments.input_files = {recording};
-    if (!arguments.output_directory.empty())
-      run.arguments.output_directory = folderIn(arguments.output_directory, recording, runs);
+    BatchRun run{arguments, describe(recording)};
+    run.arguments.input_files = recording.files;
+    run.arguments.batch = recordings.size() > 1;
+    if (in_folders)
+      run.arguments.output_directory =
+          folderIn(arguments.output_directory, recording.files.front(), runs);
     runs.push_back(run);
   }
   return runs;

@@ -15,11 +15,13 @@ namespace fastlio
 struct BatchRun
 {
   ReplayArguments arguments;
+  std::string note = {};  //!< what the user should know before it; empty: nothing
   int status = 0;
 };
 
-/** The runs that a command line asks for: one, or one for each recording. A run without any output
- * gets a folder of its own. */
+/** The runs that a command line asks for: one, or one for each recording. Files that follow each
+ * other in time are one recording (see joinParts()), unless the user says otherwise. A run without
+ * any output gets a folder of its own. */
 [[nodiscard]] std::vector<BatchRun> runsOf(const ReplayArguments& arguments);
 
 /** A row per run: recording, how it ended, folder. */

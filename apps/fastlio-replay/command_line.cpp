@@ -61,10 +61,14 @@ void addInputOptions(
   app.add_option(
          "recordings", positional,
          "Recordings: rawlogs, bags, MCAP, captures, folders (docs/import.md); of several, each "
-         "gets a run of its own")
+         "gets a run of its own, but those that follow each other in time are one recording")
       ->type_name("RECORDING");
-  app.add_flag(
+  auto* join = app.add_flag(
       "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
+  app.add_flag(
+         "--no-join", arguments.no_join,
+         "Each recording gets a run of its own, also one that continues another")
+      ->excludes(join);
   app.add_option(
          "--set", arguments.settings,
          "Set a parameter as the configuration file would, and over it; may be repeated")
@@ -193,7 +197,8 @@ void requireOutput(const ReplayArguments& arguments)
     throw CLI::RequiredError("--output-dir, where --export writes,");
 }
 
-/** Positional recordings are of their own, those of --input-rawlog parts of one. */
+/** Positional recordings are of their own (or joined later, by their stamps), those of
+ * --input-rawlog parts of one. */
 void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& positional)
 {
   arguments.batch = !arguments.join && positional.size() > 1;

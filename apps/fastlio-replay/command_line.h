@@ -20,7 +20,8 @@ struct ReplayArguments
   std::string config_file;                        //!< empty: all have their defaults
   std::vector<std::string> input_files;           //!< recordings, in order
   bool join = false;                              //!< they are parts of one
-  bool batch = false;                             //!< they are recordings of their own
+  bool batch = false;                             //!< they are recordings of their own, or parts
+  bool no_join = false;                           //!< none of them is a part of another
   std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none

@@ -3,11 +3,11 @@
 
 /** \file main.cpp fastlio-replay: a recording in, trajectory and map out. */
 
+#include "../shared/interruption.h"
+#include "../shared/run_names.h"
 #include "batch.h"
 #include "command_line.h"
-#include "../shared/interruption.h"
 #include "replay_run.h"
-#include "../shared/run_names.h"
 #include "run_report.h"
 #include "run_setup.h"
 #include <fastlio/files/failure_text.h>
@@ -80,10 +80,12 @@ int runNamed(ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
   return status;
 }
 
-int logged(ReplayArguments& arguments)
+int logged(BatchRun& run)
 {
+  ReplayArguments& arguments = run.arguments;
   mrpt::system::COutputLogger logger("fastlio-replay");
   logger.setMinLoggingLevel(arguments.verbosity);
+  if (!run.note.empty()) logger.logStr(mrpt::system::LVL_INFO, run.note);
   try
   {
     return runNamed(arguments, logger);
@@ -106,10 +108,10 @@ int all(const ReplayArguments& arguments)
   std::vector<BatchRun> runs = runsOf(arguments);
   for (std::size_t i = 0; i < runs.size(); ++i)
   {
-    runs[i].status = logged(runs[i].arguments);
+    runs[i].status = logged(runs[i]);
     if (runs[i].status == static_cast<int>(ExitStatus::Interrupted)) runs.resize(i + 1);
   }
-  if (arguments.batch && !arguments.quiet) std::cout << batchTable(runs);
+  if (runs.front().arguments.batch && !arguments.quiet) std::cout << batchTable(runs);
   return worstStatus(runs);
 }
 }  // namespace

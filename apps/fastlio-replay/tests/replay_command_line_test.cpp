@@ -75,6 +75,23 @@ TEST_F(Typed, RecordingsOfTheSameNameGetDifferentFolders)
   EXPECT_TRUE(fs::exists(file("runs/walk-2/summary.json")));
 }
 
+TEST_F(Typed, FilesThatFollowEachOtherAreOneRecording)
+{
+  (void)record("whole.rawlog", {});
+  BoxRecording half;
+  half.seconds = 2.0;
+  (void)record("walk_1.rawlog", half);
+  half.start = 2.0;
+  (void)record("walk_2.rawlog", half);
+  expectEnd(typed({"whole.rawlog", "-o", "whole"}), 0, "");
+  expectEnd(typed({"walk_2.rawlog", "walk_1.rawlog", "-o", "out"}), 0, "parts of one recording");
+  EXPECT_EQ(linesOf(file("out/trajectory.tum")), linesOf(file("whole/trajectory.tum")));
+  expectEnd(typed({"walk_1.rawlog", "walk_2.rawlog"}), 0, "walk_1-run");
+  // The second half rests to its end: nothing to begin with.
+  expectEnd(typed({"walk_1.rawlog", "walk_2.rawlog", "--no-join", "-o", "runs"}), 4, "runs/walk_2");
+  expectEnd(typed({"walk_1.rawlog", "walk_2.rawlog", "--no-join", "--join"}), 1, "--join");
+}
+
 TEST_F(Typed, PartsAreJoinedWhenAsked)
 {
   (void)record("a.rawlog", {});

@@ -1,0 +1,91 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "bridge_recording.h"
+#include <fastlio/math/time.h>
+#include <fastlio/sensors/conversions.h>
+#include <fastlio/survey/recording_parts.h>
+
+#include <sys/stat.h>
+
+namespace
+{
+using namespace fastlio;
+using namespace fastlio::testing;
+using Files = std::vector<std::string>;
+
+class RecordingPartsTest : public BridgeTest
+{
+ protected:
+  /** Inertial samples at 200 Hz and clouds at 10 Hz, from so many seconds on. */
+  std::string fileFrom(
+      double start, double seconds, const std::string& name, const std::string& lidar = "lidar")
+  {
+    std::vector<Object> objects = recording(static_cast<int>(10 * seconds));
+    for (auto& object : objects)
+    {
+      auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object);
+      observation->timestamp =
+          toMrptTime(toNanoseconds(start) + toNanoseconds(observation->timestamp));
+      if (observation->sensorLabel == "lidar") observation->sensorLabel = lidar;
+    }
+    const std::string file = folder_.file(name);
+    write(file, gzip(serialize(objects)));
+    return file;
+  }
+
+  static std::vector<Files> joined(const Files& files)
+  {
+    std::vector<Files> all;
+    for (const RecordingParts& recording : joinParts(files))
+      all.push_back(recording.files);
+    return all;
+  }
+};
+}  // namespace
+
+TEST_F(RecordingPartsTest, FilesThatFollowEachOtherAreOneInTheOrderOfTime)
+{
+  const std::string a = fileFrom(0, 3, "a"), b = fileFrom(3, 3, "b"), c = fileFrom(6, 3, "c");
+  EXPECT_EQ(joined({a, b, c}), (std::vector<Files>{{a, b, c}}));
+  EXPECT_EQ(joined({c, a, b}), (std::vector<Files>{{a, b, c}}));
+  EXPECT_EQ(joined({a}), (std::vector<Files>{{a}}));
+  const auto one = joinParts({c, b, a}).front();
+  ASSERT_EQ(one.pauses.size(), 2U);
+  for (const double pause : one.pauses)
+    EXPECT_NEAR(pause, 0.0, 0.11);
+  EXPECT_NE(describe(one).find(b), std::string::npos);
+  EXPECT_EQ(describe(RecordingParts{{a}}), "");
+}
+
+TEST_F(RecordingPartsTest, OthersStayAlone)
+{
+  const std::string a = fileFrom(0, 3, "a");
+  EXPECT_EQ(joined({a, a}), (std::vector<Files>{{a}, {a}})) << "the same file twice";
+  for (const double start : {0.0, 0.5, 2.2, 4.5, 100.0, 1e6})
+  {
+    const std::string b = fileFrom(start, 3, "b");
+    EXPECT_EQ(joined({a, b}), (std::vector<Files>{{a}, {b}})) << "from " << start << " s on";
+  }
+  const std::string other = fileFrom(3, 3, "other", "roof");
+  EXPECT_EQ(joined({a, other}), (std::vector<Files>{{a}, {other}})) << "another sensor";
+}
+
+TEST_F(RecordingPartsTest, TwoRecordingsInPartsAreTwo)
+{
+  const std::string a1 = fileFrom(0, 3, "a1"), a2 = fileFrom(3, 3, "a2");
+  const std::string b1 = fileFrom(50, 3, "b1"), b2 = fileFrom(53, 3, "b2");
+  EXPECT_EQ(joined({b1, a1, b2, a2}), (std::vector<Files>{{b1, b2}, {a1, a2}}));
+}
+
+TEST_F(RecordingPartsTest, WhatCannotBeReadStaysAlone)
+{
+  const std::string a = fileFrom(0, 3, "a"), b = fileFrom(3, 3, "b");
+  const std::string missing = folder_.file("missing"), rubbish = folder_.file("rubbish");
+  write(rubbish, "no recording");
+  const std::string pipe = folder_.file("pipe");  // opening it would wait for a writer
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(
+      joined({missing, b, rubbish, pipe, a}),
+      (std::vector<Files>{{missing}, {rubbish}, {pipe}, {a, b}}));
+}
