@@ -40,6 +40,31 @@ NoiseMeasurement measured(double gyro_density, double accel_density, int samples
 }
 }  // namespace
 
+TEST(SampleScatter, IsTheDensityOfAllSamples)
+{
+  std::mt19937 engine(3);
+  std::normal_distribution<double> normal;
+  SampleScatter scatter;
+  EXPECT_EQ(scatter.gyroDensity(), 0.0);
+  for (int i = 0; i < 4000; ++i)
+  {
+    if (i % 500 == 499) continue;  // a missing sample is no scatter
+    const double t = 0.005 * i, scale = std::sqrt(200.0) * (i < 2000 ? 1.0 : 3.0);
+    ImuSample sample;
+    sample.stamp_ns = 1 + i * kPeriodNs;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sample.gyro[axis] = 2.0 * t + 8.0 * std::sin(6.0 * t) + 0.002 * scale * normal(engine);
+      sample.accel[axis] = 9.8 + 0.05 * scale * normal(engine);
+    }
+    scatter.add(sample);
+  }
+  EXPECT_NEAR(scatter.duration(), 20.0, 0.02);
+  // The mean of the squares of 1 and 3 is 5.
+  EXPECT_NEAR(scatter.gyroDensity(), 0.002 * std::sqrt(5.0), 2e-4);
+  EXPECT_NEAR(scatter.accelDensity(), 0.05 * std::sqrt(5.0), 5e-3);
+}
+
 TEST(NoiseMeasurement, CountsAThirdOfWhatItSees)
 {
   const ImuNoise noise = measured(6e-3, 0.09, 400).atLeast(kSensor);

@@ -80,7 +80,7 @@ ImuReport Odometry::imuReport() const
 }
 const std::vector<Diagnostic>& Odometry::diagnostics() const
 {
-  return impl_->diagnostics_;
+  return impl_->diagnostics_.all();
 }
 
 }  // namespace fastlio

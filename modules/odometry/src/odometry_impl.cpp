@@ -19,16 +19,6 @@ namespace fastlio
 {
 namespace
 {
-// Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
-constexpr double kOddDeviations = 5.0;
-
-bool isOdd(const Vec3& error, const Vec3& std, double given_std)
-{
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(error[axis]) > kOddDeviations * std::max(std[axis], given_std)) return true;
-  return false;
-}
-
 const OdometryOptions& validated(const OdometryOptions& parameters)
 {
   validate(parameters);
@@ -39,6 +29,7 @@ const OdometryOptions& validated(const OdometryOptions& parameters)
 Odometry::Impl::Impl(const OdometryOptions& options)
     : options_(validated(options)),
       estimator_(options),
+      diagnostics_(options),
       conditioner_(options.imu, options.initialization.gravity),
       beam_corrections_(options.lidar.beam_offsets),
       intake_(options.imu.max_gap, options.lidar.max_waiting),
@@ -85,7 +76,7 @@ void Odometry::Impl::take(const std::vector<ConditionedSample>& samples)
   for (const ConditionedSample& sample : samples)
     take(sample);
   for (Diagnostic& found : conditioner_.takeDiagnostics())
-    diagnostics_.push_back(std::move(found));
+    diagnostics_.add(found.stamp_ns, std::move(found.text));
   intake_.reconsider(conditioner_.clockOffset());
 }
 
@@ -103,6 +94,7 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
   switch (imu_.add(sample))
   {
     case ImuBuffer::Verdict::Accepted:
+      diagnostics_.consider(sample);
       break;
     case ImuBuffer::Verdict::NotFinite:
       ++counted_.imu_not_finite;
@@ -131,7 +123,7 @@ void Odometry::Impl::addScan(LidarScan scan)
     return;
   }
   if (const auto median = range_unit_.bringToMetres(scan.points))
-    report(
+    diagnostics_.add(
         scan.stamp_ns, mrpt::format(
                            "the points of the LiDAR are %.0f away in the median: they are taken as "
                            "millimetres, not metres",
@@ -190,67 +182,8 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   const auto loss =
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
   if (loss) reinitialise(*loss, result.stamp_ns);
-  reportMounting(result);
-  reportExtrinsic(result);
-  reportMotion(result);
+  diagnostics_.consider(result);
   return result;
-}
-
-void Odometry::Impl::reportMounting(const ScanResult& result)
-{
-  const std::optional<MountingError>& error = result.statistics.mounting_error;
-  if (mounting_reported_ || !error || error->leastAngle() < maxMountingError(options_.calibration))
-    return;
-  mounting_reported_ = true;
-  const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
-  report(
-      result.stamp_ns,
-      mrpt::format(
-          "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
-          "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
-          "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
-          kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
-}
-
-/** Below what makes a scan one in trouble: real sensors may be as imperfect. */
-void Odometry::Impl::reportMotion(const ScanResult& result)
-{
-  const double innovation = result.statistics.unexplained_motion_innovation;
-  if (motion_reported_ || mounting_reported_ || innovation < kMaxMotionInnovation) return;
-  motion_reported_ = true;
-  report(
-      result.stamp_ns,
-      mrpt::format(
-          "scans and inertial data see different motions, %.0f times as far apart as their noise "
-          "explains; a mounting (T_imu_lidar) or inertial sensor that is slightly off explains a "
-          "part of it, and the covariance counts that. Otherwise: check units, point times, clocks "
-          "and clipped or missing inertial readings",
-          innovation));
-}
-
-/** Smaller than what reportMounting() sees, and after a longer time. */
-void Odometry::Impl::reportExtrinsic(const ScanResult& result)
-{
-  const CalibrationCheck& check = result.statistics.calibration;
-  const CalibrationOptions& given = options_.calibration;
-  const bool turned = isOdd(check.rotation, check.rotation_std, given.extrinsic_rotation_std);
-  const bool moved =
-      isOdd(check.translation, check.translation_std, given.extrinsic_translation_std);
-  if (extrinsic_reported_ || mounting_reported_ || (!turned && !moved)) return;
-  extrinsic_reported_ = true;
-  const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
-  const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
-  report(
-      result.stamp_ns,
-      mrpt::format(
-          "the pose of the LiDAR in the IMU frame seems to be wrong: turned by (%.2f +- %.2f, %.2f "
-          "+- %.2f, %.2f +- %.2f) deg, moved by (%.0f +- %.0f, %.0f +- %.0f, %.0f +- %.0f) mm; the "
-          "covariance counts this, the trajectory does not. Check input.T_vehicle_lidar and "
-          "input.T_vehicle_imu, or set calibration.extrinsic_rotation_std and "
-          "extrinsic_translation_std to what is known of them",
-          rotation.x(), rotation_std.x(), rotation.y(), rotation_std.y(), rotation.z(),
-          rotation_std.z(), translation.x(), translation_std.x(), translation.y(),
-          translation_std.y(), translation.z(), translation_std.z()));
 }
 
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)

@@ -8,6 +8,7 @@
 #include "estimator.h"
 #include "initialization.h"
 #include "reinitialization.h"
+#include "run_diagnostics.h"
 #include "scan_intake.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_conditioner.h>
@@ -40,7 +41,7 @@ class Odometry::Impl
   const OdometryOptions options_;
   Estimator estimator_;
   Vec3 map_origin_ = Vec3::Zero();
-  std::vector<Diagnostic> diagnostics_;
+  RunDiagnostics diagnostics_;
 
  private:
   void take(const std::vector<ConditionedSample>& samples);
@@ -52,10 +53,6 @@ class Odometry::Impl
   [[nodiscard]] std::optional<ScanResult> processOldest();
   void start(const StartDecision& decision);
   void reinitialise(const std::string& why, std::int64_t stamp_ns);
-  void report(std::int64_t stamp_ns, std::string text);
-  void reportMounting(const ScanResult& result);
-  void reportExtrinsic(const ScanResult& result);
-  void reportMotion(const ScanResult& result);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
   [[nodiscard]] bool usable(const ScanSpan& span);
   [[nodiscard]] QueuedScan popScan();
@@ -69,7 +66,6 @@ class Odometry::Impl
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;
-  bool mounting_reported_ = false, extrinsic_reported_ = false, motion_reported_ = false;
   std::vector<ImuRateState> imu_rate_in_world_;  // where map_origin_ is not zero
 };
 

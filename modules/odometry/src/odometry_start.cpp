@@ -18,13 +18,7 @@ namespace
 // A scan may begin a little before the inertial data do: a sample holds before its stamp, too.
 constexpr std::int64_t kStartHoldBeforeNs = 20'000'000;
 constexpr double kUpsideDown = -0.5;  // z of the upward direction in the IMU frame
-constexpr std::size_t kMostDiagnostics = 1000;
 }  // namespace
-
-void Odometry::Impl::report(std::int64_t stamp_ns, std::string text)
-{
-  if (diagnostics_.size() < kMostDiagnostics) diagnostics_.push_back({stamp_ns, std::move(text)});
-}
 
 void Odometry::Impl::start(const StartDecision& decision)
 {
@@ -33,14 +27,14 @@ void Odometry::Impl::start(const StartDecision& decision)
     estimator_.reinitialise(
         *decision.state, decision.stamp_ns, decision.motion_window,
         reinitialization_.takeCarried(decision.stamp_ns));
-    report(decision.stamp_ns, "re-initialised with the pose carried over");
+    diagnostics_.add(decision.stamp_ns, "re-initialised with the pose carried over");
     return;
   }
   estimator_.start(*decision.state, decision.stamp_ns, decision.motion_window);
   const NavState& x = decision.state->x;
   const Vec3 up = -(x.R.transpose() * x.g).normalized();
   if (up.z() < kUpsideDown)
-    report(
+    diagnostics_.add(
         decision.stamp_ns,
         mrpt::format(
             "the IMU is mounted upside down (up is [%.2f %.2f %.2f] in its frame), which is fine; "
@@ -130,7 +124,7 @@ void Odometry::Impl::reinitialise(const std::string& why, std::int64_t stamp_ns)
 {
   estimator_.suspend();
   start_finder_ = StartFinder(Reinitialization::startingAnyHow(options_));
-  report(stamp_ns, "the run is re-initialised: " + why);
+  diagnostics_.add(stamp_ns, "the run is re-initialised: " + why);
 }
 
 }  // namespace fastlio

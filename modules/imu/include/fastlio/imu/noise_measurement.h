@@ -6,16 +6,38 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
+#include <fastlio/math/time.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace fastlio
 {
-/** Measures the noise of samples by their third differences, which leave nothing of a motion that
- * changes slowly against the rate. Of white noise with the variance s^2, the variance of
+/** Noise of one axis of a sample, as the square of its density. */
+struct SampleNoise
+{
+  double gyro = 0.0;   //!< [rad^2/s^2/Hz]
+  double accel = 0.0;  //!< [m^2/s^4/Hz]
+};
+
+/** Third differences of samples, which leave nothing of a motion that changes slowly against the
+ * rate. Of white noise with the variance s^2, the variance of
  * a_i - 3 a_{i-1} + 3 a_{i-2} - a_{i-3} is 20 s^2. */
+class ThirdDifferences
+{
+ public:
+  /** \return what the last four samples tell: nothing when one is missing among them */
+  [[nodiscard]] std::optional<SampleNoise> add(const ImuSample& sample);
+
+ private:
+  std::array<ImuSample, 3> before_;  //!< the latest first
+  std::size_t known_ = 0;            //!< of them
+};
+
+/** The noise that samples have had lately. */
 class NoiseMeasurement
 {
  public:
@@ -29,11 +51,32 @@ class NoiseMeasurement
   [[nodiscard]] ImuNoise atLeast(const ImuNoise& noise) const;
 
  private:
-  std::array<ImuSample, 3> before_;  //!< the latest first
-  std::size_t known_ = 0;            //!< of them
-  double gyro_variance_ = 0.0;   //!< of a sample's axis, over its time: density^2 [rad^2/s^2/Hz]
-  double accel_variance_ = 0.0;  //!< likewise [m^2/s^4/Hz]
+  ThirdDifferences differences_;
+  SampleNoise mean_;
   double count_ = 0.0;
+};
+
+/** The noise that all samples have had, and for how long. */
+class SampleScatter
+{
+ public:
+  /** Takes the next sample. */
+  void add(const ImuSample& sample);
+
+  [[nodiscard]] double duration() const { return toSeconds(last_ns_ - first_ns_); }  //!< [s]
+  [[nodiscard]] double gyroDensity() const { return density(sum_.gyro); }    //!< [rad/s/sqrt(Hz)]
+  [[nodiscard]] double accelDensity() const { return density(sum_.accel); }  //!< [m/s^2/sqrt(Hz)]
+
+ private:
+  [[nodiscard]] double density(double sum) const
+  {
+    return count_ > 0 ? std::sqrt(sum / count_) : 0;
+  }
+
+  ThirdDifferences differences_;
+  SampleNoise sum_;
+  double count_ = 0.0;
+  std::int64_t first_ns_ = 0, last_ns_ = 0;
 };
 
 }  // namespace fastlio
