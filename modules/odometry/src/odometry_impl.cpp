@@ -76,7 +76,7 @@ void Odometry::Impl::take(const std::vector<ConditionedSample>& samples)
   for (const ConditionedSample& sample : samples)
     take(sample);
   for (Diagnostic& found : conditioner_.takeDiagnostics())
-    diagnostics_.add(found.stamp_ns, std::move(found.text));
+    diagnostics_.report(found.stamp_ns, std::move(found.text));
   intake_.reconsider(conditioner_.clockOffset());
 }
 
@@ -123,7 +123,7 @@ void Odometry::Impl::addScan(LidarScan scan)
     return;
   }
   if (const auto median = range_unit_.bringToMetres(scan.points))
-    diagnostics_.add(
+    diagnostics_.report(
         scan.stamp_ns, mrpt::format(
                            "the points of the LiDAR are %.0f away in the median: they are taken as "
                            "millimetres, not metres",

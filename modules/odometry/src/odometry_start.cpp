@@ -27,14 +27,14 @@ void Odometry::Impl::start(const StartDecision& decision)
     estimator_.reinitialise(
         *decision.state, decision.stamp_ns, decision.motion_window,
         reinitialization_.takeCarried(decision.stamp_ns));
-    diagnostics_.add(decision.stamp_ns, "re-initialised with the pose carried over");
+    diagnostics_.report(decision.stamp_ns, "re-initialised with the pose carried over");
     return;
   }
   estimator_.start(*decision.state, decision.stamp_ns, decision.motion_window);
   const NavState& x = decision.state->x;
   const Vec3 up = -(x.R.transpose() * x.g).normalized();
   if (up.z() < kUpsideDown)
-    diagnostics_.add(
+    diagnostics_.report(
         decision.stamp_ns,
         mrpt::format(
             "the IMU is mounted upside down (up is [%.2f %.2f %.2f] in its frame), which is fine; "
@@ -124,7 +124,7 @@ void Odometry::Impl::reinitialise(const std::string& why, std::int64_t stamp_ns)
 {
   estimator_.suspend();
   start_finder_ = StartFinder(Reinitialization::startingAnyHow(options_));
-  diagnostics_.add(stamp_ns, "the run is re-initialised: " + why);
+  diagnostics_.report(stamp_ns, "the run is re-initialised: " + why);
 }
 
 }  // namespace fastlio

@@ -33,7 +33,7 @@ bool isOdd(const Vec3& error, const Vec3& std, double given_std)
 
 }  // namespace
 
-void RunDiagnostics::add(std::int64_t stamp_ns, std::string text)
+void RunDiagnostics::report(std::int64_t stamp_ns, std::string text)
 {
   if (all_.size() < kMostDiagnostics) all_.push_back({stamp_ns, std::move(text)});
 }
@@ -48,7 +48,8 @@ void RunDiagnostics::consider(const ImuSample& sample)
   const double accel_ratio = accel / imu_noise_.accel_noise_density;
   if (std::max(gyro_ratio, accel_ratio) < kMostScatter) return;
   scatter_told_ = true;
-  add(sample.stamp_ns,
+  report(
+      sample.stamp_ns,
       mrpt::format(
           "inertial samples scatter more than their noise densities say, the angular rate %.1f "
           "times, the specific force %.1f times: as if imu.gyro_noise_density were %.2g and "
@@ -70,7 +71,8 @@ void RunDiagnostics::considerMounting(const ScanResult& result)
   if (mounting_told_ || !error || error->leastAngle() < maxMountingError(calibration_)) return;
   mounting_told_ = true;
   const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
-  add(result.stamp_ns,
+  report(
+      result.stamp_ns,
       mrpt::format(
           "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
           "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
@@ -84,7 +86,8 @@ void RunDiagnostics::considerMotion(const ScanResult& result)
   const double innovation = result.statistics.unexplained_motion_innovation;
   if (motion_told_ || mounting_told_ || innovation < kMaxMotionInnovation) return;
   motion_told_ = true;
-  add(result.stamp_ns,
+  report(
+      result.stamp_ns,
       mrpt::format(
           "scans and inertial data see different motions, %.0f times as far apart as their noise "
           "explains; a mounting (T_imu_lidar) or inertial sensor that is slightly off explains a "
@@ -105,7 +108,8 @@ void RunDiagnostics::considerExtrinsic(const ScanResult& result)
   extrinsic_told_ = true;
   const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
   const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
-  add(result.stamp_ns,
+  report(
+      result.stamp_ns,
       mrpt::format(
           "the pose of the LiDAR in the IMU frame seems to be wrong: turned by (%.2f +- %.2f, %.2f "
           "+- %.2f, %.2f +- %.2f) deg, moved by (%.0f +- %.0f, %.0f +- %.0f, %.0f +- %.0f) mm; the "

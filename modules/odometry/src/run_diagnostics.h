@@ -25,7 +25,7 @@ class RunDiagnostics
   }
 
   /** Beyond some hundreds, later ones are left out. */
-  void add(std::int64_t stamp_ns, std::string text);
+  void report(std::int64_t stamp_ns, std::string text);
 
   /** Looks at the next inertial sample. */
   void consider(const ImuSample& sample);
