@@ -56,6 +56,10 @@ void addFileOptions(CLI::App& app, TuneCommand& c)
       ->type_name("FILE.yaml");
   app.add_option("--json", c.files.json, "Also write the result to this file")
       ->type_name("FILE.json");
+  app.add_option(
+         "--report", c.files.report,
+         "Page with errors, keys and the course of the search; default: OUTPUT with .html")
+      ->type_name("FILE.html");
   app.add_option("--store", c.runner.store, "Finished runs (SQLite); default: OUTPUT.sqlite")
       ->type_name("FILE");
 }
@@ -144,6 +148,8 @@ void setTask(TuneCommand& c, const Tasks& tasks)
   if (c.files.space.empty()) throw CLI::RequiredError("a search space (SPACE.yaml)");
   if (c.files.recordings.empty()) throw CLI::RequiredError("recordings");
   if (c.runner.store.empty()) c.runner.store = c.files.output + ".sqlite";
+  if (c.files.report.empty())
+    c.files.report = std::filesystem::path(c.files.output).replace_extension(".html").string();
 }
 }  // namespace
 

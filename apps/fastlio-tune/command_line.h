@@ -25,6 +25,7 @@ struct SearchOptions
 struct TuneFiles
 {
   std::string space, base, output = "tuned.yaml", json;
+  std::string report;  //!< page; empty: beside the output
   std::vector<std::string> recordings, truths;
 };
 

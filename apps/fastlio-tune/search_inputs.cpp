@@ -137,7 +137,9 @@ void requireHarmlessOutputs(const TuneCommand& command, const SearchInputs& inpu
     if (!recording.truth.empty()) read.push_back({recording.truth, "--truth"});
   }
   std::vector<FileUse> written = {
-      {command.files.output, "--output"}, {command.runner.store, "--store"}};
+      {command.files.output, "--output"},
+      {command.files.report, "--report"},
+      {command.runner.store, "--store"}};
   if (!command.files.json.empty()) written.push_back({command.files.json, "--json"});
   requireDistinctFiles(read, written);
 }

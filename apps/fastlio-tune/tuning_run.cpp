@@ -3,6 +3,7 @@
 
 #include "tuning_run.h"
 
+#include "tuning_report.h"
 #include <fastlio/files/atomic_file.h>
 
 #include <algorithm>
@@ -84,7 +85,9 @@ Conclusion tune(const TuneCommand& command)
     writeFileAtomically(command.files.output, toParameterFile(command, inputs, result));
   if (!command.files.json.empty())
     writeFileAtomically(command.files.json, toJson(command, inputs, result));
+  writeFileAtomically(command.files.report, toPage(command, inputs, result));
   std::cout << toTable(command, inputs, result);
+  if (!command.quiet) std::cout << "Page: " << command.files.report << '\n';
   return result.conclusion;
 }
 }  // namespace fastlio

@@ -49,6 +49,11 @@ expect 0 'Better parameters: tuned.yaml' "$tune" space.yaml a.rawlog b.rawlog c.
   --method cmaes -o tuned.yaml --json tuned.json
 grep -q '^#.*time_offset: 0.04 -> ' tuned.yaml || fail 'tuned.yaml does not tell the change'
 grep -q '"conclusion": "better"' tuned.json || fail 'tuned.json has another conclusion'
+grep -q '<h1>Better parameters: tuned.yaml</h1>' tuned.html || fail 'tuned.html has another headline'
+[ "$(grep -c '<tr><td>[abc].rawlog</td>' tuned.html)" -eq 3 ] || fail 'tuned.html lacks a recording'
+[ "$(grep -c '<svg ' tuned.html)" -eq 3 ] || fail 'tuned.html: a figure per key, and the search'
+[ "$(grep -c '<circle' tuned.html)" -ge 10 ] || fail 'tuned.html lacks sets'
+! grep -qE 'NaN|nan|inf' tuned.html || fail 'tuned.html has no numbers'
 error() { # CONFIG: RMSE [m] on a.rawlog
   "$replay" a.rawlog -c "$1" -o run --overwrite -q --export trajectory 2>log || [ $? -eq 6 ]
   "$eval" a.gt.tum run/trajectory.tum --json - | grep -A9 '"ape"' | sed -n 's/.*"rmse": *\([0-9.e-]*\).*/\1/p' | head -1
@@ -59,9 +64,11 @@ awk "BEGIN {exit !($after < 0.5 * $before)}" || fail "APE $before m before, $aft
 
 # The same again runs nothing, and says the same.
 cp tuned.yaml first.yaml
+cp tuned.html first.html
 before=$(counts tuned.yaml.sqlite)
 expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml --budget 12 -o tuned.yaml
 cmp tuned.yaml first.yaml || fail 'the second time gives other parameters'
+cmp tuned.html first.html || fail 'the second time gives another page'
 [ "$(counts tuned.yaml.sqlite)" = "$before" ] || fail 'finished runs were run again'
 
 # Killed twice at any time, then continued: no run lost, none stored twice, and the same result.
@@ -75,7 +82,9 @@ for pause in 0.2 1; do
   sleep 0.3
   ! pgrep -f "$TMPDIR" >/dev/null || fail 'a run goes on after its tuner was killed'
 done
-expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml
+expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml \
+  --report other.html
+[ -s other.html ] && [ ! -e killed.html ] || fail '--report names the page'
 [ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
 cmp killed.yaml first.yaml || fail 'a killed search ends with other parameters'
 echo "$(counts tuned.yaml.sqlite) $(counts killed.yaml.sqlite)" | awk '

@@ -3,7 +3,7 @@
 
 #include "report_charts.h"
 
-#include <fastlio/exporters/report_figure.h>
+#include <fastlio/plot/report_figure.h>
 #include <fastlio/exporters/run_health.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>

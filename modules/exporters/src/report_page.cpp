@@ -4,7 +4,7 @@
 #include "report_page.h"
 
 #include "report_charts.h"
-#include <fastlio/exporters/report_figure.h>
+#include <fastlio/plot/report_figure.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/options/number_text.h>
 

@@ -7,7 +7,7 @@
 #include "report_map.h"
 #include "report_reference.h"
 #include "report_series.h"
-#include <fastlio/exporters/report_figure.h>
+#include <fastlio/plot/report_figure.h>
 #include <fastlio/exporters/run_summary.h>
 
 #include <string>

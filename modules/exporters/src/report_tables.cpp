@@ -3,7 +3,7 @@
 
 #include "report_advice.h"
 #include "report_page.h"
-#include <fastlio/exporters/report_figure.h>
+#include <fastlio/plot/report_figure.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>

@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/report_figure.h>
 #include <fastlio/mapping/map_report.h>
 #include <fastlio/mapping/registration.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/plot/report_figure.h>
 
 #include <algorithm>
 #include <cmath>
@@ -243,10 +243,6 @@ std::string sessionTable(const BuiltMap& map)
          rows + "</table></div>\n";
 }
 
-std::string section(const std::string& title, const std::string& content)
-{
-  return "<h2>" + title + "</h2>\n" + content;
-}
 }  // namespace
 
 std::vector<ClosureAgreement> agreements(const MappingResult& r)
@@ -275,20 +271,16 @@ std::string mapReportHtml(const MapAccount& account)
     notes += "<p class=\"note\">" + htmlText(note) + "</p>\n";
   std::string inputs;
   for (const std::string& input : account.inputs)
-    inputs += (inputs.empty() ? "" : ", ") + htmlText(input);
-  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
-         "<title>Map: " +
-         inputs + "</title>\n<style>" + reportStyle() +
-         "</style></head>\n<body>\n<header class=\"" + (good ? "good" : "warn") + "\">\n<h1>" +
-         htmlText(mapSentence(account)) + ".</h1>\n<p class=\"source\">fastlio-map " +
-         htmlText(account.version) + ", " + inputs + "; status " + toString(account.status) +
-         "</p>\n</header>\n" + section("Sessions", sessionTable(account.map) + notes) +
-         section(
-             "Before and after", "<div class=\"grid-of\">\n" + topFigure(r) + heightFigure(r) +
-                                     correctionFigure(r) + apartFigure(account) +
-                                     wallFigures(account) + "</div>\n") +
-         section("Closures", closureTable(r)) + "</body></html>\n";
+    inputs += (inputs.empty() ? "" : ", ") + input;
+  return pageHtml(
+      {"Map: " + inputs, good ? "good" : "warn", mapSentence(account) + ".",
+       "fastlio-map " + account.version + ", " + inputs + "; status " + toString(account.status),
+       sectionHtml("Sessions", sessionTable(account.map) + notes) +
+           sectionHtml(
+               "Before and after", "<div class=\"grid-of\">\n" + topFigure(r) + heightFigure(r) +
+                                       correctionFigure(r) + apartFigure(account) +
+                                       wallFigures(account) + "</div>\n") +
+           sectionHtml("Closures", closureTable(r))});
 }
 
 }  // namespace fastlio

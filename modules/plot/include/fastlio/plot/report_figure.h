@@ -28,4 +28,19 @@ struct LegendEntry
 /** The style of a page, for light and dark screens. */
 [[nodiscard]] std::string reportStyle();
 
+/** A heading with what belongs to it. \param content is HTML */
+[[nodiscard]] std::string sectionHtml(const std::string& title, const std::string& content);
+
+/** A page: one file that needs no other. */
+struct Page
+{
+  std::string title;
+  std::string tone;      //!< "good", "warn" or "bad": colours the headline
+  std::string headline;  //!< a sentence
+  std::string source;    //!< program, version, input
+  std::string content;   //!< HTML; all others are plain text
+};
+
+[[nodiscard]] std::string pageHtml(const Page& page);
+
 }  // namespace fastlio

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/report_figure.h>
+#include <fastlio/plot/report_figure.h>
 
 namespace fastlio
 {

@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/report_figure.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/plot/report_figure.h>
 
 namespace fastlio
 {
@@ -29,6 +29,21 @@ std::string figureHtml(
       "</svg>\n";
   if (!remark.empty()) html += "<p>" + remark + "</p>\n";
   return html + "</figure>\n";
+}
+
+std::string sectionHtml(const std::string& title, const std::string& content)
+{
+  return "<section>\n<h2>" + htmlText(title) + "</h2>\n" + content + "</section>\n";
+}
+
+std::string pageHtml(const Page& page)
+{
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
+         htmlText(page.title) + "</title>\n<style>\n" + reportStyle() +
+         "</style>\n</head>\n<body>\n<header class=\"" + page.tone + "\">\n<h1>" +
+         htmlText(page.headline) + "</h1>\n<p class=\"source\">" + htmlText(page.source) +
+         "</p>\n</header>\n<main>\n" + page.content + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace fastlio

@@ -1,0 +1,16 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file tuning_report.h What a search has found, as a page. */
+#pragma once
+
+#include "tuning_result.h"
+
+#include <string>
+
+namespace fastlio
+{
+/** One file that opens offline: conclusion, errors per recording, every set, every key. */
+[[nodiscard]] std::string toPage(
+    const TuneCommand& command, const SearchInputs& inputs, const TuningResult& result);
+}  // namespace fastlio

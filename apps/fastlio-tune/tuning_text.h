@@ -1,0 +1,31 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file tuning_text.h What table, parameter file and page say in the same words. */
+#pragma once
+
+#include "tuning_result.h"
+
+#include <string>
+
+namespace fastlio
+{
+/** "0.0123", "0.0123 degraded", "failed". */
+[[nodiscard]] std::string textOf(const Judged& run);
+
+/** "0.512", with the state where it is another than that of the base; that alone without a number.
+ */
+[[nodiscard]] std::string ratioText(const Judged& base, const Judged& run);
+
+/** Without its folder, printable. */
+[[nodiscard]] std::string fileNameOf(const std::string& path);
+
+/** What the numbers of the effects are. */
+[[nodiscard]] std::string effectsTitle(const TuneCommand& command);
+
+/** A sentence. */
+[[nodiscard]] std::string conclusionText(const TuneCommand& command, const TuningResult& result);
+
+/** A better mean that costs one recording is not taken; the user may want to know. */
+[[nodiscard]] std::string costText(const SearchInputs& inputs, const TuningResult& result);
+}  // namespace fastlio
