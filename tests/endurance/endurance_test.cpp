@@ -100,7 +100,7 @@ class LongRun
     SimulationSettings s = defaultSettings("office");
     s.duration = kHour;
     s.rest = std::max(s.rest, rest);
-    s.lidar.rate = 5.0;
+    s.lidar.rate = 3.0;
     s.lidar.stride = 16;
     s.imu.rate = 100.0;
     return s;

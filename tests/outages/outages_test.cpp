@@ -172,10 +172,14 @@ TEST_P(AnyFault, EndsRightOrIsReported)
   const CastWalk walk(GetParam());
   OdometryOptions options = matchingParameters(walk.simulation.settings());
   options.threads = 2;
-  const double step = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr ? 1.0 : 16.0;
-  for (const Fault& fault : kFaults)
-    for (double begin = 7.0; begin + fault.length_s < 22.0; begin += step)
+  // All faults at every second in the full grid; here one half of them on each walk.
+  const bool every = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr;
+  const double step = every ? 1.0 : 16.0;
+  const std::size_t first = GetParam() == "office" ? 0 : 1;
+  for (std::size_t i = every ? 0 : first; i < kFaults.size(); i += every ? 1 : 2)
+    for (double begin = 7.0; begin + kFaults[i].length_s < 22.0; begin += step)
     {
+      const Fault& fault = kFaults[i];
       const std::int64_t begin_ns = walk.simulation.settings().start_ns + toNanoseconds(begin);
       AlteredInputs inputs = altered(fault, begin_ns);
       inputs.cast = &walk.scans;
