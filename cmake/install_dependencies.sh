@@ -18,9 +18,9 @@ benchmark_packages="libbenchmark-dev"
 # MRPT's own programs, which the tests run on our outputs; fastlio-eval makes PNGs by librsvg's; GNU parallel starts
 # workers of fastlio-tune; the benchmarks are tested, too.
 test_packages="mrpt-apps librsvg2-bin parallel $benchmark_packages"
-# Other writers of recordings, whose files the tests of the import read where they are installed; Slurm, which starts
+# Other writers of recordings, whose files the tests of the import read where they are installed; Slurm and ssh, which start
 # workers of fastlio-tune.
-conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd slurm-wlm"
+conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd slurm-wlm openssh-client openssh-server"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
 packages_packages="help2man dpkg-dev file"

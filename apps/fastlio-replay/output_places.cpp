@@ -17,6 +17,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kTrajectory = "trajectory.tum";
+constexpr const char* kReport = "report.html";
 
 std::vector<std::string> namesInFolder(const ReplayArguments& arguments, const Config& config)
 {
@@ -74,6 +75,15 @@ void requireOutsideOfRecordings(
               "', which belongs to the recording '" + rawlog + "'; choose another place");
 }
 
+/** Only the report tells of a reference. */
+void requireReport(const ReplayArguments& arguments, const std::vector<std::string>& names)
+{
+  if (arguments.reference.empty() || std::count(names.begin(), names.end(), kReport) > 0) return;
+  throw std::invalid_argument(
+      std::string("--reference is compared with in ") + kReport +
+      ", which is not among the outputs: name it with --export (report), or leave --reference out");
+}
+
 std::string tumFolder(const std::string& path)
 {
   if (fs::is_directory(path))
@@ -96,6 +106,7 @@ OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
   const std::vector<FileUse> outputs = outputsOf(arguments, names);
   requireDistinctFiles(inputs, outputs);
   requireOutsideOfRecordings(arguments, outputs);
+  requireReport(arguments, names);
   if (!arguments.output_directory.empty())
   {
     plan.folder = RunFolderPlan{

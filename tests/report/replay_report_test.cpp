@@ -121,6 +121,18 @@ TEST_F(ReplayReport, AReferenceIsNotReplaced)
   EXPECT_TRUE(contentOf(in("ground_truth.tum")) == truth);
 }
 
+TEST_F(ReplayReport, AReferenceNeedsTheReport)
+{
+  const ProcessResult result =
+      Process(
+          {FASTLIO_REPLAY_PROGRAM, in("recording.rawlog"), "--reference", in("ground_truth.tum"),
+           "-o", in("out"), "--export", "trajectory"},
+          in("log"))
+          .wait();
+  EXPECT_EQ(result.exit_status, 1) << result.output;
+  EXPECT_TRUE(says(result.output, "--export (report)")) << result.output;
+}
+
 TEST_F(ReplayReport, AReferenceNeedsAFolderForTheReport)
 {
   const ProcessResult result =
