@@ -12,6 +12,7 @@ CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
 TUNE_DIR ?= tune-output
 MAP_DIR ?= map-output
+MOLA_SOURCES ?=
 FUZZ_SECONDS ?= 600
 
 BUILD_DIR := build/$(PRESET)
@@ -22,7 +23,7 @@ PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
   benchmark demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
-  experiments docs format lint packages test-packages test-trixie clean
+  experiments docs format lint packages test-packages test-trixie test-mola test-mola-trixie clean
 
 help:
 	@echo "make demo    install what is missing, build, run the odometry on a simulated recording"
@@ -49,6 +50,7 @@ help:
 	@echo "make packages    Debian packages (runtime, dev, plugin) in build/packages/apt, a folder that apt reads"
 	@echo "make test-packages  installs them in a clean Debian 12 root and runs them there (needs root)"
 	@echo "make test-trixie builds and tests in a Debian 13 root, with MRPT 2.14 (needs root)"
+	@echo "make test-mola MOLA_SOURCES=DIR   builds MOLA and our module, runs the real mola-cli; test-mola-trixie: in Debian 13"
 	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/, $(EXPERIMENTS_DIR)/ and $(TUNE_DIR)/"
 
 dependencies:
@@ -163,6 +165,13 @@ test-packages: packages
 
 test-trixie:
 	cmake/test_in_trixie.sh build/trixie
+
+test-mola:
+	cmake/install_dependencies.sh build mola
+	cmake/test_mola.sh "$(MOLA_SOURCES)" build/mola || [ $$? -eq 77 ]
+
+test-mola-trixie:
+	cmake/test_in_trixie.sh build/trixie "$(MOLA_SOURCES)"
 
 clean:
 	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR) $(TUNE_DIR)

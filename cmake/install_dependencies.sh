@@ -2,7 +2,7 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [conformance] [lint] [benchmark] [instructions] [packages] [fuzz]
+# Usage: cmake/install_dependencies.sh [build] [test] [conformance] [lint] [benchmark] [instructions] [mola] [packages] [fuzz]
 # (default: build)
 set -eu
 
@@ -23,6 +23,7 @@ test_packages="mrpt-apps librsvg2-bin parallel $benchmark_packages"
 conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd slurm-wlm openssh-client openssh-server"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
+mola_packages="libmrpt-dev libtbb-dev"
 packages_packages="help2man dpkg-dev file"
 fuzz_packages="clang libclang-rt-dev"
 
@@ -56,11 +57,12 @@ for set in "${@:-build}"; do
     conformance) wanted="$wanted $conformance_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
+    mola) wanted="$wanted $mola_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     packages) wanted="$wanted $packages_packages" ;;
     fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, conformance, lint, benchmark, instructions, packages, fuzz" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, conformance, lint, benchmark, instructions, mola, packages, fuzz" >&2
       exit 2
       ;;
   esac

@@ -2,10 +2,11 @@
 # mrpt_fastlio: builds and tests the committed state in a Debian 13 root (MRPT 2.14), as `make test` there.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/test_in_trixie.sh ROOT_DIR      needs root; ROOT_DIR is made by debootstrap when absent
+# Usage: cmake/test_in_trixie.sh ROOT_DIR [MOLA_SOURCES]      needs root; debootstrap makes ROOT_DIR when absent
+# With MOLA_SOURCES: as `make test-mola MOLA_SOURCES=...` there.
 set -eu
 
-if [ $# -ne 1 ]; then
+if [ $# -lt 1 ] || [ $# -gt 2 ]; then
   sed -n '5s/^# //p' "$0" >&2
   exit 2
 fi
@@ -29,4 +30,9 @@ cp /etc/resolv.conf "$root/etc/resolv.conf"
 mkdir -p "$root/mrpt_fastlio"
 find "$root/mrpt_fastlio" -mindepth 1 -maxdepth 1 ! -name build -exec rm -r {} +
 git -C "$source" archive HEAD | tar -x -C "$root/mrpt_fastlio"
-chroot "$root" sh -c 'apt-get install --yes --quiet make git && cd /mrpt_fastlio && make test'
+if [ $# -eq 2 ]; then
+  rm -rf "$root/mola_sources"
+  cp -r "$2" "$root/mola_sources"
+  target='test-mola MOLA_SOURCES=/mola_sources'
+fi
+chroot "$root" sh -c "apt-get install --yes --quiet make git && cd /mrpt_fastlio && make ${target:-test}"

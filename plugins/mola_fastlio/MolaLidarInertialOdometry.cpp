@@ -4,6 +4,9 @@
 #include "MolaLidarInertialOdometry.h"
 
 #include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/exporters/pose_output.h>
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/initializer.h>
@@ -30,6 +33,7 @@ void MolaLidarInertialOdometry::initialize_frontend(const mola::Yaml& cfg)
       cfg.has("params") ? mola::Yaml(cfg["params"]) : mola::Yaml(mola::Yaml::Map());
   reference_frame_ = params.getOrDefault<std::string>("reference_frame", reference_frame_);
   map_every_n_scans_ = params.getOrDefault<std::size_t>("map_every_n_scans", map_every_n_scans_);
+  output_tum_path_ = params.getOrDefault<std::string>("output_tum_path", output_tum_path_);
   odometry_.initialize(params.has("odometry") ? mola::Yaml(params["odometry"]) : mola::Yaml());
 }
 
@@ -59,6 +63,25 @@ void MolaLidarInertialOdometry::onQuit()
 {
   spinOnce();
   odometry_.finish();
+  writeTrajectory();
+}
+
+void MolaLidarInertialOdometry::writeTrajectory()
+{
+  if (output_tum_path_.empty()) return;
+  std::string text;
+  for (const TrackedPose& pose : odometry_.track().poses())
+    text += secondsText(pose.stamp_ns) + " " + poseColumns(pose.T_world_body, ' ') + "\n";
+  try
+  {
+    writeFileAtomically(output_tum_path_, text);
+    MRPT_LOG_INFO_STREAM(
+        odometry_.track().poses().size() << " poses written to '" << output_tum_path_ << "'");
+  }
+  catch (const std::exception& e)
+  {
+    MRPT_LOG_ERROR_STREAM("the trajectory is not written: " << e.what());
+  }
 }
 
 void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)

@@ -35,9 +35,13 @@ struct ArgumentOf<void (Class::*)(Argument)>
  *         params:
  *           reference_frame: map         # of the pose
  *           map_every_n_scans: 10        # 0: no map
- *           odometry: {}                 # docs/parameters.md; default: all defaults
+ *           output_tum_path: walk.tum    # poses of the vehicle, written at the end; default: none
+ *           odometry:                    # docs/parameters.md; without it: all defaults
+ *             map:
+ *               voxel_size: 0.3
  *
- * onNewObservation() only puts into a queue; spinOnce() empties it. */
+ * onNewObservation() only puts into a queue; spinOnce() empties it, and so does onQuit(): every
+ * observation that was sent is used. */
 class MolaLidarInertialOdometry : public mola::FrontEndBase,
                                   public mola::LocalizationSourceBase,
                                   public mola::MapSourceBase
@@ -52,6 +56,8 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
   void onNewObservation(ObservationArgument observation) override;
   void spinOnce() override;
   void onQuit() override;
+  /** Before the data sources (50), which would drop what they send until somebody listens. */
+  int launchOrderPriority() const override { return 40; }
 
  protected:
   void initialize_frontend(const mola::Yaml& cfg) override;
@@ -59,10 +65,12 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
  private:
   void advertise(const OdometryEstimate& estimate);
   void advertiseMap(std::int64_t stamp_ns);
+  void writeTrajectory();
   [[nodiscard]] mrpt::obs::CObservation::ConstPtr takeOne();
 
   std::string reference_frame_ = "map";
   std::size_t map_every_n_scans_ = 10;
+  std::string output_tum_path_;
   std::size_t scans_ = 0;
   CLidarInertialOdometry odometry_;
   std::mutex queue_mutex_;

@@ -1,0 +1,86 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file mola_listener.cpp A module of MOLA for its test: notes what the odometry advertises, and
+ * ends mola-cli when nothing more comes. */
+
+#include <mrpt/core/initializer.h>
+#include <mrpt/maps/CPointsMap.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <mola_kernel/interfaces/ExecutableBase.h>
+#include <mola_kernel/interfaces/LocalizationSourceBase.h>
+#include <mola_kernel/interfaces/MapSourceBase.h>
+#include <mutex>
+
+namespace fastlio_test
+{
+/** Parameters: `output`, a file with a line per pose and per map; `stop_after`, poses after which
+ * the system is asked to end (0: when none has come for three seconds). */
+class MolaListener : public mola::ExecutableBase
+{
+  DEFINE_MRPT_OBJECT(MolaListener, fastlio_test)
+
+ public:
+  MolaListener() = default;
+
+  void initialize(const mola::Yaml& cfg) override
+  {
+    const auto params = mola::Yaml(cfg["params"]);
+    out_.open(params["output"].as<std::string>());
+    stop_after_ = params.getOrDefault<std::size_t>("stop_after", 0);
+    for (const auto& source : findService<mola::LocalizationSourceBase>())
+      std::dynamic_pointer_cast<mola::LocalizationSourceBase>(source)
+          ->subscribeToLocalizationUpdates([this](const auto& update) { note(update); });
+    for (const auto& source : findService<mola::MapSourceBase>())
+      std::dynamic_pointer_cast<mola::MapSourceBase>(source)->subscribeToMapUpdates(
+          [this](const auto& update) { noteMap(update); });
+  }
+
+  void spinOnce() override
+  {
+    const std::lock_guard lock(mutex_);
+    if (poses_ == 0) return;
+    const auto silence = std::chrono::steady_clock::now() - latest_;
+    if (stop_after_ > 0 ? poses_ >= stop_after_ : silence > std::chrono::seconds(3))
+      requestShutdown();
+  }
+
+  int launchOrderPriority() const override { return 45; }  // after the odometry
+
+ private:
+  void note(const mola::LocalizationSourceBase::LocalizationUpdate& update)
+  {
+    const std::lock_guard lock(mutex_);
+    ++poses_;
+    latest_ = std::chrono::steady_clock::now();
+    char line[200];
+    std::snprintf(
+        line, sizeof line, "pose %.6f %.6f %.6f %.6f %s %.3g\n",
+        mrpt::Clock::toDouble(update.timestamp), update.pose.x, update.pose.y, update.pose.z,
+        update.reference_frame.c_str(), update.cov ? (*update.cov)(0, 0) : -1.0);
+    out_ << line << std::flush;
+  }
+
+  void noteMap(const mola::MapSourceBase::MapUpdate& update)
+  {
+    const auto points = std::dynamic_pointer_cast<mrpt::maps::CPointsMap>(update.map);
+    const std::lock_guard lock(mutex_);
+    out_ << "map " << (points ? points->size() : 0) << '\n' << std::flush;
+  }
+
+  std::ofstream out_;
+  std::mutex mutex_;
+  std::size_t poses_ = 0, stop_after_ = 0;
+  std::chrono::steady_clock::time_point latest_;
+};
+}  // namespace fastlio_test
+
+IMPLEMENTS_MRPT_OBJECT(MolaListener, mola::ExecutableBase, fastlio_test)
+
+MRPT_INITIALIZER(registerListener)
+{
+  MOLA_REGISTER_MODULE(fastlio_test::MolaListener);
+}

@@ -1,0 +1,88 @@
+#!/bin/bash
+# mrpt_fastlio: mola-cli replays a recording through our module: the trajectory is that of fastlio-replay, to the bit.
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Usage: run_mola.sh MOLA_PREFIX PROGRAMS_DIR MODULE_DIR LISTENER_DIR WORK_DIR
+set -euo pipefail
+
+prefix=$(realpath "$1"); programs=$(realpath "$2"); modules=$(realpath "$3"):$(realpath "$4"); work=$5
+rm -rf "$work" && mkdir -p "$work" && cd "$work"
+fail() { echo "FAILED: $1"; tail -n 30 mola.log; exit 1; }
+
+"$programs/fastlio-sim" office --duration 12 -o simulated --quiet
+mv simulated/recording.rawlog walk.rawlog
+"$programs/fastlio-replay" walk.rawlog -o replay --set map.voxel_size=0.3 --export trajectory,simplemap --quiet
+
+# launch NAME STOP_AFTER
+launch() {
+  cat >"$1.yaml" <<END
+modules:
+  - name: dataset
+    type: mola::RawlogDataset
+    execution_rate: 100
+    params:
+      rawlog_filename: '$PWD/walk.rawlog'
+      time_warp_scale: 4.0
+      read_all_first: false
+  - name: odometry
+    type: fastlio::MolaLidarInertialOdometry
+    raw_data_source: dataset
+    execution_rate: 50
+    params:
+      reference_frame: map
+      map_every_n_scans: 10
+      output_tum_path: '$PWD/$1.tum'
+      odometry:
+        map:
+          voxel_size: 0.3
+  - name: listener
+    type: fastlio_test::MolaListener
+    execution_rate: 20
+    params:
+      output: '$PWD/$1.txt'
+      stop_after: $2
+END
+  MOLA_MODULES_LIB_PATH=$modules:$prefix/lib LD_LIBRARY_PATH=$prefix/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} \
+    timeout --signal=INT 120 "$prefix/bin/mola-cli" "$1.yaml" >mola.log 2>&1 || fail "mola-cli ended with $?"
+}
+
+launch whole 0
+cmp whole.tum replay/trajectory.tum || fail 'the trajectory is not that of fastlio-replay'
+[ "$(grep -c '^pose .* map ' whole.txt)" -eq "$(wc -l <replay/trajectory.tum)" ] || fail 'not every pose was advertised'
+paste -d ' ' <(grep '^pose' whole.txt) replay/trajectory.tum | awk '
+  { for (i = 3; i <= 5; ++i) { d = $i - $(i + 6); if (d < 0) d = -d; if (d > worst) worst = d }
+    if ($7 <= 0) worst = 1 }
+  END { exit !(NR > 50 && worst < 2e-6) }' || fail 'advertised poses are others, or have no covariance'
+[ "$(awk '$1 == "map" && $2 > 1000' whole.txt | wc -l)" -ge 5 ] || fail 'the map does not arrive'
+
+# Ended in the middle: what was sent is used, up to its last scan.
+launch part 30
+lines=$(wc -l <part.tum)
+[ "$lines" -ge 30 ] && [ "$lines" -lt "$(wc -l <replay/trajectory.tum)" ] || fail "an early end gives $lines poses"
+[ "$lines" -eq "$(grep -c '^pose' part.txt)" ] || fail 'poses of the end were not advertised'
+# The last scan may reach beyond the inertial data that had come.
+cmp <(head -n $((lines - 1)) part.tum) <(head -n $((lines - 1)) replay/trajectory.tum) ||
+  fail 'an early end changes what came before'
+
+# The tools of mp2p_icp, where they are (MRPT 2.11.5 and newer).
+if [ -x "$prefix/bin/sm-cli" ]; then
+  export LD_LIBRARY_PATH=$prefix/lib
+  "$prefix/bin/sm-cli" info replay/keyframes.simplemap >mola.log 2>&1 || fail 'sm-cli'
+  grep -qiE 'keyframes|size' mola.log || fail 'sm-cli says nothing of key frames'
+  cat >pipeline.yaml <<'END'
+generators:
+  - class_name: mp2p_icp_filters::Generator
+    params:
+      target_layer: 'raw'
+      throw_on_unhandled_observation_class: false
+      process_class_names_regex: '.*'
+      process_sensor_labels_regex: '.*'
+filters: []
+END
+  "$prefix/bin/sm2mm" -i replay/keyframes.simplemap -o map.mm -p pipeline.yaml >mola.log 2>&1 || fail 'sm2mm'
+  [ "$(stat -c %s map.mm)" -gt 100000 ] || fail 'sm2mm made no map'
+  echo 'sm-cli and sm2mm read the simplemap'
+else
+  echo 'mp2p_icp is not installed: sm-cli and sm2mm were not run'
+fi
+echo "mola-cli: $(wc -l <whole.tum) poses, as fastlio-replay"
