@@ -5,7 +5,7 @@
 # Usage: cmake/test_mola.sh MOLA_SOURCES BUILD_DIR
 #
 # MOLA_SOURCES holds checkouts of github.com/MOLAorg: mola, mola_common and, for its tools (MRPT 2.11.5 and newer), mp2p_icp.
-# All of it is built below BUILD_DIR; the sources stay as they are. MOLA is GPL-3: what is linked with it is, too.
+# All of it is built below BUILD_DIR; the checkouts stay as they are. MOLA is GPL-3: what is linked with it is, too.
 set -eu
 
 if [ $# -ne 2 ]; then
@@ -31,9 +31,18 @@ package() {
     { tail -n 40 "$build/$1.log"; return 1; }
 }
 
+# MOLA's snapshot of 2024-03 does not compile with MRPT 2.12 and newer, whose macros for virtual classes want the namespace:
+# a copy of it gets that.
+rm -rf "$build/mola"
+cp -r "$sources/mola" "$build/mola"
+if grep -rqs 'define DEFINE_VIRTUAL_MRPT_OBJECT(class_name, NameSpace)' /usr/include/mrpt/rtti; then
+  grep -rlE 'DEFINE_VIRTUAL_(SERIALIZABLE|MRPT_OBJECT)\([A-Za-z0-9]+\)' "$build/mola" |
+    xargs sed -i -E 's/DEFINE_VIRTUAL_(SERIALIZABLE|MRPT_OBJECT)\(([A-Za-z0-9]+)\)/DEFINE_VIRTUAL_\1(\2, mola)/'
+fi
+
 package mola_common "$sources/mola_common"
 for name in mola_yaml mola_kernel mola_launcher mola_input_rawlog; do
-  package "$name" "$sources/mola/$name"
+  package "$name" "$build/mola/$name"
 done
 if [ ! -d "$sources/mp2p_icp" ]; then
   echo "mp2p_icp: no sources; its tools are not run"
