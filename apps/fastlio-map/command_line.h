@@ -24,6 +24,7 @@ struct MapArguments
   bool use_gnss = true;                //!< where a recording has it
   std::string crs;                     //!< of LAS files; empty: UTM where the place is known
   std::string control_points;          //!< file; empty: none
+  bool remove_moving = false;          //!< leave moving objects out of the map
   bool overwrite = false;
   bool quiet = false;
 };

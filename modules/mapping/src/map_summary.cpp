@@ -129,6 +129,15 @@ MapJson gnssJson(const GnssOutcome& gnss)
       {"correlation", gnss.correlation}};
 }
 
+MapJson removedJson(const std::optional<RemovedPoints>& removed)
+{
+  if (!removed) return nullptr;
+  return {
+      {"scan_points", removed->points},
+      {"removed_points", removed->removed},
+      {"free_voxels", removed->voxels}};
+}
+
 MapJson placeJson(const std::optional<Georeference>& place)
 {
   if (!place) return nullptr;
@@ -199,6 +208,7 @@ std::string mapSummaryJson(const MapAccount& account)
       {"notes", account.notes},
       {"wall_seconds", account.wall_seconds},
       {"map_points", account.points},
+      {"moving_objects", removedJson(account.removed)},
       {"corrected", result.corrected},
       {"closures_accepted", result.accepted()},
       {"largest_correction_m", largestMove(result)},
