@@ -93,6 +93,9 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       "pass through the recordings");
   app.add_flag(
       "!--no-gnss", arguments.use_gnss, "Leave positions of GNSS in the recordings out of the map");
+  app.add_flag(
+      "!--no-wheels", arguments.use_wheels,
+      "Leave wheel odometry in the recordings out of the map");
   app.add_option(
          "--crs", arguments.crs,
          "Reference system of map.las, for example EPSG:25832; default: the UTM zone of the place")

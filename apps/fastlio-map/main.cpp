@@ -223,8 +223,10 @@ ExitStatus run(const MapArguments& arguments)
   const PassHooks hooks = hooksOf(arguments.quiet);
   const auto workers = std::make_shared<const Workers>(arguments.threads);
   const BuiltMap map = checked(
-      [&] {
-        return buildMap(sessions, BuildOptions{{}, arguments.use_gnss}, workers, hooks);
+      [&]
+      {
+        return buildMap(
+            sessions, BuildOptions{{}, arguments.use_gnss, arguments.use_wheels}, workers, hooks);
       });
   endIfInterrupted(map.interrupted);
   if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });

@@ -199,6 +199,29 @@ TEST_F(Map, RemovesMovingObjects)
   EXPECT_GT(summaryOf("all")["map_points"], summaryOf("1")["map_points"]);
 }
 
+TEST_F(Map, WheelsTellTheWayThroughATunnel)
+{
+  SimulationSettings settings = defaultSettings("tunnel");
+  settings.duration = 20.0;
+  settings.lidar.stride = 8;
+  settings.wheels.rate = 50.0;
+  const std::string rawlog = record("tunnel", settings);
+  const ProcessResult result =
+      run({rawlog, "-o", folder_.file("with"), "--export", "trajectory,report"});
+  EXPECT_NE(result.output.find("wheel odometry tells"), std::string::npos) << result.output;
+  const auto summary = summaryOf("with");
+  EXPECT_TRUE(summary["wheels"]["used"].get<bool>());
+  EXPECT_TRUE(summary["corrected"].get<bool>());
+  EXPECT_NEAR(summary["wheels"]["scale"].get<double>(), 1.0, 0.05);
+  EXPECT_NE(summary["result"].get<std::string>().find("wheel odometry"), std::string::npos);
+  EXPECT_NE(
+      textOf(folder_.file("with") + "/report.html").find("wheel odometry tells"),
+      std::string::npos);
+  run({rawlog, "-o", folder_.file("without"), "--export", "trajectory", "--no-wheels"});
+  EXPECT_EQ(summaryOf("without")["wheels"]["readings"].get<int>(), 0);
+  EXPECT_FALSE(summaryOf("without")["corrected"].get<bool>());
+}
+
 TEST_F(Map, RefusesBadCommandLines)
 {
   const std::string missing = folder_.file("none.rawlog");
