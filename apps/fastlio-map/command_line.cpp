@@ -92,7 +92,14 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       ->check(CLI::IsMember({"vehicle", "imu"}))
       ->capture_default_str();
   app.add_flag(
+      "--remove-moving", arguments.remove_moving,
+      "Leave moving objects out of the map: what is where rays of other scans pass; takes another "
+      "pass through the recordings");
+  app.add_flag(
       "!--no-gnss", arguments.use_gnss, "Leave positions of GNSS in the recordings out of the map");
+  app.add_flag(
+      "!--no-wheels", arguments.use_wheels,
+      "Leave wheel odometry in the recordings out of the map");
   app.add_option(
          "--crs", arguments.crs,
          "Reference system of map.las, for example EPSG:25832; default: the UTM zone of the place")

@@ -23,8 +23,10 @@ struct MapArguments
   std::string frame = "vehicle";       //!< or "imu"
   int threads = 0;                     //!< 0: all cores
   bool use_gnss = true;                //!< where a recording has it
+  bool use_wheels = true;              //!< likewise
   std::string crs;                     //!< of LAS files; empty: UTM where the place is known
   std::string control_points;          //!< file; empty: none
+  bool remove_moving = false;          //!< leave moving objects out of the map
   bool overwrite = false;
   bool quiet = false;
 };

@@ -15,8 +15,10 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/options/number_text.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <unistd.h>
 
@@ -158,6 +160,50 @@ void report(const MapArguments& arguments, const MapAccount& account)
               << '\n';
 }
 
+/** \exception std::exception as openSessions() and MovingObjects::requireOneLidar() */
+std::vector<Session> usableSessions(
+    const MapArguments& arguments, const std::vector<RunInput>& inputs)
+{
+  std::vector<Session> sessions = openSessions(arguments, inputs);
+  if (arguments.remove_moving)
+    std::for_each(sessions.begin(), sessions.end(), MovingObjects::requireOneLidar);
+  return sessions;
+}
+
+/** The rays' votes on what moves; nothing when it stays in the map. */
+std::unique_ptr<MovingObjects> votedObjects(
+    const MapArguments& arguments, const std::vector<Session>& sessions, const BuiltMap& map,
+    const std::shared_ptr<const Workers>& workers, const PassHooks& hooks)
+{
+  if (!arguments.remove_moving) return nullptr;
+  auto moving = std::make_unique<MovingObjects>(workers);
+  for (std::size_t i = 0; i < sessions.size(); ++i)
+    if (isInMap(map, i))
+      endIfInterrupted(!checked([&] { return moving->vote(sessions[i], i, map, hooks); }));
+  moving->finish();
+  return moving;
+}
+
+MapAccount accountOf(
+    const MapArguments& arguments, const std::vector<std::string>& recordings,
+    const std::vector<Session>& sessions, const BuiltMap& map, const MapOutputs& outputs)
+{
+  return {
+      MRPT_FASTLIO_VERSION,
+      recordings,
+      arguments.config_file.empty() ? "defaults" : arguments.config_file,
+      map,
+      std::nullopt,
+      agreements(map.result),
+      outputs.points(),
+      std::nullopt,
+      notesOf(sessions, map),
+      outputs.files(),
+      outputs.problems(),
+      0.0,
+      statusOf(map, outputs.problems())};
+}
+
 ExitStatus run(const MapArguments& arguments)
 {
   const Stopwatch stopwatch;
@@ -171,19 +217,22 @@ ExitStatus run(const MapArguments& arguments)
   }
   const MapFiles files(arguments, names);
   const RunFolderPlan plan = checkedFolder(arguments, files, inputs.size(), recordings);
-  const std::vector<Session> sessions = checked([&] { return openSessions(arguments, inputs); });
+  const std::vector<Session> sessions = checked([&] { return usableSessions(arguments, inputs); });
   // What does not depend on the recordings is checked before hours of work.
   auto place = checked([&] { return georeference({}, arguments.control_points, arguments.crs); });
   catchInterruptions();
   const PassHooks hooks = hooksOf(arguments.quiet);
   const auto workers = std::make_shared<const Workers>(arguments.threads);
   const BuiltMap map = checked(
-      [&] {
-        return buildMap(sessions, BuildOptions{{}, arguments.use_gnss}, workers, hooks);
+      [&]
+      {
+        return buildMap(
+            sessions, BuildOptions{{}, arguments.use_gnss, arguments.use_wheels}, workers, hooks);
       });
   endIfInterrupted(map.interrupted);
   if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });
   requirePoses(map);
+  const auto moving = votedObjects(arguments, sessions, map, workers, hooks);
   std::optional<RunFolder> folder;
   std::optional<MapOutputs> outputs;
   try
@@ -196,22 +245,14 @@ ExitStatus run(const MapArguments& arguments)
     throw Failure{ExitStatus::OutputFailed, failureText(e)};
   }
   for (std::size_t i = 0; i < sessions.size(); ++i)
-    if (isInMap(map, i)) endIfInterrupted(!outputs->add(sessions[i], i, map.result, hooks));
+    if (isInMap(map, i))
+      endIfInterrupted(!outputs->add(sessions[i], i, map.result, moving.get(), hooks));
   outputs->finish(map.result, MapOutputs::frameOf(sessions.front(), arguments.frame), place);
   if (hooks.progress) std::cerr << "\r\033[K";
-  MapAccount account{
-      MRPT_FASTLIO_VERSION,
-      recordings,
-      arguments.config_file.empty() ? "defaults" : arguments.config_file,
-      map,
-      place,
-      agreements(map.result),
-      outputs->points(),
-      notesOf(sessions, map),
-      outputs->files(),
-      outputs->problems(),
-      0.0,
-      statusOf(map, outputs->problems())};
+  MapAccount account = accountOf(arguments, recordings, sessions, map, *outputs);
+  account.place = place;
+  if (moving) account.removed = moving->counts();
+  if (account.removed) account.notes.push_back(removalSentence(*account.removed));
   write(files, "report", mapReportHtml(account), account);
   account.wall_seconds = 1e-3 * stopwatch.milliseconds();
   write(files, "summary", mapSummaryJson(account), account);

@@ -165,7 +165,8 @@ OutputFrame MapOutputs::frameOf(const Session& session, const std::string& frame
 }
 
 bool MapOutputs::add(
-    const Session& session, std::size_t number, const MappingResult& result, const PassHooks& hooks)
+    const Session& session, std::size_t number, const MappingResult& result, MovingObjects* moving,
+    const PassHooks& hooks)
 {
   ExporterSet& of_session = of_sessions_.emplace_back();
   const OutputFrame frame = frameOf(session, frame_);
@@ -178,7 +179,9 @@ bool MapOutputs::add(
   if (plan_.wants("simplemap"))
     of_session.add(makeSimpleMapExporter(targetOf(plan_, session, frame)), path("simplemap"));
   return placeScans(
-      session, number, result, [this](const PlacedScan& scan) { take(scan); }, hooks);
+      session, number, result,
+      [&](const PlacedScan& scan) { take(moving == nullptr ? scan : moving->withoutMoving(scan)); },
+      hooks);
 }
 
 void MapOutputs::take(const PlacedScan& scan)

@@ -12,6 +12,7 @@
 #include <fastlio/map/voxel_plane_map.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/mapping/moving_objects.h>
 
 #include <memory>
 #include <optional>
@@ -57,10 +58,11 @@ class MapOutputs
   /** The body of a session whose poses are written. */
   [[nodiscard]] static OutputFrame frameOf(const Session& session, const std::string& frame);
 
-  /** Puts the scans of one session in their places. \return false: interrupted */
+  /** Puts the scans of one session in their places. \param moving what is left out of the map;
+   * null: nothing \return false: interrupted */
   bool add(
       const Session& session, std::size_t number, const MappingResult& result,
-      const PassHooks& hooks);
+      MovingObjects* moving, const PassHooks& hooks);
 
   /** Completes the map, and writes the graph. */
   void finish(

@@ -62,6 +62,7 @@ std::vector<std::string> notesOf(const std::vector<Session>& sessions, const Bui
           "have to show places that the map has; a longer recording, or one that passes more of "
           "the "
           "same places, may be found");
+  if (map.wheels.readings > 0) notes.push_back(wheelSentence(map.wheels));
   if (const std::size_t fixes = map.gnss.fixes; fixes > 0) notes.push_back(gnssSentence(map.gnss));
   return notes;
 }

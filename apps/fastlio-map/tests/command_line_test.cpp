@@ -174,6 +174,54 @@ TEST_F(Map, GnssTellsTheCoordinates)
   EXPECT_TRUE(summaryOf("without")["earth"].is_null());
 }
 
+TEST_F(Map, RemovesMovingObjects)
+{
+  SimulationSettings settings = defaultSettings("crowd");
+  settings.duration = 14.0;
+  settings.lidar.stride = 6;
+  const std::string rawlog = record("crowd", settings);
+  for (const char* threads : {"1", "3"})
+  {
+    const ProcessResult result = run(
+        {rawlog, "-o", folder_.file(threads), "--threads", threads, "--remove-moving", "--export",
+         "ply,planes,report"});
+    ASSERT_EQ(result.exit_status, 0) << result.output;
+    EXPECT_NE(result.output.find("moving objects: "), std::string::npos) << result.output;
+  }
+  for (const char* file : {"/map.ply", "/map.planes"})
+    EXPECT_TRUE(textOf(folder_.file("1") + file) == textOf(folder_.file("3") + file)) << file;
+  EXPECT_NE(textOf(folder_.file("1") + "/report.html").find("moving objects: "), std::string::npos);
+  const auto moving = summaryOf("1")["moving_objects"];
+  EXPECT_GT(moving["removed_points"].get<int>(), moving["scan_points"].get<int>() / 100);
+  EXPECT_LT(moving["removed_points"].get<int>(), moving["scan_points"].get<int>() / 5);
+  ASSERT_EQ(run({rawlog, "-o", folder_.file("all"), "--export", "ply"}).exit_status, 0);
+  EXPECT_TRUE(summaryOf("all")["moving_objects"].is_null());
+  EXPECT_GT(summaryOf("all")["map_points"], summaryOf("1")["map_points"]);
+}
+
+TEST_F(Map, WheelsTellTheWayThroughATunnel)
+{
+  SimulationSettings settings = defaultSettings("tunnel");
+  settings.duration = 20.0;
+  settings.lidar.stride = 8;
+  settings.wheels.rate = 50.0;
+  const std::string rawlog = record("tunnel", settings);
+  const ProcessResult result =
+      run({rawlog, "-o", folder_.file("with"), "--export", "trajectory,report"});
+  EXPECT_NE(result.output.find("wheel odometry tells"), std::string::npos) << result.output;
+  const auto summary = summaryOf("with");
+  EXPECT_TRUE(summary["wheels"]["used"].get<bool>());
+  EXPECT_TRUE(summary["corrected"].get<bool>());
+  EXPECT_NEAR(summary["wheels"]["scale"].get<double>(), 1.0, 0.05);
+  EXPECT_NE(summary["result"].get<std::string>().find("wheel odometry"), std::string::npos);
+  EXPECT_NE(
+      textOf(folder_.file("with") + "/report.html").find("wheel odometry tells"),
+      std::string::npos);
+  run({rawlog, "-o", folder_.file("without"), "--export", "trajectory", "--no-wheels"});
+  EXPECT_EQ(summaryOf("without")["wheels"]["readings"].get<int>(), 0);
+  EXPECT_FALSE(summaryOf("without")["corrected"].get<bool>());
+}
+
 TEST_F(Map, RefusesBadCommandLines)
 {
   const std::string missing = folder_.file("none.rawlog");

@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "graph_factors.h"
-#include <fastlio/exporters/recording_access.h>
 #include <fastlio/mapping/gnss.h>
 #include <fastlio/math/statistics.h>
-#include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
-#include <mrpt/obs/CObservationGPS.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,86 +14,11 @@ namespace fastlio
 {
 namespace
 {
-using mrpt::obs::CObservationGPS;
-using mrpt::obs::gnss::Message_NMEA_GGA;
-
-// Vertical errors of satellite positions are about twice the horizontal ones.
-constexpr double kVerticalOverHorizontal = 2.0;
 constexpr double kLeastFixes = 10;
 constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
 constexpr double kMostCorrelation = 0.98;
 constexpr double kGaussian = 1.4826;  // standard deviation over median absolute deviation
-
-/** Standard deviation of a fix by its quality: field 6 of GGA [m]. */
-double stdOf(int quality)
-{
-  switch (quality)
-  {
-    case 2:
-      return 0.7;  // with satellite-based corrections
-    case 4:
-      return 0.03;  // carrier phase, whole cycles
-    case 5:
-      return 0.3;  // carrier phase, no whole cycles
-    default:
-      return 2.0;
-  }
-}
-
-GnssFix fixOf(const CObservationGPS& observation, const Pose& T_imu_vehicle)
-{
-  const auto& fields = observation.getMsgByClass<Message_NMEA_GGA>().fields;
-  GnssFix fix;
-  fix.stamp_ns = toNanoseconds(observation.timestamp);
-  fix.place = {
-      fields.latitude_degrees, fields.longitude_degrees,
-      fields.altitude_meters + fields.geoidal_distance};
-  const bool has_dilution = fields.thereis_HDOP && fields.HDOP > 0.0F;
-  fix.horizontal_std = stdOf(fields.fix_quality) *
-                       (has_dilution ? std::max(1.0, static_cast<double>(fields.HDOP)) : 1.0);
-  fix.vertical_std = kVerticalOverHorizontal * fix.horizontal_std;
-  const auto& sensor = observation.sensorPose;
-  fix.antenna = T_imu_vehicle * Vec3(sensor.x(), sensor.y(), sensor.z());
-  return fix;
-}
 }  // namespace
-
-std::vector<GnssFix> readGnss(const Session& session, std::vector<std::string>& problems)
-{
-  std::vector<GnssFix> fixes;
-  std::size_t without_fix = 0, nowhere = 0;
-  const Pose T_imu_vehicle = session.plan().T_vehicle_imu.inverse();
-  forEachObservation(
-      {session.files(), session.selection(), session.plan().bridge},
-      [&](const mrpt::obs::CObservation::Ptr& observation)
-      {
-        const auto* gps = dynamic_cast<const CObservationGPS*>(observation.get());
-        if (gps == nullptr || !gps->hasMsgClass<Message_NMEA_GGA>()) return true;
-        const int quality = gps->getMsgByClass<Message_NMEA_GGA>().fields.fix_quality;
-        if (quality == 0 || quality > 5)
-        {
-          ++without_fix;
-          return true;
-        }
-        const GnssFix fix = fixOf(*gps, T_imu_vehicle);
-        if (problemOf(fix.place) == nullptr)
-          fixes.push_back(fix);
-        else
-          ++nowhere;
-        return true;
-      });
-  std::stable_sort(
-      fixes.begin(), fixes.end(),
-      [](const GnssFix& a, const GnssFix& b) { return a.stamp_ns < b.stamp_ns; });
-  if (without_fix > 0)
-    problems.push_back(
-        session.name() + ": " + std::to_string(without_fix) + " positions of GNSS have no fix");
-  if (nowhere > 0)
-    problems.push_back(
-        session.name() + ": " + std::to_string(nowhere) +
-        " positions of GNSS are no place on the earth");
-  return fixes;
-}
 
 std::string gnssSentence(const GnssOutcome& outcome)
 {

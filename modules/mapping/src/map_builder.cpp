@@ -3,6 +3,7 @@
 
 #include "mapper_parts.h"
 #include <fastlio/exporters/pose_output.h>
+#include <fastlio/mapping/aids.h>
 #include <fastlio/mapping/map_builder.h>
 
 #include <utility>
@@ -55,20 +56,26 @@ BuiltMap buildMap(
   BuiltMap built;
   Mapper mapper(options.limits, workers);
   GnssFactors gnss;
+  WheelFactors wheels;
   for (std::size_t i = 0; i < sessions.size() && !built.interrupted; ++i)
   {
     PoseTrack track(OutputFrame{});
     built.sessions.push_back(addSession(sessions[i], i, mapper, track, hooks));
     SessionOutcome& outcome = built.sessions.back();
-    if (options.use_gnss)
+    // A recording without other sensors has nothing that is worth another pass.
+    const bool wanted = options.use_gnss || options.use_wheels;
+    if (wanted && outcome.pass.bridge.other_sensors > 0)
     {
-      const std::vector<GnssFix> fixes = readGnss(sessions[i], outcome.problems);
-      outcome.fixes = fixes.size();
-      gnss.add(fixes, track, i, mapper);
+      const Aids aids = readAids(sessions[i], outcome.problems);
+      outcome.fixes = options.use_gnss ? aids.fixes.size() : 0;
+      if (options.use_gnss) gnss.add(aids.fixes, track, i, mapper);
+      if (options.use_wheels)
+        wheels.add(aids.wheels, sessions[i].plan().T_vehicle_imu, track, i, mapper);
     }
     built.interrupted = built.sessions.back().pass.stopped;
   }
   built.result = mapper.finish();
+  built.wheels = wheels.applyTo(built.result);
   built.gnss = gnss.applyTo(built.result);
   return built;
 }

@@ -129,6 +129,31 @@ MapJson gnssJson(const GnssOutcome& gnss)
       {"correlation", gnss.correlation}};
 }
 
+MapJson wheelsJson(const WheelOutcome& wheels)
+{
+  return {
+      {"used", wheels.used},
+      {"reason", wheels.reason},
+      {"readings", wheels.readings},
+      {"motions", wheels.motions},
+      {"slipped", wheels.slipped},
+      {"compared", wheels.checks},
+      {"contradicted", wheels.contradicted},
+      {"taking_part", wheels.taking_part},
+      {"scale", wheels.scale},
+      {"scale_std", wheels.scale_std},
+      {"noise_m", wheels.noise}};
+}
+
+MapJson removedJson(const std::optional<RemovedPoints>& removed)
+{
+  if (!removed) return nullptr;
+  return {
+      {"scan_points", removed->points},
+      {"removed_points", removed->removed},
+      {"free_voxels", removed->voxels}};
+}
+
 MapJson placeJson(const std::optional<Georeference>& place)
 {
   if (!place) return nullptr;
@@ -171,6 +196,9 @@ std::string mapSentence(const MapAccount& account)
   const MappingResult& result = account.map.result;
   const std::string looked = std::to_string(result.submaps.size()) + " submaps, " +
                              std::to_string(result.closures.size()) + " possible closures: ";
+  if (result.accepted() == 0 && result.corrected)
+    return looked + "none was accepted; GNSS or wheel odometry moved poses by up to " +
+           fixedText(largestMove(result), 3) + " m";
   if (result.accepted() == 0)
     return looked +
            "none was accepted; trajectory and map are those of the odometry. A run that passes no "
@@ -199,12 +227,14 @@ std::string mapSummaryJson(const MapAccount& account)
       {"notes", account.notes},
       {"wall_seconds", account.wall_seconds},
       {"map_points", account.points},
+      {"moving_objects", removedJson(account.removed)},
       {"corrected", result.corrected},
       {"closures_accepted", result.accepted()},
       {"largest_correction_m", largestMove(result)},
       {"surfaces_apart_before_m", medianOf(account.agreements, &ClosureAgreement::before)},
       {"surfaces_apart_after_m", medianOf(account.agreements, &ClosureAgreement::after)},
       {"gnss", gnssJson(account.map.gnss)},
+      {"wheels", wheelsJson(account.map.wheels)},
       {"earth", placeJson(account.place)},
       {"sessions", sessionsJson(account.map)},
       {"submaps", submapsJson(result)},

@@ -41,7 +41,11 @@ SessionPass Session::run(
     if (auto* sample = std::get_if<ImuSample>(&input->data))
       odometry.addImu(*sample);
     else
-      odometry.addScan(std::move(std::get<LidarScan>(input->data)));
+    {
+      auto& scan = std::get<LidarScan>(input->data);
+      pass.lidar_in_imu = scan.T_imu_lidar.p;
+      odometry.addScan(std::move(scan));
+    }
     while (const auto result = pass.stopped ? std::nullopt : odometry.next())
       take(*result);
     const ReadProgress& read = input->progress;

@@ -1,18 +1,17 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file gnss.h Positions of a satellite receiver: what a recording has, and what they say about a
- * map. */
+/** \file gnss.h Positions of a satellite receiver, and what they say about a map. */
 #pragma once
 
 #include <fastlio/earth/earth_fit.h>
 #include <fastlio/earth/local_frame.h>
 #include <fastlio/exporters/pose_track.h>
 #include <fastlio/mapping/mapper.h>
-#include <fastlio/mapping/session.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,12 +26,6 @@ struct GnssFix
   double vertical_std = 0.0;    //!< likewise [m]
   Vec3 antenna = Vec3::Zero();  //!< in the IMU frame [m]
 };
-
-/** The fixes of a recording: CObservationGPS with a GGA message and a fix. Without dilution of
- * precision in the message, the quality of the fix tells its standard deviation.
- * \param problems what could not be used, in sentences */
-[[nodiscard]] std::vector<GnssFix> readGnss(
-    const Session& session, std::vector<std::string>& problems);
 
 /** What the map and the fixes say about each other. */
 struct GnssOutcome

@@ -12,6 +12,7 @@
 #include <fastlio/mapping/gnss.h>
 #include <fastlio/mapping/mapper.h>
 #include <fastlio/mapping/session.h>
+#include <fastlio/mapping/wheels.h>
 
 #include <functional>
 #include <memory>
@@ -28,7 +29,7 @@ struct SessionOutcome
   std::vector<Diagnostic> diagnostics;  //!< of the odometry
   SessionPass pass;
   std::size_t fixes = 0;              //!< of GNSS
-  std::vector<std::string> problems;  //!< of GNSS
+  std::vector<std::string> problems;  //!< of GNSS and wheel odometry
 };
 
 /** A built map, without its points. */
@@ -37,6 +38,7 @@ struct BuiltMap
   std::vector<SessionOutcome> sessions;
   MappingResult result;
   GnssOutcome gnss;
+  WheelOutcome wheels;
   bool interrupted = false;
 };
 
@@ -60,7 +62,8 @@ struct PlacedScan
 struct BuildOptions
 {
   ClosureLimits limits;
-  bool use_gnss = true;  //!< where a recording has it
+  bool use_gnss = true;    //!< where a recording has it
+  bool use_wheels = true;  //!< likewise
 };
 
 /** The first pass: odometry over every session, submaps, closures, optimisation.

@@ -8,6 +8,7 @@
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/mapping/moving_objects.h>
 
 #include <optional>
 #include <string>
@@ -36,9 +37,10 @@ struct MapAccount
   const BuiltMap& map;
   std::optional<Georeference> place;
   std::vector<ClosureAgreement> agreements;
-  std::size_t points = 0;           //!< of the map
-  std::vector<std::string> notes;   //!< for people
-  std::vector<OutputFile> outputs;  //!< files that are complete
+  std::size_t points = 0;                //!< of the map
+  std::optional<RemovedPoints> removed;  //!< where moving objects were to be removed
+  std::vector<std::string> notes;        //!< for people
+  std::vector<OutputFile> outputs;       //!< files that are complete
   std::vector<std::string> output_problems;
   double wall_seconds = 0.0;
   ExitStatus status = ExitStatus::Ok;

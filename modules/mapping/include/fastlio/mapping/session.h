@@ -22,7 +22,8 @@ struct SessionPass
   std::size_t scans = 0;
   std::vector<ReadProblem> problems;
   BridgeStatistics bridge;
-  bool stopped = false;  //!< \a use asked for it
+  Vec3 lidar_in_imu = Vec3::Zero();  //!< position of the LiDAR, as the scans have it [m]
+  bool stopped = false;              //!< \a use asked for it
 };
 
 /** A recording with everything that the odometry needs. The odometry gives the same results in

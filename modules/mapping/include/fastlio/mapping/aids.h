@@ -1,0 +1,30 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file aids.h What a recording has beside LiDAR and IMU that helps to make a map. */
+#pragma once
+
+#include <fastlio/mapping/gnss.h>
+#include <fastlio/mapping/session.h>
+#include <fastlio/mapping/wheels.h>
+
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** Both in order of time. */
+struct Aids
+{
+  /** CObservationGPS with a GGA message and a fix. Without dilution of precision in the message,
+   * the quality of the fix tells its standard deviation. */
+  std::vector<GnssFix> fixes;
+  /** CObservationOdometry, of the label that comes first. */
+  std::vector<WheelPose> wheels;
+};
+
+/** Goes through the recording of a session.
+ * \param problems what could not be used, in sentences */
+[[nodiscard]] Aids readAids(const Session& session, std::vector<std::string>& problems);
+
+}  // namespace fastlio
