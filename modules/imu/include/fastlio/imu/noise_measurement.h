@@ -46,8 +46,9 @@ class NoiseMeasurement
 
   /** \a noise, with densities at least as large as a third of those measured lately. Vibration is
    * no white noise: what it adds to one sample it takes from others, so that less of it is left
-   * over a scan. Between a quarter and a half, errors and covariances of shaken sensors hardly
-   * depend on the share. Without vibration, the noise to the bit. */
+   * over a scan. The smaller the share, the better among bushes and trees, whose scans
+   * err more than they say; the larger, the better on vehicles. Without vibration, the noise to the
+   * bit. */
   [[nodiscard]] ImuNoise atLeast(const ImuNoise& noise) const;
 
  private:
