@@ -76,10 +76,13 @@ test: test-dependencies
 
 faults: test-dependencies
 	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
-	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_given_recordings
-	build/$(TEST_PRESET)/tests/faults/test_faults
-	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/outages/test_outages
-	FASTLIO_EVERY_OUTAGE=1 build/$(TEST_PRESET)/tests/recordings/test_given_recordings --gtest_filter='*Outage*'
+	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_endurance test_rest \
+	  test_given_recordings
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/faults/test_faults
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/outages/test_outages
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/endurance/test_endurance
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/rest/test_rest
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/recordings/test_given_recordings --gtest_filter='*Outage*'
 
 fuzz:
 	@cmake/install_dependencies.sh build fuzz

@@ -4,6 +4,7 @@
 // Scans are missing for a while in motion: the odometry finds its pose again, or says that it has
 // lost it. What it must never do is to go on from a wrong pose and to be sure of it.
 
+#include "repeats.h"
 #include "walks.h"
 #include <fastlio/exporters/run_health.h>
 #include <fastlio/imu/imu_buffer.h>
@@ -82,7 +83,7 @@ TEST_P(OutageOfTheLidar, IsNeverFollowedByAWrongPoseThatIsSureOfItself)
   const auto& [scenario, length] = GetParam();
   const CastWalk walk(scenario);
   // An outage begins at every second in the full grid, at two of them here.
-  const double step = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr ? 1.0 : 6.0;
+  const double step = everything() ? 1.0 : 6.0;
   for (double begin = 6.0; begin + length < 23.0; begin += step)
   {
     const SimulatedRun run = runWithOutage(walk, {begin, length}, Missing::Scans);
@@ -173,7 +174,7 @@ TEST_P(AnyFault, EndsRightOrIsReported)
   OdometryOptions options = matchingParameters(walk.simulation.settings());
   options.threads = 2;
   // All faults at every second in the full grid; here one half of them on each walk.
-  const bool every = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr;
+  const bool every = everything();
   const double step = every ? 1.0 : 16.0;
   const std::size_t first = GetParam() == "office" ? 0 : 1;
   for (std::size_t i = every ? 0 : first; i < kFaults.size(); i += every ? 1 : 2)

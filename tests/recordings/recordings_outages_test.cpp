@@ -5,6 +5,7 @@
 
 #include "process.h"
 #include "recordings_folder.h"
+#include "repeats.h"
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/evaluation/association.h>
 #include <fastlio/evaluation/trajectory_io.h>
@@ -94,7 +95,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(OutageOfARecording);
 
 TEST_P(OutageOfARecording, EndsRightOrNotWithZero)
 {
-  const bool every = std::getenv("FASTLIO_EVERY_OUTAGE") != nullptr;
+  const bool every = everything();
   const std::vector<Outage> sample{{true, false, 5.0}, {false, true, 0.2}, {true, true, 5.0}};
   const std::vector<Outage> all{{true, false, 1.0},  {true, false, 2.0},  {true, false, 5.0},
                                 {true, false, 10.0}, {true, false, 20.0}, {true, false, 30.0},

@@ -4,7 +4,8 @@
 /** \file repeats.h How often, or for how long, the long tests do the same.
  *
  * What a hundred runs tell of a mean needs all of them; a sanitizer sees in the first what it sees
- * in the last. */
+ * in the last. Grids of faults and hours of driving are sampled, unless `make faults` asks for all.
+ */
 #pragma once
 
 #include <cstdlib>
@@ -24,6 +25,19 @@ template <typename Count>
 {
   if (!fewRepeats()) return all;
   return all > Count{10} ? all / Count{10} : Count{1};
+}
+
+/** FASTLIO_EVERYTHING is set, as `make faults` does: whole grids, whole hours. */
+[[nodiscard]] inline bool everything()
+{
+  return std::getenv("FASTLIO_EVERYTHING") != nullptr;
+}
+
+/** A third of repeats(all), unless everything is asked for. */
+template <typename Count>
+[[nodiscard]] Count sampled(Count all)
+{
+  return repeats(everything() ? all : all / Count{3});
 }
 
 }  // namespace fastlio::testing

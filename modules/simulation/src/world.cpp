@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace fastlio
 {
 namespace
 {
 constexpr std::uint32_t kLeafSize = 2;
+constexpr double kMissed = std::numeric_limits<double>::infinity();
 
 /** A ray with what the box test needs. */
 struct TracedRay
@@ -26,13 +29,14 @@ TracedRay traced(const Ray& ray)
   return {ray.origin, ray.direction.unaryExpr(invert)};
 }
 
-bool meets(const Bounds& bounds, const TracedRay& ray, double max_range)
+/** Where a ray enters a box [m], infinite where it misses the box within its range. */
+double entryInto(const Bounds& bounds, const TracedRay& ray, double max_range)
 {
   const Vec3 a = (bounds.min - ray.origin).cwiseProduct(ray.inverse);
   const Vec3 b = (bounds.max - ray.origin).cwiseProduct(ray.inverse);
   const double enter = a.cwiseMin(b).maxCoeff();
   const double leave = a.cwiseMax(b).minCoeff();
-  return enter <= leave && leave >= 0.0 && enter <= max_range;
+  return enter <= leave && leave >= 0.0 && enter <= max_range ? enter : kMissed;
 }
 
 /** Everywhere that a moving object can be. */
@@ -96,20 +100,43 @@ std::uint32_t World::build(std::uint32_t first, std::uint32_t last)
 std::optional<RayHit> World::castBodies(const Ray& ray, double max_range) const
 {
   if (nodes_.empty()) return std::nullopt;
+  struct Visit
+  {
+    std::uint32_t node;
+    double enter;
+  };
   const TracedRay fast = traced(ray);
-  std::array<std::uint32_t, 64> stack{};
-  std::size_t depth = 1;
+  std::array<Visit, 64> stack{};
+  std::size_t depth = 0;
   std::optional<RayHit> best;
+  std::uint32_t best_body = 0;
+  const auto reach = [&] { return best ? best->range : max_range; };
+  const auto push = [&](const Visit& visit)
+  {
+    if (visit.enter < kMissed) stack[depth++] = visit;
+  };
+  push({0, entryInto(nodes_[0].bounds, fast, max_range)});
   while (depth > 0)
   {
-    const std::uint32_t index = stack[--depth];
+    const auto [index, enter] = stack[--depth];
+    if (enter > reach()) continue;
     const Node& node = nodes_[index];
-    if (!meets(node.bounds, fast, best ? best->range : max_range)) continue;
-    for (std::uint32_t i = 0; i < node.count; ++i)
-      keepNearer(best, intersect(description_.bodies[node.first + i], ray), max_range);
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const auto hit = intersect(description_.bodies[i], ray);
+      if (!hit || hit->range > reach()) continue;
+      // Of two bodies that touch, the last counts, in whatever order they are visited.
+      if (best && hit->range == best->range && i < best_body) continue;
+      best = hit;
+      best_body = i;
+    }
     if (node.count > 0) continue;
-    stack[depth++] = node.first;
-    stack[depth++] = index + 1;
+    // The nearer child first: what it stops need not be looked for in the other.
+    Visit nearer{index + 1, entryInto(nodes_[index + 1].bounds, fast, reach())};
+    Visit farther{node.first, entryInto(nodes_[node.first].bounds, fast, reach())};
+    if (farther.enter < nearer.enter) std::swap(nearer, farther);
+    push(farther);
+    push(nearer);
   }
   return best;
 }
@@ -119,9 +146,10 @@ std::optional<RayHit> World::cast(const Ray& ray, double t, double max_range) co
   std::optional<RayHit> best = castBodies(ray, max_range);
   if (description_.ground)
     keepNearer(best, description_.ground->cast(ray, best ? best->range : max_range), max_range);
+  if (swept_.empty()) return best;
   const TracedRay fast = traced(ray);
   for (std::size_t i = 0; i < swept_.size(); ++i)
-    if (meets(swept_[i], fast, best ? best->range : max_range))
+    if (entryInto(swept_[i], fast, best ? best->range : max_range) < kMissed)
       keepNearer(best, intersect(description_.moving[i].at(t), ray), max_range);
   return best;
 }

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <random>
 
 namespace fastlio
@@ -164,6 +165,28 @@ TEST(World, HierarchyFindsWhatTestingEveryBodyFinds)
     ++hits;
   }
   EXPECT_GT(hits, 1000);
+}
+
+TEST(World, OfBodiesInTheSamePlaceTheSameOneIsHitFromEverySide)
+{
+  Dice dice;
+  WorldDescription parts;
+  for (int i = 0; i < 50; ++i)
+  {
+    parts.bodies.push_back(randomPrimitive(dice, 15.0));
+    parts.bodies.back().reflectivity = 0.01 * i;
+    parts.bodies.push_back(parts.bodies.back());
+    parts.bodies.back().reflectivity += 0.5;
+  }
+  const World world(parts);
+  std::map<int, double> seen;  // which of two, by the pair's number
+  for (int i = 0; i < 4000; ++i)
+    if (const auto hit = world.cast({dice.point(15.0), dice.direction()}, 0.0, 40.0))
+    {
+      const int pair = static_cast<int>(std::lround(100.0 * hit->reflectivity)) % 50;
+      EXPECT_EQ(seen.emplace(pair, hit->reflectivity).first->second, hit->reflectivity);
+    }
+  EXPECT_GT(seen.size(), 30U);
 }
 
 double hilly(double x, double y)
