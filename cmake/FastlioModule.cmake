@@ -3,6 +3,10 @@
 
 # What is tested is optimised as ever; the tests themselves had better be built soon.
 set(FASTLIO_TEST_OPTIONS $<$<NOT:$<CONFIG:Debug>>:-O1>)
+if(MRPT_FASTLIO_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # Files of a unit are included; that their fixtures are in anonymous namespaces is no fault.
+  list(APPEND FASTLIO_TEST_OPTIONS -Wno-subobject-linkage)
+endif()
 
 # The headers that most units read, precompiled once for libraries and once for tests, whose flags differ.
 if(MRPT_FASTLIO_PRECOMPILE)
@@ -26,10 +30,10 @@ function(fastlio_precompile TARGET KIND)
   endif()
 endfunction()
 
-# fastlio_unity(TARGET): the sources of TARGET are compiled as few units, which read each header once.
-function(fastlio_unity TARGET)
+# fastlio_unity(TARGET SIZE): the sources of TARGET are compiled as few units of SIZE files, which read each header once.
+function(fastlio_unity TARGET SIZE)
   set_target_properties(${TARGET} PROPERTIES
-    UNITY_BUILD ${MRPT_FASTLIO_UNITY} UNITY_BUILD_BATCH_SIZE 12)
+    UNITY_BUILD ${MRPT_FASTLIO_UNITY} UNITY_BUILD_BATCH_SIZE ${SIZE})
 endfunction()
 
 # fastlio_add_module(NAME [PUBLIC ...] [PRIVATE ...] [TEST_LINK ...] [OWN_PROGRAM ...])
@@ -45,7 +49,7 @@ function(fastlio_add_module NAME)
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:fastlio_compiler_options>)
     fastlio_precompile(${target} library)
-    fastlio_unity(${target})
+    fastlio_unity(${target} 12)
     set_target_properties(${target} PROPERTIES
       VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   else()
@@ -88,5 +92,6 @@ function(fastlio_add_test NAME)
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_options(${NAME} PRIVATE ${FASTLIO_TEST_OPTIONS})
   fastlio_precompile(${NAME} test)
+  fastlio_unity(${NAME} 6)
   gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${FASTLIO_TEST_TIMEOUT})
 endfunction()

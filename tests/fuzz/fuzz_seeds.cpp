@@ -23,7 +23,7 @@ namespace
 {
 using mrpt::obs::CObservationVelodyneScan;
 
-constexpr double kStart = 1.7e9;
+constexpr double kSeedSeconds = 1.7e9;
 
 template <typename T>
 std::string bytesOf(const T& value)
@@ -46,7 +46,7 @@ mrpt::obs::CObservationIMU imuAt(double t)
 {
   mrpt::obs::CObservationIMU imu;
   imu.sensorLabel = "imu";
-  imu.timestamp = mrpt::Clock::fromDouble(kStart + t);
+  imu.timestamp = mrpt::Clock::fromDouble(kSeedSeconds + t);
   for (const auto channel :
        {mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_Y_ACC, mrpt::obs::IMU_WX, mrpt::obs::IMU_WY,
         mrpt::obs::IMU_WZ})
@@ -89,7 +89,7 @@ CObservationVelodyneScan velodyneAt(double t)
 {
   CObservationVelodyneScan scan;
   scan.sensorLabel = "lidar";
-  scan.timestamp = scan.originalReceivedTimestamp = mrpt::Clock::fromDouble(kStart + t);
+  scan.timestamp = scan.originalReceivedTimestamp = mrpt::Clock::fromDouble(kSeedSeconds + t);
   scan.scan_packets.push_back(vlp16());
   return scan;
 }
@@ -99,7 +99,7 @@ mrpt::obs::CObservationPointCloud cloudAt(double t)
 {
   mrpt::obs::CObservationPointCloud cloud;
   cloud.sensorLabel = "lidar";
-  cloud.timestamp = mrpt::Clock::fromDouble(kStart + t);
+  cloud.timestamp = mrpt::Clock::fromDouble(kSeedSeconds + t);
   const auto points = Map::Create();
   points->resize(12);
   for (std::size_t i = 0; i < points->size(); ++i)

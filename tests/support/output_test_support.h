@@ -92,13 +92,13 @@ inline ScanResult madeUpResult(std::int64_t stamp_ns, ScanStatus status = ScanSt
 }
 
 // Of resultAt().
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
+constexpr std::int64_t kRunStart = 1'700'000'000'000'000'000;
 constexpr std::int64_t kPeriod = 100'000'000;
 
 /** The scan with that index, counted from 0. \param x where it was made [m] \param ms it took */
 inline ScanResult resultAt(int index, ScanStatus status, double x, double ms)
 {
-  ScanResult result = madeUpResult(kStart + (index + 1) * kPeriod, status);
+  ScanResult result = madeUpResult(kRunStart + (index + 1) * kPeriod, status);
   result.filter.x.p = {x, 0.0, 0.0};
   result.milliseconds.total = ms;
   return result;

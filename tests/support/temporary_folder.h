@@ -6,11 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
-#include <unistd.h>
 
 namespace fastlio::testing
 {
@@ -20,11 +21,9 @@ class TemporaryFolder
  public:
   TemporaryFolder()
   {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("fastlio-" + std::string(test->test_suite_name()) + "-" + test->name() + "-" +
-             std::to_string(getpid()));
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "fastlio_test_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
+    path_ = name;
   }
   ~TemporaryFolder()
   {
@@ -36,6 +35,13 @@ class TemporaryFolder
 
   [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
   [[nodiscard]] std::string path() const { return path_.string(); }
+
+  /** A file with a text in it; returns its path. */
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return file(name);
+  }
 
  private:
   std::filesystem::path path_;

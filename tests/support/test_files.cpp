@@ -19,19 +19,6 @@
 
 namespace fastlio::testing
 {
-TemporaryFolder::TemporaryFolder()
-{
-  std::string name = (std::filesystem::temp_directory_path() / "fastlio_test_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-  std::error_code error;
-  std::filesystem::remove_all(path_, error);
-}
-
 std::string serialize(const std::vector<Object>& objects)
 {
   mrpt::io::CMemoryStream stream;

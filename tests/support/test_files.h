@@ -4,32 +4,18 @@
 /** \file test_files.h Rawlogs written for a test, in a folder that is removed after it. */
 #pragma once
 
+#include "temporary_folder.h"
+
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 #include <zlib.h>
 
 namespace fastlio::testing
 {
-class TemporaryFolder
-{
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 using Object = mrpt::serialization::CSerializable::Ptr;
 
 /** The bytes of an uncompressed rawlog. */

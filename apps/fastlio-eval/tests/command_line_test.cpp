@@ -22,7 +22,7 @@ TEST_F(FastlioEval, ANameWithPngGivesAPng)
   if (std::system("command -v rsvg-convert >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "there is no rsvg-convert (apt-get install librsvg2-bin)";
   expectOutcome("truth.tum estimate.tum -a first --plot p.png", 0, {"APE"});
-  const std::string png = contentOf(folder_.path() / "p.png");
+  const std::string png = contentOf(folder_.file("p.png"));
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_GT(png.size(), 10'000U);
 }
@@ -30,12 +30,12 @@ TEST_F(FastlioEval, ANameWithPngGivesAPng)
 TEST_F(FastlioEval, WithoutItsProgramAPngIsRefusedAndNothingWritten)
 {
   const Outcome outcome = runShell(
-      "cd '" + folder_.path().string() +
+      "cd '" + folder_.path() +
       "' && PATH=/nowhere '" FASTLIO_EVAL_PROGRAM
       "' truth.tum estimate.tum -a first --plot p.png 2>&1");
   EXPECT_EQ(outcome.status, 1) << outcome.output;
   EXPECT_NE(outcome.output.find("librsvg2-bin"), std::string::npos) << outcome.output;
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "p.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("p.png")));
 }
 
 TEST_F(FastlioEval, HelpAndVersion)
@@ -52,8 +52,8 @@ TEST_F(FastlioEval, JsonToStandardOutputAndToAFile)
   EXPECT_NEAR(json["end_to_end_drift"]["percent"].get<double>(), 1.0, 1e-9);
 
   expectOutcome("truth.tum estimate.tum -a first --json r.json --plot p.svg", 0, {"APE rotation"});
-  EXPECT_EQ(nlohmann::json::parse(contentOf(folder_.path() / "r.json")), json);
-  EXPECT_EQ(contentOf(folder_.path() / "p.svg").rfind("<svg ", 0), 0U);
+  EXPECT_EQ(nlohmann::json::parse(contentOf(folder_.file("r.json"))), json);
+  EXPECT_EQ(contentOf(folder_.file("p.svg")).rfind("<svg ", 0), 0U);
 }
 
 TEST_F(FastlioEval, KeptLimitsExitWithZero)
@@ -142,15 +142,15 @@ TEST_F(FastlioEval, UnwritableOutputExitsWithOne)
 
 TEST_F(FastlioEval, ReportsDoNotReplaceInputsNorEachOther)
 {
-  const std::string estimate = contentOf(folder_.path() / "estimate.tum");
-  std::filesystem::create_hard_link(folder_.path() / "estimate.tum", folder_.path() / "linked.tum");
-  std::filesystem::create_symlink("truth.tum", folder_.path() / "link.tum");
+  const std::string estimate = contentOf(folder_.file("estimate.tum"));
+  std::filesystem::create_hard_link(folder_.file("estimate.tum"), folder_.file("linked.tum"));
+  std::filesystem::create_symlink("truth.tum", folder_.file("link.tum"));
   const std::string inputs = "truth.tum estimate.tum ";
   expectOutcome(inputs + "--json ./estimate.tum", 1, {"'estimate.tum' (--estimate)"});
   expectOutcome(inputs + "--plot linked.tum", 1, {"'linked.tum' (--plot)"});
   expectOutcome(inputs + "--plot link.tum", 1, {"'truth.tum' (--reference)"});
   expectOutcome(inputs + "--plot a --json ./a", 1, {"are the same file"});
-  EXPECT_EQ(contentOf(folder_.path() / "estimate.tum"), estimate);
+  EXPECT_EQ(contentOf(folder_.file("estimate.tum")), estimate);
   expectOutcome(inputs + "-a yaw --plot /dev/null --json /dev/null", 0, {""});
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }

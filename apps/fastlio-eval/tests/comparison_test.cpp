@@ -18,7 +18,7 @@ TEST_F(FastlioEval, SeveralEstimatesHaveARowEach)
       "truth.tum estimate.tum other.tum -a first --plot p.svg", 0,
       {"reference   truth.tum", "APE max", "\nestimate.tum       101     100.0    0.5788    1.0000",
        "\nother.tum          101     100.0    5.7879   10.0000"});
-  const std::string svg = contentOf(folder_.path() / "p.svg");
+  const std::string svg = contentOf(folder_.file("p.svg"));
   for (const char* part : {">estimate.tum<", ">other.tum<", ">reference<", ">start<", "Height"})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   const auto json =
@@ -35,9 +35,9 @@ TEST_F(FastlioEval, TheReferenceMayFollowTheEstimate)
 
 TEST_F(FastlioEval, AFolderOfARunIsItsTrajectory)
 {
-  std::filesystem::create_directory(folder_.path() / "one");
-  std::filesystem::create_directory(folder_.path() / "two");
-  std::filesystem::create_directory(folder_.path() / "empty");
+  std::filesystem::create_directory(folder_.file("one"));
+  std::filesystem::create_directory(folder_.file("two"));
+  std::filesystem::create_directory(folder_.file("empty"));
   write("one/trajectory.tum", tumLine(1.01));
   write("two/trajectory.tum", "damaged");
   write("two/covariance.csv", covarianceCsv());
@@ -53,7 +53,7 @@ TEST_F(FastlioEval, AFolderOfARunIsItsTrajectory)
 
 TEST_F(FastlioEval, NamesThatAreTheSameAreGivenInFull)
 {
-  std::filesystem::create_directory(folder_.path() / "one");
+  std::filesystem::create_directory(folder_.file("one"));
   write("one/estimate.tum", tumLine(1.1));
   expectOutcome(
       "truth.tum estimate.tum one/estimate.tum -a first", 0,

@@ -104,8 +104,7 @@ class FastlioEval : public ::testing::Test
   [[nodiscard]] Outcome run(const std::string& arguments) const
   {
     return runShell(
-        "cd '" + folder_.path().string() + "' && '" FASTLIO_EVAL_PROGRAM "' " + arguments +
-        " 2>&1");
+        "cd '" + folder_.path() + "' && '" FASTLIO_EVAL_PROGRAM "' " + arguments + " 2>&1");
   }
 
   void expectOutcome(
@@ -118,7 +117,7 @@ class FastlioEval : public ::testing::Test
                                                               << outcome.output;
   }
 
-  samples::TemporaryFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 }  // namespace fastlio::testing

@@ -56,7 +56,7 @@ class Points
   std::normal_distribution<double> normal_;
 };
 
-std::string refusalOf(
+std::string refusalOfFit(
     const std::vector<Correspondence>& points, const EarthFitOptions& options = {})
 {
   try
@@ -204,7 +204,7 @@ TEST(EarthFit, DriftOfTheMapIsAllowedFor)
   auto points = source.make(10, 0.01);
   for (Correspondence& point : points)
     point.map += 0.3 * source.noise();
-  EXPECT_NE(refusalOf(points).find("control points contradict each other"), std::string::npos);
+  EXPECT_NE(refusalOfFit(points).find("control points contradict each other"), std::string::npos);
   EarthFitOptions options;
   options.map_std_m = 0.3;
   const EarthFit fit = fitToEarth(points, options);
@@ -223,7 +223,7 @@ TEST(EarthFit, TheHeadingMustBeSeen)
     points[i].enu = kTruth * points[i].map;
   }
   EXPECT_EQ(
-      refusalOf(points),
+      refusalOfFit(points),
       "control points do not show the heading of the map: the 3 in use lie within 0.33 m of their "
       "centre (rms, horizontal), which leaves a standard deviation of 5.1 deg, more than 2; give "
       "points that lie further apart");
@@ -234,7 +234,7 @@ TEST(EarthFit, TheHeadingMustBeSeen)
     points[i].enu = kTruth * points[i].map;
   }
   EXPECT_EQ(
-      refusalOf(points),
+      refusalOfFit(points),
       "control points do not show the heading of the map: the 3 in use lie within 0.00 m of their "
       "centre (rms, horizontal); give points that lie further apart");
 }
@@ -245,41 +245,42 @@ TEST(EarthFit, ContradictionsAreRefused)
   auto points = source.make(6, 0.05);
   for (Correspondence& point : points)
     point.enu = 100 * source.noise();
-  const std::string text = refusalOf(points);
+  const std::string text = refusalOfFit(points);
   EXPECT_EQ(text.find("control points contradict each other: no more than "), 0U) << text;
   auto two = source.make(2, 0.05);
   two[0].enu += Vec3(0, 0, 20);
-  EXPECT_EQ(refusalOf(two).find("control points contradict each other: no more than "), 0U)
-      << refusalOf(two);
+  EXPECT_EQ(refusalOfFit(two).find("control points contradict each other: no more than "), 0U)
+      << refusalOfFit(two);
   two[0].map = {0, 0, 0};
   two[1].map = {30, 40, 0};
   two[0].enu = {0, 0, 0};
   two[1].enu = {0, 62.5, 0};
   EXPECT_NE(
-      refusalOf(two).find(
+      refusalOfFit(two).find(
           "; from 'P0' to 'P1' it is 50.00 m in the map and 62.50 m on the earth; "),
       std::string::npos)
-      << refusalOf(two);
+      << refusalOfFit(two);
 }
 
 TEST(EarthFit, BadInputIsNamed)
 {
   Points source(9);
   EXPECT_EQ(
-      refusalOf({}), "control points: 0; give at least two, far apart, for the heading of the map");
-  EXPECT_NE(refusalOf(source.make(1, 0.05)).find("control points: 1;"), std::string::npos);
+      refusalOfFit({}),
+      "control points: 0; give at least two, far apart, for the heading of the map");
+  EXPECT_NE(refusalOfFit(source.make(1, 0.05)).find("control points: 1;"), std::string::npos);
   auto points = source.make(3, 0.05);
   points[1].std_m = 0;
   EXPECT_EQ(
-      refusalOf(points),
+      refusalOfFit(points),
       "control point 'P1': coordinates are not finite, or its standard deviation is not above 0 m");
   points[1].std_m = 0.1;
   points[2].name.clear();
   points[2].enu.y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusalOf(points).find("control point number 3: "), 0U);
+  EXPECT_EQ(refusalOfFit(points).find("control point number 3: "), 0U);
   EarthFitOptions options;
   options.gate = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusalOf(source.make(3, 0.05), options), "none");
+  EXPECT_NE(refusalOfFit(source.make(3, 0.05), options), "none");
 }
 }  // namespace
 }  // namespace fastlio

@@ -18,7 +18,7 @@ namespace fastlio
 namespace
 {
 using testing::TemporaryFolder;
-constexpr std::int64_t kStamp = 1'700'000'000'123'456'789;  // 2023-11-14 22:13:20.123 UTC
+constexpr std::int64_t kReadStamp = 1'700'000'000'123'456'789;  // 2023-11-14 22:13:20.123 UTC
 
 class LasReadBack : public ::testing::Test
 {
@@ -68,7 +68,7 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
     p.position = utm.projectedOf(frame, {i * 0.37, 200.0 - i, std::sin(i)});
     p.position = (p.position * 1e4).array().round() / 1e4;
     p.intensity = static_cast<float>(i % 256);
-    p.stamp_ns = kStamp + i * 12'345'678LL;
+    p.stamp_ns = kReadStamp + i * 12'345'678LL;
     p.source = static_cast<std::uint16_t>(1 + i / 500);
     writer.add(p);
     rows += row(p);

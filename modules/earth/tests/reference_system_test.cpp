@@ -17,9 +17,9 @@ namespace fastlio
 {
 namespace
 {
-const GeodeticPoint kMunich{48.137, 11.575, 520.5};
+const GeodeticPoint kMunichCity{48.137, 11.575, 520.5};
 
-std::string refusalOf(const std::string& definition)
+std::string refusalOfSystem(const std::string& definition)
 {
   try
   {
@@ -92,7 +92,7 @@ class ProjFolder
 
 TEST(UtmZone, OfPlaces)
 {
-  EXPECT_EQ(utmCodeAt(kMunich), "EPSG:32632");
+  EXPECT_EQ(utmCodeAt(kMunichCity), "EPSG:32632");
   EXPECT_EQ(utmCodeAt({-33.86, 151.21, 0}), "EPSG:32756");
   EXPECT_EQ(utmCodeAt({0, -180, 0}), "EPSG:32601");
   EXPECT_EQ(utmCodeAt({0, 180, 0}), "EPSG:32601");
@@ -121,10 +121,10 @@ TEST(ReferenceSystem, UtmOfTheCentralMeridianIsTheMeridianArc)
 
 TEST(ReferenceSystem, UtmIsTheZoneOfTheDatum)
 {
-  const ReferenceSystem utm("utm", kMunich), code("EPSG:32632");
+  const ReferenceSystem utm("utm", kMunichCity), code("EPSG:32632");
   EXPECT_EQ(utm.definition(), "EPSG:32632");
   EXPECT_EQ(utm.name(), "WGS 84 / UTM zone 32N");
-  EXPECT_EQ(utm.projectedOf(kMunich), code.projectedOf(kMunich));
+  EXPECT_EQ(utm.projectedOf(kMunichCity), code.projectedOf(kMunichCity));
 }
 
 TEST(ReferenceSystem, OtherFormsOfTheSameSystemAgree)
@@ -134,7 +134,9 @@ TEST(ReferenceSystem, OtherFormsOfTheSameSystemAgree)
        {code.wkt(WktDialect::Wkt1), code.wkt(WktDialect::Wkt2_2019),
         std::string("WGS 84 / UTM zone 32N"), std::string("+proj=utm +zone=32 +datum=WGS84"),
         std::string("urn:ogc:def:crs:EPSG::32632")})
-    EXPECT_LT((ReferenceSystem(form).projectedOf(kMunich) - code.projectedOf(kMunich)).norm(), 1e-6)
+    EXPECT_LT(
+        (ReferenceSystem(form).projectedOf(kMunichCity) - code.projectedOf(kMunichCity)).norm(),
+        1e-6)
         << form;
 }
 
@@ -142,7 +144,7 @@ TEST(ReferenceSystem, RoundTripsAndKeepsDistances)
 {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> metres(-2e3, 2e3), up(-30, 100);
-  const LocalFrame frame(kMunich);
+  const LocalFrame frame(kMunichCity);
   for (const char* definition : {"EPSG:32632", "EPSG:25832", "EPSG:31468"})
   {
     const ReferenceSystem system(definition);
@@ -153,7 +155,7 @@ TEST(ReferenceSystem, RoundTripsAndKeepsDistances)
       EXPECT_LT((frame.enuOf(system.geodeticOf(there)) - enu).norm(), 1e-4) << definition;
     }
     // Conformal: lengths by one factor, here between 0.9996 and 1.
-    const Vec3 origin = system.projectedOf(kMunich);
+    const Vec3 origin = system.projectedOf(kMunichCity);
     for (const Vec3& step : {Vec3(100, 0, 0), Vec3(0, 100, 0)})
       EXPECT_NEAR((system.projectedOf(frame, step) - origin).norm(), 100, 0.05) << definition;
   }
@@ -163,7 +165,7 @@ TEST(ReferenceSystem, EastComesFirstWhateverTheAuthoritySays)
 {
   // Its axes are northing, easting.
   const ReferenceSystem gauss_krueger("EPSG:31468");
-  const Vec3 there = gauss_krueger.projectedOf(kMunich);
+  const Vec3 there = gauss_krueger.projectedOf(kMunichCity);
   EXPECT_NEAR(there.x(), 4'468'600, 500);
   EXPECT_NEAR(there.y(), 5'333'400, 500);
 }
@@ -171,16 +173,16 @@ TEST(ReferenceSystem, EastComesFirstWhateverTheAuthoritySays)
 TEST(ReferenceSystem, HeightsOfACompoundSystemAreAboveItsGeoid)
 {
   const std::string definition = "EPSG:32632+5773";
-  if (refusalOf(definition).find("needs the grid of its geoid") != std::string::npos)
+  if (refusalOfSystem(definition).find("needs the grid of its geoid") != std::string::npos)
     GTEST_SKIP() << "needs the grid of EGM96, which Debian's proj-data brings";
   const ReferenceSystem ellipsoidal("EPSG:32632"), egm96(definition);
   EXPECT_FALSE(ellipsoidal.hasHeights());
   EXPECT_TRUE(egm96.hasHeights());
-  const Vec3 a = ellipsoidal.projectedOf(kMunich), b = egm96.projectedOf(kMunich);
+  const Vec3 a = ellipsoidal.projectedOf(kMunichCity), b = egm96.projectedOf(kMunichCity);
   EXPECT_LT((a - b).head<2>().norm(), 1e-6);
   // The undulation of EGM96 at Munich.
   EXPECT_NEAR(a.z() - b.z(), 45.7, 0.5);
-  EXPECT_NEAR(egm96.geodeticOf(b).height_m, kMunich.height_m, 1e-3);
+  EXPECT_NEAR(egm96.geodeticOf(b).height_m, kMunichCity.height_m, 1e-3);
 }
 
 TEST(ReferenceSystem, MissingGridsAreRefusedInsteadOfApproximated)
@@ -191,10 +193,10 @@ TEST(ReferenceSystem, MissingGridsAreRefusedInsteadOfApproximated)
   const testing::TemporaryFolder folder;
   std::filesystem::create_symlink(database, folder.file("proj.db"));
   const ProjFolder only(folder.path());
-  EXPECT_EQ(refusalOf("EPSG:32632"), "taken");
+  EXPECT_EQ(refusalOfSystem("EPSG:32632"), "taken");
   for (const char* definition : {"EPSG:32632+5773", "EPSG:25832+7837"})
   {
-    const std::string text = refusalOf(definition);
+    const std::string text = refusalOfSystem(definition);
     EXPECT_EQ(text.find("runtime_error: PROJ knows no way from WGS84 to"), 0U) << text;
     EXPECT_NE(text.find("needs the grid of its geoid"), std::string::npos) << text;
   }
@@ -229,19 +231,20 @@ TEST(ReferenceSystem, SaysWhatIsWrongAndWhatToDo)
       {"+proj=utm +zone=99", "unknown coordinate reference system"},
       {"PROJCS[\"cut", "unknown coordinate reference system"}};
   for (const auto& [definition, words] : cases)
-    EXPECT_NE(refusalOf(definition).find(words), std::string::npos)
-        << definition << ": " << refusalOf(definition);
-  EXPECT_NE(refusalOf(std::string(70'000, 'x')).find("of 70000 characters"), std::string::npos);
+    EXPECT_NE(refusalOfSystem(definition).find(words), std::string::npos)
+        << definition << ": " << refusalOfSystem(definition);
+  EXPECT_NE(
+      refusalOfSystem(std::string(70'000, 'x')).find("of 70000 characters"), std::string::npos);
 }
 
 TEST(ReferenceSystem, TellsWhetherItIsMeantForAPlace)
 {
   const ReferenceSystem system("EPSG:32632");
-  EXPECT_TRUE(system.covers(kMunich));
+  EXPECT_TRUE(system.covers(kMunichCity));
   EXPECT_FALSE(system.covers({48.137, 13.0, 0}));
   EXPECT_FALSE(system.covers({-48.137, 11.575, 0}));
   EXPECT_TRUE(ReferenceSystem("EPSG:32601").covers({10, -179, 0}));
-  EXPECT_TRUE(ReferenceSystem("+proj=tmerc +lat_0=0 +lon_0=0 +datum=WGS84").covers(kMunich));
+  EXPECT_TRUE(ReferenceSystem("+proj=tmerc +lat_0=0 +lon_0=0 +datum=WGS84").covers(kMunichCity));
   // New Zealand's reaches across the antimeridian.
   EXPECT_TRUE(ReferenceSystem("EPSG:3851").covers({-44, -176.5, 0}));
   EXPECT_TRUE(ReferenceSystem("EPSG:3851").covers({-41, 174, 0}));
@@ -259,12 +262,13 @@ TEST(ReferenceSystem, CoordinatesOfNowhereAreAnError)
 
 TEST(ReferenceSystem, ThreadsHaveTheirOwn)
 {
-  const Vec3 expected = ReferenceSystem("EPSG:32632").projectedOf(kMunich);
+  const Vec3 expected = ReferenceSystem("EPSG:32632").projectedOf(kMunichCity);
   std::vector<Vec3> found(4, Vec3::Zero());
   std::vector<std::thread> threads;
   threads.reserve(found.size());
   for (Vec3& mine : found)
-    threads.emplace_back([&mine] { mine = ReferenceSystem("EPSG:32632").projectedOf(kMunich); });
+    threads.emplace_back([&mine]
+                         { mine = ReferenceSystem("EPSG:32632").projectedOf(kMunichCity); });
   for (std::thread& thread : threads)
     thread.join();
   for (const Vec3& one : found)
@@ -275,7 +279,7 @@ TEST(ReferenceSystem, AMissingDatabaseIsNamed)
 {
   const testing::TemporaryFolder empty;
   const ProjFolder only(empty.path());
-  const std::string text = refusalOf("EPSG:32632");
+  const std::string text = refusalOfSystem("EPSG:32632");
   EXPECT_EQ(text.find("runtime_error: PROJ does not find its database proj.db"), 0U) << text;
   EXPECT_NE(text.find("install Debian's package proj-data"), std::string::npos) << text;
 }

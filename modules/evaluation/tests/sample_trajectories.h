@@ -4,6 +4,7 @@
 /** \file sample_trajectories.h Trajectories and files for the tests. */
 #pragma once
 
+#include "temporary_folder.h"
 #include <fastlio/evaluation/trajectory.h>
 #include <fastlio/math/time.h>
 
@@ -75,36 +76,6 @@ inline Pose randomPose(std::mt19937& random)
 {
   return {expSO3(gaussian(random)), gaussian(random, 20.0)};
 }
-
-/** A folder of the test's own, removed at the end. */
-class TemporaryFolder
-{
- public:
-  TemporaryFolder()
-  {
-    std::string name = (std::filesystem::temp_directory_path() / "fastlio_eval_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create " + name);
-    path_ = name;
-  }
-  ~TemporaryFolder()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  [[nodiscard]] std::filesystem::path write(const std::string& name, const std::string& text) const
-  {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /** Expects that f() throws E with every one of the parts in its message. */
 template <typename E, typename F>

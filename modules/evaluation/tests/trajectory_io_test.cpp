@@ -30,7 +30,7 @@ class TrajectoryIo : public ::testing::Test
     expectThrows<std::runtime_error>(read, parts);
   }
 
-  samples::TemporaryFolder folder_;
+  testing::TemporaryFolder folder_;
 };
 
 const std::string kStateHeader = "stamp_ns,x,y,z,qx,qy,qz,qw,vx,vy,vz";
@@ -158,7 +158,7 @@ TEST_F(TrajectoryIo, UnreadableFiles)
 {
   const auto reading = [](const std::filesystem::path& path)
   { return [path] { (void)readTrajectory(path); }; };
-  expectThrows<std::runtime_error>(reading(folder_.path() / "none"), {"none", "does not exist"});
+  expectThrows<std::runtime_error>(reading(folder_.file("none")), {"none", "does not exist"});
   expectThrows<std::runtime_error>(reading(folder_.path()), {"is a folder"});
   expectThrows<std::runtime_error>(reading(file("")), {"no data"});
   expectThrows<std::runtime_error>(reading(file("# only\n\n")), {"no data"});

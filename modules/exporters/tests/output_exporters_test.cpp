@@ -26,7 +26,7 @@ using testing::smallMapPoints;
 using testing::split;
 using testing::TemporaryFolder;
 
-constexpr std::int64_t kStamp = 1'403'636'580'838'555'648;
+constexpr std::int64_t kExporterStamp = 1'403'636'580'838'555'648;
 
 /** Feeds the results and finishes; the files are complete then. */
 void run(Exporter& exporter, const std::vector<ScanResult>& results)
@@ -63,7 +63,7 @@ TEST(TrajectoryTum, HoldsTheVehiclePoseAtTheExactStamp)
   const TemporaryFolder folder;
   OutputFrame frame{"vehicle", {expSO3({0.0, 0.4, -0.1}), {0.3, 0.2, -0.1}}};
   const auto exporter = makeTumExporter(folder.file("t.tum"), frame);
-  const ScanResult result = madeUpResult(kStamp);
+  const ScanResult result = madeUpResult(kExporterStamp);
   run(*exporter, {result});
 
   const auto cells = split(dataLinesOf(folder.file("t.tum")).at(0), ' ');
@@ -84,7 +84,7 @@ TEST(TrajectoryTum, LeavesOutScansWithoutATrustedPose)
   const TemporaryFolder folder;
   const auto exporter = makeTumExporter(folder.file("t.tum"), {});
   std::vector<ScanResult> results;
-  std::int64_t stamp = kStamp;
+  std::int64_t stamp = kExporterStamp;
   for (const auto status :
        {ScanStatus::Initializing, ScanStatus::FirstScan, ScanStatus::Tracking,
         ScanStatus::PredictionOnly, ScanStatus::Diverged})
@@ -100,7 +100,7 @@ TEST(StatesCsv, HoldsStateAndDeviationsByName)
 {
   const TemporaryFolder folder;
   const auto exporter = makeStatesExporter(folder.file("s.csv"));
-  const ScanResult result = madeUpResult(kStamp);
+  const ScanResult result = madeUpResult(kExporterStamp);
   run(*exporter, {result});
   auto row = rowOf(folder.file("s.csv"), 0);
   EXPECT_EQ(row.size(), 1U + 7U + 12U + 18U);
@@ -124,7 +124,7 @@ TEST(CovarianceCsv, HoldsTheUpperTriangleOfThePose)
 {
   const TemporaryFolder folder;
   const auto exporter = makeCovarianceExporter(folder.file("c.csv"), {"imu", Pose{}});
-  const ScanResult result = madeUpResult(kStamp);
+  const ScanResult result = madeUpResult(kExporterStamp);
   run(*exporter, {result});
   auto row = rowOf(folder.file("c.csv"), 0);
   EXPECT_EQ(row.size(), 8U + 21U);
@@ -165,8 +165,8 @@ TEST(TimingCsv, HoldsEveryScanWithItsStatus)
 {
   const TemporaryFolder folder;
   const auto exporter = makeTimingExporter(folder.file("t.csv"));
-  run(*exporter, {madeUpResult(kStamp, ScanStatus::Initializing),
-                  madeUpResult(kStamp + 1, ScanStatus::PredictionOnly)});
+  run(*exporter, {madeUpResult(kExporterStamp, ScanStatus::Initializing),
+                  madeUpResult(kExporterStamp + 1, ScanStatus::PredictionOnly)});
   auto row = rowOf(folder.file("t.csv"), 1);
   EXPECT_EQ(row["status"], "prediction_only");
   EXPECT_EQ(row["points_in"], "20000");
@@ -232,7 +232,7 @@ TEST(MapFiles, HoldIntensityAndTime)
 TEST(TrajectoryKitti, HoldsMatricesRowByRow)
 {
   const TemporaryFolder folder;
-  const ScanResult result = madeUpResult(kStamp);
+  const ScanResult result = madeUpResult(kExporterStamp);
   run(*makeKittiExporter(folder.file("k"), {"imu", {}}), {result});
   const auto cells = split(dataLinesOf(folder.file("k")).at(0), ' ');
   ASSERT_EQ(cells.size(), 12U);

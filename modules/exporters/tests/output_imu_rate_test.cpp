@@ -13,7 +13,7 @@ using testing::madeUpResult;
 using testing::split;
 using testing::TemporaryFolder;
 
-constexpr std::int64_t kStamp = 1'403'636'580'838'555'648;
+constexpr std::int64_t kImuRateStamp = 1'403'636'580'838'555'648;
 
 ImuRateState madeUpState(std::int64_t stamp_ns)
 {
@@ -37,7 +37,9 @@ std::vector<std::string> written(const std::string& folder, const OutputFrame& f
   options.frame = frame;
   options.imu_rate = true;
   ExporterSet set = makeExporters(options);
-  set.onScan(madeUpResult(kStamp + 10), {madeUpState(kStamp), madeUpState(kStamp + 5)});
+  set.onScan(
+      madeUpResult(kImuRateStamp + 10),
+      {madeUpState(kImuRateStamp), madeUpState(kImuRateStamp + 5)});
   const OutputMap map;
   EXPECT_TRUE(set.finish({}, map).output_problems.empty());
   return dataLinesOf(folder + "/imu_rate.csv");
@@ -57,10 +59,10 @@ TEST(ImuRateCsv, HoldsEachStateAtItsExactStamp)
   const auto lines = written(folder.path(), {});
   ASSERT_EQ(lines.size(), 3U);
   EXPECT_EQ(split(lines[0], ',').size(), 1U + 7U + 3U + 21U);
-  EXPECT_EQ(split(lines[1], ',')[0], std::to_string(kStamp));
-  EXPECT_EQ(split(lines[2], ',')[0], std::to_string(kStamp + 5));
+  EXPECT_EQ(split(lines[1], ',')[0], std::to_string(kImuRateStamp));
+  EXPECT_EQ(split(lines[2], ',')[0], std::to_string(kImuRateStamp + 5));
   const auto row = numbersOf(lines[1]);
-  const ImuRateState state = madeUpState(kStamp);
+  const ImuRateState state = madeUpState(kImuRateStamp);
   EXPECT_NEAR(row[2], state.x.p.y(), 1e-6);
   EXPECT_NEAR(row[9], state.x.v.y(), 1e-6);
   EXPECT_EQ(row[12], state.pose_covariance(0, 1));
@@ -71,7 +73,7 @@ TEST(ImuRateCsv, OfAVehicleHasItsOwnVelocityAndCovariance)
   const TemporaryFolder folder;
   const OutputFrame vehicle{"vehicle", {expSO3({0.0, 0.4, -0.1}), {0.3, 0.0, -0.1}}};
   const auto row = numbersOf(written(folder.path(), vehicle).at(1));
-  const ImuRateState state = madeUpState(kStamp);
+  const ImuRateState state = madeUpState(kImuRateStamp);
   // The body turns about z with 2 rad/s, the vehicle's origin is 0.3 m ahead.
   const Vec3 velocity = state.x.v + state.x.R * Vec3(0.0, 0.6, 0.0);
   EXPECT_LT((Vec3(row[8], row[9], row[10]) - velocity).norm(), 1e-5);

@@ -13,7 +13,7 @@ namespace
 using testing::contentOf;
 using testing::goodRun;
 using testing::kPeriod;
-using testing::kStart;
+using testing::kRunStart;
 using testing::resultAt;
 using testing::TemporaryFolder;
 using Json = nlohmann::json;

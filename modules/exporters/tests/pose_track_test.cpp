@@ -14,7 +14,7 @@ namespace
 {
 using testing::madeUpResult;
 
-constexpr std::int64_t kStamp = 1'403'636'580'838'555'648;
+constexpr std::int64_t kTrackStamp = 1'403'636'580'838'555'648;
 constexpr std::int64_t kScan = 100'000'000;
 
 ScanResult at(std::int64_t stamp_ns, const Pose& pose)
@@ -50,10 +50,10 @@ TEST(PoseTrack, GoesThroughThePosesWithConstantVelocity)
   const Pose b{a.R * expSO3(step_rotation), a.p + step};
   const Pose T_imu_body{expSO3({0.0, 0.0, 1.0}), {0.2, 0.0, 0.0}};
   PoseTrack track({"vehicle", T_imu_body});
-  track.add(at(kStamp, a));
-  track.add(at(kStamp + kScan, b));
+  track.add(at(kTrackStamp, a));
+  track.add(at(kTrackStamp + kScan, b));
   ASSERT_EQ(track.poses().size(), 2U);
-  const auto middle = track.at(kStamp + kScan / 2);
+  const auto middle = track.at(kTrackStamp + kScan / 2);
   ASSERT_TRUE(middle);
   const Mat3 R_a = a.R * T_imu_body.R;
   const Mat3 R_b = b.R * T_imu_body.R;
@@ -71,17 +71,17 @@ TEST(PoseTrack, GoesThroughThePosesWithConstantVelocity)
 TEST(PoseTrack, KnowsNothingOutsideAndInGaps)
 {
   PoseTrack track({});
-  EXPECT_FALSE(track.at(kStamp));
-  track.add(at(kStamp, {}));
-  track.add(at(kStamp + kScan, {}));
-  track.add(madeUpResult(kStamp + 2 * kScan, ScanStatus::Diverged));
-  track.add(at(kStamp + 30 * kScan, {}));
+  EXPECT_FALSE(track.at(kTrackStamp));
+  track.add(at(kTrackStamp, {}));
+  track.add(at(kTrackStamp + kScan, {}));
+  track.add(madeUpResult(kTrackStamp + 2 * kScan, ScanStatus::Diverged));
+  track.add(at(kTrackStamp + 30 * kScan, {}));
   EXPECT_EQ(track.poses().size(), 3U);
-  EXPECT_TRUE(track.at(kStamp - kScan));       // the first scan's begin
-  EXPECT_FALSE(track.at(kStamp - kScan - 1));  // before it
-  EXPECT_TRUE(track.at(kStamp + kScan));
-  EXPECT_FALSE(track.at(kStamp + 10 * kScan));
-  EXPECT_FALSE(track.at(kStamp + 30 * kScan + 1));
+  EXPECT_TRUE(track.at(kTrackStamp - kScan));       // the first scan's begin
+  EXPECT_FALSE(track.at(kTrackStamp - kScan - 1));  // before it
+  EXPECT_TRUE(track.at(kTrackStamp + kScan));
+  EXPECT_FALSE(track.at(kTrackStamp + 10 * kScan));
+  EXPECT_FALSE(track.at(kTrackStamp + 30 * kScan + 1));
 }
 
 /** Without a map's part: the two errors are independent, so numbers tell what the derivatives do.

@@ -16,7 +16,7 @@ namespace
 {
 using testing::expectGoodPage;
 using testing::kPeriod;
-using testing::kStart;
+using testing::kRunStart;
 using testing::reportOf;
 using testing::TemporaryFolder;
 using testing::walk;
@@ -28,7 +28,7 @@ void writeTruth(const std::string& path, int poses, double bend)
   for (int i = 0; i < poses; ++i)
   {
     const double x = 0.1 * i;
-    out << secondsText(kStart + (i + 1) * kPeriod) << ' ' << x << ' ' << bend * x * x
+    out << secondsText(kRunStart + (i + 1) * kPeriod) << ' ' << x << ' ' << bend * x * x
         << " 0 0 0 0 1\n";
   }
 }

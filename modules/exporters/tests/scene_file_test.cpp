@@ -19,7 +19,7 @@ namespace fastlio
 namespace
 {
 using testing::kPeriod;
-using testing::kStart;
+using testing::kRunStart;
 using testing::resultAt;
 using testing::smallMap;
 using testing::TemporaryFolder;
@@ -123,7 +123,7 @@ TEST(BoundedPath, KeepsItsEndsAndItsShape)
 {
   BoundedPath path(100, 1.0);
   for (int i = 0; i < 10'001; ++i)
-    path.add(kStart + i * kPeriod, {0.5 * i, 0.0, 0.0});
+    path.add(kRunStart + i * kPeriod, {0.5 * i, 0.0, 0.0});
   const auto positions = path.positions();
   EXPECT_LE(positions.size(), 101U);
   EXPECT_GT(positions.size(), 40U);
@@ -135,7 +135,7 @@ TEST(BoundedPath, BreaksWhereThereIsNoPoseForLong)
 {
   BoundedPath path(100, 1.0);
   for (const int i : {0, 1, 2, 30, 31})
-    path.add(kStart + i * kPeriod, {0.5 * i, 0.0, 0.0});
+    path.add(kRunStart + i * kPeriod, {0.5 * i, 0.0, 0.0});
   const auto positions = path.positions();
   ASSERT_EQ(positions.size(), 6U);
   EXPECT_FALSE(positions[3].allFinite());

@@ -14,7 +14,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
+constexpr std::int64_t kFirstStamp = 1'700'000'000'000'000'000;
 constexpr std::int64_t kMs = 1'000'000;
 
 ImuSample sampleAt(std::int64_t stamp_ns, double value = 0.0)
@@ -29,7 +29,7 @@ std::vector<ImuSample> unevenSamples(unsigned seed, int count)
   std::uniform_int_distribution<std::int64_t> period(1 * kMs, 9 * kMs);
   std::uniform_real_distribution<double> value(-3.0, 3.0);
   std::vector<ImuSample> samples;
-  std::int64_t stamp = kStart;
+  std::int64_t stamp = kFirstStamp;
   for (int i = 0; i < count; ++i, stamp += period(rng))
     samples.push_back(sampleAt(stamp, value(rng)));
   return samples;
@@ -106,19 +106,19 @@ bool sameInputs(const std::vector<ImuSample>& a, const std::vector<ImuSample>& b
 TEST(ImuBuffer, SaysWhyASampleIsNotTaken)
 {
   ImuBuffer buffer;
-  ImuSample bad = sampleAt(kStart);
+  ImuSample bad = sampleAt(kFirstStamp);
   bad.accel.z() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(buffer.add(bad), ImuBuffer::Verdict::NotFinite);
-  bad = sampleAt(kStart);
+  bad = sampleAt(kFirstStamp);
   bad.gyro.x() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(buffer.add(bad), ImuBuffer::Verdict::NotFinite);
   EXPECT_TRUE(buffer.empty());
-  EXPECT_EQ(buffer.add(sampleAt(kStart)), ImuBuffer::Verdict::Accepted);
-  EXPECT_EQ(buffer.add(sampleAt(kStart, 1.0)), ImuBuffer::Verdict::Duplicate);
-  EXPECT_EQ(buffer.add(sampleAt(kStart - 1)), ImuBuffer::Verdict::OutOfOrder);
-  EXPECT_EQ(buffer.add(sampleAt(kStart + 1)), ImuBuffer::Verdict::Accepted);
-  EXPECT_EQ(buffer.oldestStamp(), kStart);
-  EXPECT_EQ(buffer.newestStamp(), kStart + 1);
+  EXPECT_EQ(buffer.add(sampleAt(kFirstStamp)), ImuBuffer::Verdict::Accepted);
+  EXPECT_EQ(buffer.add(sampleAt(kFirstStamp, 1.0)), ImuBuffer::Verdict::Duplicate);
+  EXPECT_EQ(buffer.add(sampleAt(kFirstStamp - 1)), ImuBuffer::Verdict::OutOfOrder);
+  EXPECT_EQ(buffer.add(sampleAt(kFirstStamp + 1)), ImuBuffer::Verdict::Accepted);
+  EXPECT_EQ(buffer.oldestStamp(), kFirstStamp);
+  EXPECT_EQ(buffer.newestStamp(), kFirstStamp + 1);
 }
 
 TEST(ImuBuffer, InputsCoverAnyIntervalWithoutGapsAndWithTheSignalsIntegral)
@@ -128,7 +128,7 @@ TEST(ImuBuffer, InputsCoverAnyIntervalWithoutGapsAndWithTheSignalsIntegral)
   std::mt19937 rng(2);
   // Reaches beyond both ends of the data.
   std::uniform_int_distribution<std::int64_t> stamp(
-      kStart - 50 * kMs, samples.back().stamp_ns + 50 * kMs);
+      kFirstStamp - 50 * kMs, samples.back().stamp_ns + 50 * kMs);
   for (int k = 0; k < 2000; ++k)
   {
     std::int64_t begin = stamp(rng), end = stamp(rng);
@@ -152,11 +152,13 @@ TEST(ImuBuffer, InputsCoverAnyIntervalWithoutGapsAndWithTheSignalsIntegral)
 
 TEST(ImuBuffer, HoldsTheLeftSampleOrTheMiddleOfThePeriod)
 {
-  const ImuBuffer buffer = bufferOf({sampleAt(kStart, 1.0), sampleAt(kStart + 10 * kMs, 3.0)});
-  const auto left = inputs(buffer, kStart + 2 * kMs, kStart + 6 * kMs, ImuHold::Left);
+  const ImuBuffer buffer =
+      bufferOf({sampleAt(kFirstStamp, 1.0), sampleAt(kFirstStamp + 10 * kMs, 3.0)});
+  const auto left = inputs(buffer, kFirstStamp + 2 * kMs, kFirstStamp + 6 * kMs, ImuHold::Left);
   ASSERT_EQ(left.size(), 1U);
   EXPECT_EQ(left[0].gyro.x(), 1.0);
-  const auto middle = inputs(buffer, kStart + 2 * kMs, kStart + 6 * kMs, ImuHold::Midpoint);
+  const auto middle =
+      inputs(buffer, kFirstStamp + 2 * kMs, kFirstStamp + 6 * kMs, ImuHold::Midpoint);
   ASSERT_EQ(middle.size(), 1U);
   EXPECT_NEAR(middle[0].gyro.x(), 1.8, 1e-12);
   EXPECT_NEAR(middle[0].accel.x(), 18.0, 1e-12);
@@ -164,13 +166,14 @@ TEST(ImuBuffer, HoldsTheLeftSampleOrTheMiddleOfThePeriod)
 
 TEST(ImuBuffer, TheNearestSampleHoldsOutsideOfTheData)
 {
-  const ImuBuffer buffer = bufferOf({sampleAt(kStart, 1.0), sampleAt(kStart + 10 * kMs, 3.0)});
+  const ImuBuffer buffer =
+      bufferOf({sampleAt(kFirstStamp, 1.0), sampleAt(kFirstStamp + 10 * kMs, 3.0)});
   for (const ImuHold hold : {ImuHold::Midpoint, ImuHold::Left})
   {
-    const auto before = inputs(buffer, kStart - 20 * kMs, kStart - 10 * kMs, hold);
+    const auto before = inputs(buffer, kFirstStamp - 20 * kMs, kFirstStamp - 10 * kMs, hold);
     ASSERT_EQ(before.size(), 1U);
     EXPECT_EQ(before[0].gyro.x(), 1.0);
-    const auto after = inputs(buffer, kStart + 20 * kMs, kStart + 30 * kMs, hold);
+    const auto after = inputs(buffer, kFirstStamp + 20 * kMs, kFirstStamp + 30 * kMs, hold);
     ASSERT_EQ(after.size(), 1U);
     EXPECT_EQ(after[0].gyro.x(), 3.0);
   }
@@ -179,26 +182,26 @@ TEST(ImuBuffer, TheNearestSampleHoldsOutsideOfTheData)
 TEST(ImuBuffer, GivesNoInputsWithoutSamplesOrTime)
 {
   std::vector<ImuSample> reused(3);
-  ImuBuffer{}.inputsBetween(kStart, kStart + kMs, ImuHold::Midpoint, reused);
+  ImuBuffer{}.inputsBetween(kFirstStamp, kFirstStamp + kMs, ImuHold::Midpoint, reused);
   EXPECT_TRUE(reused.empty());
-  const ImuBuffer buffer = bufferOf({sampleAt(kStart)});
-  EXPECT_TRUE(inputs(buffer, kStart, kStart, ImuHold::Midpoint).empty());
-  EXPECT_TRUE(inputs(buffer, kStart, kStart - kMs, ImuHold::Midpoint).empty());
-  EXPECT_EQ(inputs(buffer, kStart, kStart + kMs, ImuHold::Midpoint).size(), 1U);
+  const ImuBuffer buffer = bufferOf({sampleAt(kFirstStamp)});
+  EXPECT_TRUE(inputs(buffer, kFirstStamp, kFirstStamp, ImuHold::Midpoint).empty());
+  EXPECT_TRUE(inputs(buffer, kFirstStamp, kFirstStamp - kMs, ImuHold::Midpoint).empty());
+  EXPECT_EQ(inputs(buffer, kFirstStamp, kFirstStamp + kMs, ImuHold::Midpoint).size(), 1U);
 }
 
 TEST(ImuBuffer, FindsTheLongestGapThatAnIntervalTouches)
 {
   const ImuBuffer buffer = bufferOf(
-      {sampleAt(kStart), sampleAt(kStart + 5 * kMs), sampleAt(kStart + 45 * kMs),
-       sampleAt(kStart + 50 * kMs)});
-  EXPECT_EQ(buffer.longestGap(kStart, kStart + 5 * kMs), 5 * kMs);
-  EXPECT_EQ(buffer.longestGap(kStart, kStart + 6 * kMs), 40 * kMs);
-  EXPECT_EQ(buffer.longestGap(kStart + 20 * kMs, kStart + 30 * kMs), 40 * kMs);
-  EXPECT_EQ(buffer.longestGap(kStart + 45 * kMs, kStart + 50 * kMs), 5 * kMs);
+      {sampleAt(kFirstStamp), sampleAt(kFirstStamp + 5 * kMs), sampleAt(kFirstStamp + 45 * kMs),
+       sampleAt(kFirstStamp + 50 * kMs)});
+  EXPECT_EQ(buffer.longestGap(kFirstStamp, kFirstStamp + 5 * kMs), 5 * kMs);
+  EXPECT_EQ(buffer.longestGap(kFirstStamp, kFirstStamp + 6 * kMs), 40 * kMs);
+  EXPECT_EQ(buffer.longestGap(kFirstStamp + 20 * kMs, kFirstStamp + 30 * kMs), 40 * kMs);
+  EXPECT_EQ(buffer.longestGap(kFirstStamp + 45 * kMs, kFirstStamp + 50 * kMs), 5 * kMs);
   // What is missing at the ends counts too.
-  EXPECT_EQ(buffer.longestGap(kStart + 46 * kMs, kStart + 150 * kMs), 100 * kMs);
-  EXPECT_EQ(buffer.longestGap(kStart - 70 * kMs, kStart + 4 * kMs), 70 * kMs);
+  EXPECT_EQ(buffer.longestGap(kFirstStamp + 46 * kMs, kFirstStamp + 150 * kMs), 100 * kMs);
+  EXPECT_EQ(buffer.longestGap(kFirstStamp - 70 * kMs, kFirstStamp + 4 * kMs), 70 * kMs);
 }
 
 TEST(ImuBuffer, GivesTheSamplesOfAClosedInterval)
@@ -208,7 +211,7 @@ TEST(ImuBuffer, GivesTheSamplesOfAClosedInterval)
   const auto some = buffer.samplesBetween(samples[10].stamp_ns, samples[20].stamp_ns);
   EXPECT_TRUE(sameInputs(some, {samples.begin() + 10, samples.begin() + 21}));
   EXPECT_TRUE(buffer.samplesBetween(samples[10].stamp_ns + 1, samples[11].stamp_ns - 1).empty());
-  EXPECT_EQ(buffer.samplesBetween(kStart - kMs, samples.back().stamp_ns + kMs).size(), 50U);
+  EXPECT_EQ(buffer.samplesBetween(kFirstStamp - kMs, samples.back().stamp_ns + kMs).size(), 50U);
 }
 
 TEST(ImuBuffer, ForgettingChangesNoLaterInput)
@@ -217,7 +220,7 @@ TEST(ImuBuffer, ForgettingChangesNoLaterInput)
   const auto samples = unevenSamples(4, 20000);
   const ImuBuffer all = bufferOf(samples);
   ImuBuffer forgetful;
-  std::int64_t forgotten = kStart;
+  std::int64_t forgotten = kFirstStamp;
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     forgetful.add(samples[i]);
@@ -238,30 +241,32 @@ TEST(ImuBuffer, ForgettingChangesNoLaterInput)
 
 TEST(ImuBuffer, ForgetsTheSamplesBeforeAnInstantAcrossAGap)
 {
-  const auto buffer = [] {
-    return bufferOf({sampleAt(kStart), sampleAt(kStart + kMs), sampleAt(kStart + 900 * kMs)});
+  const auto buffer = []
+  {
+    return bufferOf(
+        {sampleAt(kFirstStamp), sampleAt(kFirstStamp + kMs), sampleAt(kFirstStamp + 900 * kMs)});
   };
   ImuBuffer on_sample = buffer(), in_gap = buffer(), behind = buffer(), ahead = buffer();
-  on_sample.forgetSamplesBefore(kStart + kMs);
-  EXPECT_EQ(on_sample.oldestStamp(), kStart + kMs);
-  in_gap.forgetSamplesBefore(kStart + kMs + 1);
-  EXPECT_EQ(in_gap.oldestStamp(), kStart + 900 * kMs);
-  behind.forgetSamplesBefore(kStart + 1000 * kMs);
-  EXPECT_EQ(behind.oldestStamp(), kStart + 900 * kMs) << "the newest stays";
-  ahead.forgetSamplesBefore(kStart);
-  EXPECT_EQ(ahead.oldestStamp(), kStart);
-  ImuBuffer{}.forgetSamplesBefore(kStart);
+  on_sample.forgetSamplesBefore(kFirstStamp + kMs);
+  EXPECT_EQ(on_sample.oldestStamp(), kFirstStamp + kMs);
+  in_gap.forgetSamplesBefore(kFirstStamp + kMs + 1);
+  EXPECT_EQ(in_gap.oldestStamp(), kFirstStamp + 900 * kMs);
+  behind.forgetSamplesBefore(kFirstStamp + 1000 * kMs);
+  EXPECT_EQ(behind.oldestStamp(), kFirstStamp + 900 * kMs) << "the newest stays";
+  ahead.forgetSamplesBefore(kFirstStamp);
+  EXPECT_EQ(ahead.oldestStamp(), kFirstStamp);
+  ImuBuffer{}.forgetSamplesBefore(kFirstStamp);
 }
 
 TEST(ImuBuffer, ForgettingKeepsTheNewestSample)
 {
-  ImuBuffer buffer = bufferOf({sampleAt(kStart), sampleAt(kStart + kMs, 2.0)});
-  buffer.forgetBefore(kStart + 1000 * kMs);
+  ImuBuffer buffer = bufferOf({sampleAt(kFirstStamp), sampleAt(kFirstStamp + kMs, 2.0)});
+  buffer.forgetBefore(kFirstStamp + 1000 * kMs);
   ASSERT_FALSE(buffer.empty());
-  EXPECT_EQ(buffer.oldestStamp(), kStart + kMs);
-  EXPECT_EQ(buffer.add(sampleAt(kStart + kMs)), ImuBuffer::Verdict::Duplicate);
-  buffer.forgetBefore(kStart - kMs);
-  EXPECT_EQ(buffer.oldestStamp(), kStart + kMs);
+  EXPECT_EQ(buffer.oldestStamp(), kFirstStamp + kMs);
+  EXPECT_EQ(buffer.add(sampleAt(kFirstStamp + kMs)), ImuBuffer::Verdict::Duplicate);
+  buffer.forgetBefore(kFirstStamp - kMs);
+  EXPECT_EQ(buffer.oldestStamp(), kFirstStamp + kMs);
 }
 }  // namespace
 }  // namespace fastlio

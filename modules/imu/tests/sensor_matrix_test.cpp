@@ -14,7 +14,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kDown = 9.81;
+constexpr double kGravityLength = 9.81;
 
 std::vector<ImuSample> turning()
 {
@@ -24,7 +24,7 @@ std::vector<ImuSample> turning()
     const double t = 0.005 * i;
     samples.push_back(
         {1'700'000'000'000'000'000 + i * 5'000'000, Vec3(std::cos(2.0 * t), 0.1, -0.2),
-         Vec3(0.1, 0.2 * std::sin(t), kDown)});
+         Vec3(0.1, 0.2 * std::sin(t), kGravityLength)});
   }
   return samples;
 }
@@ -50,7 +50,7 @@ std::vector<ImuSample> measured(std::vector<ImuSample> samples, const ImuOptions
 TEST(SensorMatrix, IsTakenOffTheReadings)
 {
   const std::vector<ImuSample> truth = turning();
-  ImuConditioner conditioner(withMatrices(), kDown);
+  ImuConditioner conditioner(withMatrices(), kGravityLength);
   std::vector<ImuSample> out;
   const auto append = [&out](const std::vector<ConditionedSample>& ready)
   {
@@ -73,7 +73,7 @@ TEST(SensorMatrix, DoesNotHideClipping)
 {
   ImuOptions options = withMatrices();
   options.gyro_range = 0.5;
-  ImuConditioner conditioner(options, kDown);
+  ImuConditioner conditioner(options, kGravityLength);
   for (ImuSample sample : measured(turning(), options))
   {
     sample.gyro[0] = std::min(sample.gyro[0], 0.5);

@@ -33,7 +33,7 @@ Cloud lineCloud(
   return cloud;
 }
 
-EdgeMap mapOf(const Cloud& cloud, const EdgeMapOptions& options = {})
+EdgeMap edgesOf(const Cloud& cloud, const EdgeMapOptions& options = {})
 {
   EdgeMap map(options);
   map.insert(worldPoints(cloud));
@@ -52,7 +52,7 @@ Vec3 directionOf(const LineMatch& m)
 {
   return {m.ux, m.uy, m.uz};
 }
-Vec3 pointOf(const LineMatch& m)
+Vec3 footOf(const LineMatch& m)
 {
   return {m.qx, m.qy, m.qz};
 }
@@ -66,14 +66,14 @@ TEST(EdgeMap, FindsLinesOfAnyDirection)
   for (int trial = 0; trial < 200; ++trial)
   {
     const Vec3 point = 50.0 * vector(), direction = vector().normalized();
-    const EdgeMap map = mapOf(lineCloud(point, direction, 6.0, 0.25, 0.0, 1));
+    const EdgeMap map = edgesOf(lineCloud(point, direction, 6.0, 0.25, 0.0, 1));
     const Vec3 across = direction.cross(vector()).normalized();
     const Vec3 query = point + 0.7 * direction + 0.3 * across;
     const LineMatch m = matchOf(map, query);
     ASSERT_TRUE(m.valid()) << trial;
     EXPECT_NEAR(directionOf(m).norm(), 1.0, 1e-6);
     EXPECT_GT(std::abs(directionOf(m).dot(direction)), 1.0 - 1e-6);
-    EXPECT_LT((pointOf(m) - (point + 0.7 * direction)).norm(), 1e-3);  // foot of the perpendicular
+    EXPECT_LT((footOf(m) - (point + 0.7 * direction)).norm(), 1e-3);  // foot of the perpendicular
   }
 }
 
@@ -82,12 +82,12 @@ TEST(EdgeMap, MatchesOnlyWhereThereIsALine)
   const Vec3 origin = Vec3::Zero(), far_away(100, 0, 0);
   EXPECT_FALSE(matchOf(EdgeMap(), origin).valid());
   const Cloud four{{0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
-  EXPECT_FALSE(matchOf(mapOf(four), origin).valid());
+  EXPECT_FALSE(matchOf(edgesOf(four), origin).valid());
   const Cloud cross{{0, 0, 0}, {0.5F, 0, 0}, {-0.5F, 0, 0}, {0, 0.5F, 0}, {0, -0.5F, 0}};
-  EXPECT_FALSE(matchOf(mapOf(cross), origin).valid());
+  EXPECT_FALSE(matchOf(edgesOf(cross), origin).valid());
   const Cloud bent{{0, 0, 0}, {0.4F, 0.4F, 0}, {0.8F, 0, 0}, {1.2F, 0.4F, 0}, {1.6F, 0, 0}};
-  EXPECT_FALSE(matchOf(mapOf(bent), origin).valid());
-  const EdgeMap line = mapOf(lineCloud(origin, Vec3::UnitZ(), 4.0, 0.25, 0.0, 1));
+  EXPECT_FALSE(matchOf(edgesOf(bent), origin).valid());
+  const EdgeMap line = edgesOf(lineCloud(origin, Vec3::UnitZ(), 4.0, 0.25, 0.0, 1));
   EXPECT_TRUE(matchOf(line, origin).valid());
   EXPECT_FALSE(matchOf(line, far_away).valid());
   EXPECT_FALSE(matchOf(line, Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0)).valid());
@@ -106,11 +106,11 @@ TEST(EdgeMap, SaysHowFarPointsOfAnEdgeScatterAboutItsLine)
   for (unsigned trial = 0; trial < 3000; ++trial)
   {
     const EdgeMap map =
-        mapOf(lineCloud(Vec3(3, -2, 1), Vec3::UnitZ(), 3.0, 0.3, kNoise, trial), options);
+        edgesOf(lineCloud(Vec3(3, -2, 1), Vec3::UnitZ(), 3.0, 0.3, kNoise, trial), options);
     const Vec3 query = Vec3(3, -2, 1.1) + Vec3(noise(rng), noise(rng), noise(rng));
     const LineMatch m = matchOf(map, query);
     if (!m.valid()) continue;
-    squares += (query - pointOf(m)).squaredNorm() / double(m.variance);
+    squares += (query - footOf(m)).squaredNorm() / double(m.variance);
     count += 2;
   }
   ASSERT_GT(count, 5000);
@@ -119,7 +119,7 @@ TEST(EdgeMap, SaysHowFarPointsOfAnEdgeScatterAboutItsLine)
 
 TEST(EdgeMap, TrustsAnExtrapolatedLineLess)
 {
-  const EdgeMap map = mapOf(lineCloud(Vec3::Zero(), Vec3::UnitZ(), 4.0, 0.25, 0.01, 3));
+  const EdgeMap map = edgesOf(lineCloud(Vec3::Zero(), Vec3::UnitZ(), 4.0, 0.25, 0.01, 3));
   const LineMatch inside = matchOf(map, Vec3::Zero()), beyond = matchOf(map, Vec3(0, 0, 3.0));
   ASSERT_TRUE(inside.valid());
   ASSERT_TRUE(beyond.valid());

@@ -18,7 +18,7 @@ using namespace fastlio::testing;
 
 namespace
 {
-KnnSurfaceMap mapOf(const Cloud& cloud, const KnnSurfaceMapOptions& options = {})
+KnnSurfaceMap surfacesOf(const Cloud& cloud, const KnnSurfaceMapOptions& options = {})
 {
   KnnSurfaceMap map(options);
   map.insert(worldPoints(cloud), Vec3::Zero());
@@ -28,7 +28,7 @@ KnnSurfaceMap mapOf(const Cloud& cloud, const KnnSurfaceMapOptions& options = {}
 
 TEST(KnnSurfaceMap, FindsTheWallsOfARoom)
 {
-  const KnnSurfaceMap map = mapOf(roomCloud(1, 60000));
+  const KnnSurfaceMap map = surfacesOf(roomCloud(1, 60000));
   const Cloud queries{{-20, 3, 0.5F}, {20.05F, -4, -1}, {5, 12, 0}, {5, -11.9F, 0}, {1, 2, -3}};
   const Eigen::Vector3d normals[] = {
       Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(),
@@ -53,13 +53,13 @@ TEST(KnnSurfaceMap, MatchesOnlyWhereThereIsAPlane)
   // Empty map, too few points, points around a corner, points on a line, too far away.
   EXPECT_FALSE(matchAll(KnnSurfaceMap(), worldPoints(queries))[0].valid());
   const Cloud four{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-  EXPECT_FALSE(matchAll(mapOf(four), worldPoints(queries))[0].valid());
+  EXPECT_FALSE(matchAll(surfacesOf(four), worldPoints(queries))[0].valid());
   const Cloud rough{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5F, 0.5F, 0.9F}};
-  EXPECT_FALSE(matchAll(mapOf(rough), worldPoints(queries))[0].valid());
+  EXPECT_FALSE(matchAll(surfacesOf(rough), worldPoints(queries))[0].valid());
   const Cloud line{{0, 0, 0}, {0.5F, 0, 0}, {1, 0, 0}, {1.5F, 0, 0}, {-0.5F, 0, 0}};
-  EXPECT_FALSE(matchAll(mapOf(line), worldPoints(queries))[0].valid());
+  EXPECT_FALSE(matchAll(surfacesOf(line), worldPoints(queries))[0].valid());
   const Cloud flat{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5F, 0.5F, 0.01F}};
-  const auto matches = matchAll(mapOf(flat), worldPoints(queries));
+  const auto matches = matchAll(surfacesOf(flat), worldPoints(queries));
   EXPECT_TRUE(matches[0].valid());
   EXPECT_FALSE(matches[1].valid());
   EXPECT_FALSE(matches[2].valid());
@@ -68,7 +68,7 @@ TEST(KnnSurfaceMap, MatchesOnlyWhereThereIsAPlane)
 TEST(KnnSurfaceMap, VarianceGrowsWithTheDistanceFromTheNeighbors)
 {
   const Cloud strip{{0, 0, 0}, {0.5F, 0.05F, 0}, {1, -0.05F, 0}, {1.5F, 0.05F, 0}, {2, 0, 0}};
-  const KnnSurfaceMap map = mapOf(strip);
+  const KnnSurfaceMap map = surfacesOf(strip);
   const Cloud queries{{1, 0, 0}, {1, 0.3F, 0}, {1, 1, 0}};
   const auto matches = matchAll(map, worldPoints(queries));
   ASSERT_TRUE(matches[0].valid() && matches[1].valid() && matches[2].valid());
@@ -82,7 +82,7 @@ TEST(KnnSurfaceMap, VarianceIsThatOfTheOffset)
 {
   KnnSurfaceMapOptions options;
   options.point_noise = 0.01;
-  const KnnSurfaceMap map = mapOf(roomCloud(2, 200000), options);
+  const KnnSurfaceMap map = surfacesOf(roomCloud(2, 200000), options);
   std::mt19937 rng(3);
   std::uniform_real_distribution<float> u(-1, 1);
   Cloud queries;
@@ -148,7 +148,7 @@ TEST(KnnSurfaceMap, PlanesAreThoseOfTheNearestPoints)
 
 TEST(KnnSurfaceMap, RangesAreMatchedInParallel)
 {
-  const KnnSurfaceMap map = mapOf(roomCloud(4, 20000));
+  const KnnSurfaceMap map = surfacesOf(roomCloud(4, 20000));
   const WorldPoints queries = worldPoints(roomCloud(5, 4000));
   const auto expected = matchAll(map, queries);
   std::vector<PlaneMatch> matches(queries.size());
@@ -181,7 +181,7 @@ TEST(KnnSurfaceMap, RemovalWaitsUntilTheCentreMoved)
 
 TEST(KnnSurfaceMap, HandsOutACopyOfItsPoints)
 {
-  KnnSurfaceMap map = mapOf(roomCloud(7, 5000));
+  KnnSurfaceMap map = surfacesOf(roomCloud(7, 5000));
   const auto points = map.toPointsMap();
   ASSERT_EQ(points->size(), map.pointCount());
   map.removeOutside({1000, 0, 0}, 1.0);

@@ -26,7 +26,7 @@ using mrpt::serialization::archiveFrom;
 namespace
 {
 /** A map whose every option differs from its default. */
-CIncrementalPointsMap unusualMap()
+CIncrementalPointsMap unusualPoints()
 {
   CIncrementalPointsMap map(0.2);
   insertAll(map, roomCloud(1, 5000));
@@ -50,7 +50,7 @@ void expectSamePoints(const mrpt::maps::CPointsMap& a, const mrpt::maps::CPoints
   }
 }
 
-void expectSameMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& b)
+void expectSamePointsMap(const CIncrementalPointsMap& a, const CIncrementalPointsMap& b)
 {
   expectSamePoints(a, b);
   EXPECT_EQ(a.minSpacing(), b.minSpacing());
@@ -108,7 +108,7 @@ class TemporaryFile
 TEST(MapIo, ArchiveRoundTripThroughTheClassFactory)
 {
   registerMapClasses();
-  const CIncrementalPointsMap map = unusualMap();
+  const CIncrementalPointsMap map = unusualPoints();
   const TemporaryFile file;
   {
     mrpt::io::CFileGZOutputStream stream(file.name());
@@ -120,9 +120,9 @@ TEST(MapIo, ArchiveRoundTripThroughTheClassFactory)
   const auto object = archive.ReadObject();
   const auto loaded = std::dynamic_pointer_cast<CIncrementalPointsMap>(object);
   ASSERT_TRUE(loaded);
-  expectSameMap(map, *loaded);
+  expectSamePointsMap(map, *loaded);
   loaded->ensureIndex();
-  expectSameMap(map, *loaded);
+  expectSamePointsMap(map, *loaded);
 }
 
 TEST(MapIo, EmptyMapRoundTrip)
@@ -140,17 +140,17 @@ TEST(MapIo, EmptyMapRoundTrip)
 
 TEST(MapIo, ReadsArchivesOfTheFirstVersion)
 {
-  std::vector<std::uint8_t> first = archived(unusualMap());
+  std::vector<std::uint8_t> first = archived(unusualPoints());
   first[kSpacingAt - 1] = 0;
   const double cell_size = 0.7;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(&cell_size);
   first.insert(first.begin() + std::ptrdiff_t(kSpacingAt), bytes, bytes + sizeof(cell_size));
-  expectSameMap(unusualMap(), loadedFrom(first));
+  expectSamePointsMap(unusualPoints(), loadedFrom(first));
 }
 
 TEST(MapIo, CorruptArchivesThrowAndDoNotExhaustMemory)
 {
-  const std::vector<std::uint8_t> original = archived(unusualMap());
+  const std::vector<std::uint8_t> original = archived(unusualPoints());
   const std::size_t size = original.size();
   EXPECT_NO_THROW(loadedFrom(original));
   for (const std::size_t length : {size / 100, size / 4, size / 2, size - 20})
@@ -173,25 +173,25 @@ TEST(MapIo, CorruptArchivesThrowAndDoNotExhaustMemory)
 
 TEST(MapIo, CopiesAreIndependent)
 {
-  const CIncrementalPointsMap map = unusualMap();
+  const CIncrementalPointsMap map = unusualPoints();
   CIncrementalPointsMap copy(map), assigned;
   assigned = map;
   const auto cloned = std::dynamic_pointer_cast<CIncrementalPointsMap>(map.duplicateGetSmartPtr());
   ASSERT_TRUE(cloned);
-  expectSameMap(map, copy);
-  expectSameMap(map, assigned);
-  expectSameMap(map, *cloned);
+  expectSamePointsMap(map, copy);
+  expectSamePointsMap(map, assigned);
+  expectSamePointsMap(map, *cloned);
   copy.removeOutside(0, 0, 0, 1.0);
   assigned.clear();
   EXPECT_EQ(assigned.size(), 0U);
-  expectSameMap(map, *cloned);
+  expectSamePointsMap(map, *cloned);
   assigned = *&assigned;
   EXPECT_EQ(assigned.size(), 0U);
 }
 
 TEST(MapIo, ConvertsFromAndToSimplePointsMaps)
 {
-  CIncrementalPointsMap map = unusualMap();
+  CIncrementalPointsMap map = unusualPoints();
   const mrpt::maps::CSimplePointsMap simple(static_cast<const mrpt::maps::CPointsMap&>(map));
   expectSamePoints(map, simple);
   const CIncrementalPointsMap back(static_cast<const mrpt::maps::CPointsMap&>(simple));
@@ -201,7 +201,7 @@ TEST(MapIo, ConvertsFromAndToSimplePointsMaps)
 
 TEST(MapIo, PlyAndTextFilesHoldTheLivePointsOnly)
 {
-  CIncrementalPointsMap map = unusualMap();
+  CIncrementalPointsMap map = unusualPoints();
   map.removeOutside(5, 5, 0, 8.0);
   ASSERT_GT(map.size(), 100U);
   const TemporaryFile ply, text;
@@ -220,7 +220,7 @@ TEST(MapIo, PlyAndTextFilesHoldTheLivePointsOnly)
 
 TEST(MapIo, VisualisationShowsThePoints)
 {
-  const CIncrementalPointsMap map = unusualMap();
+  const CIncrementalPointsMap map = unusualPoints();
   mrpt::opengl::CSetOfObjects scene;
   map.getVisualizationInto(scene);
   std::size_t shown = 0;

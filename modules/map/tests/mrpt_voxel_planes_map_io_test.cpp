@@ -25,7 +25,7 @@ using mrpt::serialization::archiveFrom;
 
 namespace
 {
-CVoxelPlanesMap unusualMap()
+CVoxelPlanesMap unusualPlanes()
 {
   CVoxelPlanesMap::TCreationOptions options;
   options.planes.voxel_size = 0.7;
@@ -103,7 +103,7 @@ constexpr std::size_t kBlockCount = kOptions + 8 + 4 * 4 + 4;
 TEST(VoxelPlanesMapIo, ArchivesMakeABoolOfAByteThatIsNone)
 {
   mrpt::io::CMemoryStream stream;
-  archiveFrom(stream) << unusualMap();
+  archiveFrom(stream) << unusualPlanes();
   // At the end: two flags, a float, and the mark of the end.
   auto* flag = static_cast<unsigned char*>(stream.getRawBufferData()) +
                stream.getTotalBytesCount() - 1 - sizeof(float) - 2;
@@ -120,7 +120,7 @@ TEST(VoxelPlanesMapIo, ArchivesMakeABoolOfAByteThatIsNone)
 TEST(VoxelPlanesMapIo, ArchivesGoOnAsTheOriginal)
 {
   ASSERT_EQ(std::strlen("fastlio::CVoxelPlanesMap"), 24U);
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   CVoxelPlanesMap loaded;
   load(archived(map), loaded);
   expectSameMap(map, loaded);
@@ -130,8 +130,8 @@ TEST(VoxelPlanesMapIo, ArchivesGoOnAsTheOriginal)
 
 TEST(VoxelPlanesMapIo, CorruptArchivesThrowAndLeaveTheMapAlone)
 {
-  const std::vector<std::uint8_t> original = archived(unusualMap());
-  CVoxelPlanesMap map = unusualMap();
+  const std::vector<std::uint8_t> original = archived(unusualPlanes());
+  CVoxelPlanesMap map = unusualPlanes();
   for (const std::size_t length : {original.size() / 100, original.size() / 2})
     EXPECT_ANY_THROW(load({original.begin(), original.begin() + std::ptrdiff_t(length)}, map));
   std::vector<std::uint8_t> changed = original;
@@ -149,25 +149,25 @@ TEST(VoxelPlanesMapIo, CorruptArchivesThrowAndLeaveTheMapAlone)
   changed = original;
   changed[kOptions - 1] = 9;  // from the future
   EXPECT_ANY_THROW(load(changed, map));
-  expectSameMap(map, unusualMap());
+  expectSameMap(map, unusualPlanes());
 }
 
 TEST(VoxelPlanesMapIo, CopiesAreIndependent)
 {
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   CVoxelPlanesMap copy(map), assigned;
   assigned = map;
   (void)assigned.points();
   copy.clear();
   assigned.removeOutside({100.0, 0.0, 0.0}, 1.0);
   EXPECT_TRUE(assigned.isEmpty());
-  expectSameMap(map, unusualMap());
+  expectSameMap(map, unusualPlanes());
 }
 
 TEST_F(VoxelPlanesMapFile, IsSavedAndLoaded)
 {
   registerMapClasses();
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   map.saveToFile(path_);
   CVoxelPlanesMap loaded;
   loaded.loadFromFile(path_);
@@ -178,7 +178,7 @@ TEST_F(VoxelPlanesMapFile, IsSavedAndLoaded)
 TEST_F(VoxelPlanesMapFile, SeveralAreSavedAtTheSameTime)
 {
   registerMapClasses();
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   const std::size_t points = map.points().size();
   std::array<std::size_t, 4> loaded_points{};
   std::array<std::thread, 4> savers;
@@ -201,7 +201,7 @@ TEST_F(VoxelPlanesMapFile, SeveralAreSavedAtTheSameTime)
 
 TEST_F(VoxelPlanesMapFile, RepresentationIsPointsAndArchive)
 {
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   map.saveMetricMapRepresentationToFile(path_);
   mrpt::maps::CSimplePointsMap points;
   ASSERT_TRUE(points.loadFromPlyFile(path_ + ".ply"));
@@ -213,7 +213,7 @@ TEST_F(VoxelPlanesMapFile, RepresentationIsPointsAndArchive)
 
 TEST_F(VoxelPlanesMapFile, TroubleIsToldWithTheFilesName)
 {
-  const CVoxelPlanesMap map = unusualMap();
+  const CVoxelPlanesMap map = unusualPlanes();
   EXPECT_NE(
       messageOf([&] { map.saveToFile("/nowhere/map"); }).find("/nowhere/map"), std::string::npos);
   CVoxelPlanesMap loaded;

@@ -16,7 +16,7 @@ using namespace fastlio::testing;
 
 namespace
 {
-const RoomRecording& room()
+const RoomRecording& roomForImuRate()
 {
   static const RoomRecording recording = recordRoom(5.0);
   return recording;
@@ -67,7 +67,7 @@ bool sameBits(const ImuRateState& a, const ImuRateState& b)
 TEST(ImuRate, CostsNothingWhenItIsNotAskedFor)
 {
   Odometry odometry(roomParameters());
-  for (const Step& step : stepsOf(odometry, room()))
+  for (const Step& step : stepsOf(odometry, roomForImuRate()))
     EXPECT_TRUE(step.before.empty());
   EXPECT_EQ(odometry.imuRateStates().capacity(), 0U);
 }
@@ -75,12 +75,12 @@ TEST(ImuRate, CostsNothingWhenItIsNotAskedFor)
 TEST(ImuRate, ItsStampsAreThoseOfTheSamplesEachOnce)
 {
   std::vector<std::int64_t> stamps;
-  const auto steps = stepsOf(imuRateParameters(), room());
+  const auto steps = stepsOf(imuRateParameters(), roomForImuRate());
   for (const Step& step : steps)
     for (const ImuRateState& state : step.before)
       stamps.push_back(state.stamp_ns);
   std::vector<std::int64_t> expected;
-  for (const ImuSample& sample : room().imu)
+  for (const ImuSample& sample : roomForImuRate().imu)
     if (sample.stamp_ns > steps.front().result.begin_ns &&
         sample.stamp_ns <= steps.back().result.stamp_ns)
       expected.push_back(sample.stamp_ns);
@@ -94,7 +94,7 @@ TEST(ImuRate, EachStateContinuesTheOneBefore)
   calibrated.calibration.extrinsic_rotation_std = 0.0;
   calibrated.calibration.extrinsic_translation_std = 0.0;
   calibrated.calibration.imu_scale_std = calibrated.calibration.imu_misalignment_std = 0.0;
-  for (const Step& step : stepsOf(calibrated, room()))
+  for (const Step& step : stepsOf(calibrated, roomForImuRate()))
     for (std::size_t i = 1; i < step.before.size(); ++i)
     {
       const ImuRateState &a = step.before[i - 1], &b = step.before[i];
@@ -108,7 +108,7 @@ TEST(ImuRate, EachStateContinuesTheOneBefore)
 
 TEST(ImuRate, TheLastStateOfAScanIsNearWhatTheScanSaid)
 {
-  const auto steps = stepsOf(imuRateParameters(), room());
+  const auto steps = stepsOf(imuRateParameters(), roomForImuRate());
   for (std::size_t k = 5; k < steps.size(); ++k)
   {
     ASSERT_FALSE(steps[k].before.empty());
@@ -123,13 +123,13 @@ TEST(ImuRate, TheLastStateOfAScanIsNearWhatTheScanSaid)
 
 TEST(ImuRate, IsAsGoodAsTheScansAndItsCovarianceHoldsTheError)
 {
-  const auto steps = stepsOf(imuRateParameters(), room());
+  const auto steps = stepsOf(imuRateParameters(), roomForImuRate());
   const Pose T_world_truth = steps.front().result.filter.x.pose() *
-                             room().truthAt(steps.front().result.stamp_ns).inverse();
+                             roomForImuRate().truthAt(steps.front().result.stamp_ns).inverse();
   for (std::size_t k = 1; k < steps.size(); ++k)
     for (const ImuRateState& state : steps[k].before)
     {
-      const Pose truth = T_world_truth * room().truthAt(state.stamp_ns);
+      const Pose truth = T_world_truth * roomForImuRate().truthAt(state.stamp_ns);
       const double error = (state.x.p - truth.p).norm();
       EXPECT_LT(error, 0.01);
       EXPECT_LT(error, 4.0 * std::sqrt(state.pose_covariance.bottomRightCorner<3, 3>().trace()));
@@ -139,8 +139,8 @@ TEST(ImuRate, IsAsGoodAsTheScansAndItsCovarianceHoldsTheError)
 
 TEST(ImuRate, ThreadsChangeNoBit)
 {
-  const auto one = stepsOf(imuRateParameters(1), room()),
-             two = stepsOf(imuRateParameters(2), room());
+  const auto one = stepsOf(imuRateParameters(1), roomForImuRate()),
+             two = stepsOf(imuRateParameters(2), roomForImuRate());
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t k = 0; k < one.size(); ++k)
   {
@@ -158,13 +158,14 @@ TEST(ImuRate, IsWhatWasKnownAtEachSample)
   std::vector<ImuRateState> live, told;
   std::size_t next_sample = 0;
   EXPECT_FALSE(odometry.stateAtNewestSample());
-  for (const LidarScan& scan : room().scans)
+  for (const LidarScan& scan : roomForImuRate().scans)
   {
     const std::int64_t end_ns = spanOf(scan).end_ns;
-    for (; next_sample < room().imu.size() && room().imu[next_sample].stamp_ns <= end_ns;
+    for (; next_sample < roomForImuRate().imu.size() &&
+           roomForImuRate().imu[next_sample].stamp_ns <= end_ns;
          ++next_sample)
     {
-      odometry.addImu(room().imu[next_sample]);
+      odometry.addImu(roomForImuRate().imu[next_sample]);
       if (const auto state = odometry.stateAtNewestSample()) live.push_back(*state);
     }
     odometry.addScan(scan);
@@ -180,7 +181,7 @@ TEST(ImuRate, IsWhatWasKnownAtEachSample)
 
 TEST(ImuRate, StopsWhereThePoseIsNotTrusted)
 {
-  RoomRecording absurd = room();
+  RoomRecording absurd = roomForImuRate();
   for (ImuSample& sample : absurd.imu)
     if (sample.stamp_ns > kRecordingStart + 3'000'000'000) sample.accel = Vec3::Constant(5e5);
   OdometryOptions p = imuRateParameters();

@@ -12,13 +12,13 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kInformation = 1e4;
+constexpr double kScanInformation = 1e4;
 
 /** Half of the weight on planes of each insertion; planes without errors of their own. */
 GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> insertions)
 {
   GroupedMeasurements scan;
-  scan.information = kInformation * Matrix6::Identity();
+  scan.information = kScanInformation * Matrix6::Identity();
   for (const std::uint32_t insertion : insertions)
   {
     PlaneGroup& group = scan.groups.emplace_back();
@@ -32,7 +32,7 @@ GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> insertions)
 LinearizedUpdate fullTrust()
 {
   LinearizedUpdate update;
-  update.gain.topRows<6>() = Matrix6::Identity() / kInformation;
+  update.gain.topRows<6>() = Matrix6::Identity() / kScanInformation;
   return update;
 }
 
@@ -171,8 +171,8 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     dense.propagate(kept);
 
     GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1});
-    scan.information = randomCovariance(kInformation);
-    scan.shared_noise = randomCovariance(1e-3 * kInformation);
+    scan.information = randomCovariance(kScanInformation);
+    scan.shared_noise = randomCovariance(1e-3 * kScanInformation);
     scan.persistence = 0.7;
     for (PlaneGroup& group : scan.groups)
     {
@@ -180,7 +180,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
       group.shared_variance = 1e-6;
     }
     LinearizedUpdate update;
-    update.gain = 0.2 / kInformation * ScanGain::Random();
+    update.gain = 0.2 / kScanInformation * ScanGain::Random();
     update.gain.bottomRows<kCalibrationDim>().setZero();
     model.update(update, scan);
     dense.update(update, scan, insertion.inherited);

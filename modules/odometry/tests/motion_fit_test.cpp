@@ -16,7 +16,7 @@ namespace
 constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
 constexpr std::int64_t kPeriodNs = 5'000'000;
 const Vec3 kVelocity0{6.0, -1.5, 0.4};
-const Vec3 kGravity = Vec3(0.4, -0.3, -1.0).normalized() * 9.81;
+const Vec3 kGravityVector = Vec3(0.4, -0.3, -1.0).normalized() * 9.81;
 
 /** A turning platform whose acceleration changes, followed exactly at a fine step. */
 struct Drive
@@ -54,7 +54,7 @@ Drive drive(double seconds, int poses_every)
     for (int k = 0; k < kFine; ++k)
     {
       const Vec3 a = accelerationAt((double(i) * kFine + k + 0.5) * dt);
-      if (k == kFine / 2) input.accel = R.transpose() * (a - kGravity);
+      if (k == kFine / 2) input.accel = R.transpose() * (a - kGravityVector);
       p += dt * v + 0.5 * dt * dt * a;
       v += dt * a;
       R = R * expSO3(dt * input.gyro);
@@ -71,7 +71,7 @@ TEST(MotionFit, FindsVelocityAndGravity)
   const MotionFit fit = fitMotion(d.poses, d.inputs, d.prior);
   ASSERT_TRUE(fit.solved);
   EXPECT_LT((fit.velocity - kVelocity0).norm(), 0.005);
-  EXPECT_LT((fit.g - kGravity).norm(), 0.02);
+  EXPECT_LT((fit.g - kGravityVector).norm(), 0.02);
 }
 
 TEST(MotionFit, AnErrorThatAllPosesButTheFirstShareDoesNotMatter)

@@ -21,7 +21,7 @@ namespace
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-const RoomRecording& room()
+const RoomRecording& roomForInput()
 {
   static const RoomRecording recording = recordRoom(4.0);
   return recording;
@@ -35,13 +35,14 @@ Results runInterleaved(unsigned seed, double share_of_imu)
   Odometry odometry(roomParameters());
   Results results;
   std::size_t i = 0, k = 0;
-  while (i < room().imu.size() || k < room().scans.size())
+  while (i < roomForInput().imu.size() || k < roomForInput().scans.size())
   {
-    const bool imu_left = i < room().imu.size(), scan_left = k < room().scans.size();
+    const bool imu_left = i < roomForInput().imu.size(),
+               scan_left = k < roomForInput().scans.size();
     if (imu_left && (!scan_left || imu_next(rng)))
-      odometry.addImu(room().imu[i++]);
+      odometry.addImu(roomForInput().imu[i++]);
     else
-      odometry.addScan(room().scans[k++]);
+      odometry.addScan(roomForInput().scans[k++]);
     if (drain_now(rng)) drain(odometry, results);
   }
   finish(odometry, results);
@@ -58,8 +59,8 @@ bool allFinite(const Results& results)
 
 TEST(OdometryInput, AnyInterleavingGivesTheSameBits)
 {
-  const Results in_order = runInOrder(roomParameters(), room());
-  EXPECT_EQ(in_order.size(), room().scans.size());
+  const Results in_order = runInOrder(roomParameters(), roomForInput());
+  EXPECT_EQ(in_order.size(), roomForInput().scans.size());
   // From "all scans first" over mixtures to "all inertial samples first".
   for (const double fraction : {0.0, 0.3, 0.9, 0.95, 0.99, 1.0})
     EXPECT_TRUE(sameBits(runInterleaved(unsigned(100 * fraction), fraction), in_order)) << fraction;
@@ -70,14 +71,14 @@ TEST(OdometryInput, AScanWaitsForItsInertialData)
   Odometry odometry(roomParameters());
   EXPECT_FALSE(odometry.next());
   EXPECT_FALSE(odometry.flush());
-  odometry.addScan(room().scans[0]);
+  odometry.addScan(roomForInput().scans[0]);
   EXPECT_FALSE(odometry.next());
   Results results;
-  const std::int64_t last_end = spanOf(room().scans[30]).end_ns;
-  for (const ImuSample& s : room().imu)
+  const std::int64_t last_end = spanOf(roomForInput().scans[30]).end_ns;
+  for (const ImuSample& s : roomForInput().imu)
     if (s.stamp_ns < last_end) odometry.addImu(s);
   for (std::size_t i = 1; i <= 30; ++i)
-    odometry.addScan(room().scans[i]);
+    odometry.addScan(roomForInput().scans[i]);
   drain(odometry, results);
   EXPECT_EQ(results.size(), 30U) << "the last scan's end is not covered";
   finish(odometry, results);
@@ -88,7 +89,7 @@ TEST(OdometryInput, AScanWaitsForItsInertialData)
 
 TEST(OdometryInput, FlushLeavesScansFarBeyondTheInertialData)
 {
-  const RoomRecording& r = room();
+  const RoomRecording& r = roomForInput();
   Odometry odometry(roomParameters());
   Results results;
   for (const ImuSample& s : r.imu)
@@ -106,22 +107,22 @@ TEST(OdometryInput, BadInertialSamplesAreCountedAndChangeNothing)
 {
   Odometry odometry(roomParameters());
   Results results;
-  for (std::size_t i = 0; i < room().imu.size(); ++i)
+  for (std::size_t i = 0; i < roomForInput().imu.size(); ++i)
   {
-    const ImuSample& s = room().imu[i];
+    const ImuSample& s = roomForInput().imu[i];
     odometry.addImu(s);
     if (i % 10 == 0) odometry.addImu({s.stamp_ns, Vec3(9, 9, 9), Vec3(9, 9, 9)});
     if (i % 20 == 0) odometry.addImu({s.stamp_ns - 2'000'000, Vec3(9, 9, 9), Vec3(9, 9, 9)});
     if (i % 40 == 0) odometry.addImu({s.stamp_ns + 1'000'000, Vec3(kNaN, 0, 0), s.accel});
     if (i % 80 == 0) odometry.addImu({s.stamp_ns + 1'000'000, s.gyro, Vec3(0, -kInf, 0)});
   }
-  for (const LidarScan& scan : room().scans)
+  for (const LidarScan& scan : roomForInput().scans)
     odometry.addScan(scan);
   drain(odometry, results);
   finish(odometry, results);
-  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), room())));
+  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), roomForInput())));
   const InputStatistics& counts = odometry.inputStatistics();
-  const std::size_t n = room().imu.size();
+  const std::size_t n = roomForInput().imu.size();
   const auto each = [n](std::size_t step) { return (n + step - 1) / step; };
   EXPECT_EQ(counts.imu_duplicate, each(10));
   EXPECT_EQ(counts.imu_out_of_order, each(20));
@@ -133,25 +134,25 @@ TEST(OdometryInput, EmptyAndRepeatedScansAreCounted)
 {
   Odometry odometry(roomParameters());
   Results results;
-  for (const ImuSample& s : room().imu)
+  for (const ImuSample& s : roomForInput().imu)
     odometry.addImu(s);
-  for (std::size_t i = 0; i < room().scans.size(); ++i)
+  for (std::size_t i = 0; i < roomForInput().scans.size(); ++i)
   {
-    odometry.addScan(room().scans[i]);
+    odometry.addScan(roomForInput().scans[i]);
     if (i == 20) odometry.addScan(LidarScan{});
-    if (i == 25) odometry.addScan(room().scans[25]);
-    if (i == 30) odometry.addScan(room().scans[10]);
+    if (i == 25) odometry.addScan(roomForInput().scans[25]);
+    if (i == 30) odometry.addScan(roomForInput().scans[10]);
   }
   drain(odometry, results);
   finish(odometry, results);
   EXPECT_EQ(odometry.inputStatistics().scans_empty, 1U);
   EXPECT_EQ(odometry.inputStatistics().scans_out_of_order, 2U);
-  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), room())));
+  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), roomForInput())));
 }
 
 TEST(OdometryInput, PointsThatAreNoNumbersNeverReachTheState)
 {
-  RoomRecording spoilt = room();
+  RoomRecording spoilt = roomForInput();
   std::mt19937 rng(4);
   std::size_t spoilt_in_last = 0;
   for (LidarScan& scan : spoilt.scans)
@@ -176,7 +177,7 @@ TEST(OdometryInput, PointsThatAreNoNumbersNeverReachTheState)
 
 TEST(OdometryInput, ScansOfNonsenseOnlyLeaveThePrediction)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForInput();
   for (std::size_t i = 22; i < 25; ++i)
     for (float& x : recording.scans[i].points.x)
       x = float(kNaN);
@@ -195,7 +196,7 @@ TEST(OdometryInput, ScansOfNonsenseOnlyLeaveThePrediction)
 
 TEST(OdometryInput, AbsurdInertialValuesNeverMakeTheStateInfinite)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForInput();
   for (std::size_t i = 700; i < 720; ++i)
     recording.imu[i].accel.setConstant(1e300);
   const Results results = runInOrder(roomParameters(), recording);

@@ -17,7 +17,7 @@ using namespace fastlio::testing;
 
 namespace
 {
-const RoomRecording& room()
+const RoomRecording& roomForRecovery()
 {
   static const RoomRecording recording = recordRoom(9.0);
   return recording;
@@ -54,7 +54,7 @@ WorstPoseErrors worstFrom(const Results& results, const RoomRecording& recording
 
 TEST(OdometryRecovery, AShortGapInMotionIsBridged)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   recording.imu.erase(recording.imu.begin() + 1000, recording.imu.begin() + 1060);  // 0.3 s
   Odometry odometry(roomParameters());
   const Results results = runInOrder(odometry, recording);
@@ -66,7 +66,7 @@ TEST(OdometryRecovery, AShortGapInMotionIsBridged)
 
 TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   recording.imu.erase(recording.imu.begin() + 900, recording.imu.begin() + 1140);  // 1.2 s
   OdometryOptions parameters = roomParameters();
   parameters.calibration.estimate_time_offset = true;
@@ -95,7 +95,7 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
 
 TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   // 1.5 s of consistent nonsense at once: the gyro's axes are exchanged.
   for (std::size_t i = 700; i < 1000; ++i)
     recording.imu[i].gyro = Vec3(3.0 + recording.imu[i].gyro.z(), -4.0, 2.0);
@@ -114,7 +114,7 @@ TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
 
 TEST(OdometryRecovery, UnitsOfGAndDegreesAreFound)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   for (ImuSample& s : recording.imu)
   {
     s.accel /= 9.80665;
@@ -130,7 +130,7 @@ TEST(OdometryRecovery, UnitsOfGAndDegreesAreFound)
 
 TEST(OdometryRecovery, UnitsThatAreGivenCostNothing)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   for (ImuSample& s : recording.imu)
   {
     s.accel /= 9.80665;
@@ -147,7 +147,7 @@ TEST(OdometryRecovery, UnitsThatAreGivenCostNothing)
 TEST(OdometryRecovery, AnImuUpsideDownIsFineAndToldSo)
 {
   const Mat3 flip = expSO3({M_PI, 0.0, 0.0});
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   for (ImuSample& s : recording.imu)
     s = {s.stamp_ns, flip * s.gyro, flip * s.accel};
   for (LidarScan& scan : recording.scans)
@@ -165,7 +165,7 @@ TEST(OdometryRecovery, AnImuUpsideDownIsFineAndToldSo)
 
 TEST(OdometryRecovery, AClockThatIsSetBackLosesNothing)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   constexpr std::int64_t kHourNs = 3'600'000'000'000;
   for (std::size_t i = 900; i < recording.imu.size(); ++i)
     recording.imu[i].stamp_ns -= kHourNs;
@@ -186,12 +186,12 @@ TEST(OdometryRecovery, AClockThatIsSetBackLosesNothing)
   EXPECT_EQ(odometry.imuReport().clock_steps, 1U);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
   EXPECT_GE(countOf(results, ScanStatus::Tracking), recording.scans.size() - 2);
-  EXPECT_LT(worstPoseErrors(results, room()).position, 0.02);
+  EXPECT_LT(worstPoseErrors(results, roomForRecovery()).position, 0.02);
 }
 
 TEST(OdometryRecovery, WrongStampsOfScansDoNotStopTheOthers)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   recording.scans[0].stamp_ns += 86'400'000'000'000;
   recording.scans[40].stamp_ns += 3'600'000'000'000;
   recording.scans[50].stamp_ns -= 3'600'000'000'000;
@@ -219,7 +219,7 @@ TEST(OdometryRecovery, WrongStampsOfScansDoNotStopTheOthers)
 
 TEST(OdometryRecovery, ScansInTheWrongOrderAreSorted)
 {
-  RoomRecording recording = room();
+  RoomRecording recording = roomForRecovery();
   for (std::size_t i = 10; i + 1 < recording.scans.size(); i += 4)
     std::swap(recording.scans[i], recording.scans[i + 1]);
   Odometry odometry(roomParameters());
@@ -229,5 +229,5 @@ TEST(OdometryRecovery, ScansInTheWrongOrderAreSorted)
   for (const ImuSample& s : recording.imu)
     odometry.addImu(s);
   finish(odometry, results);
-  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), room())));
+  EXPECT_TRUE(sameBits(results, runInOrder(roomParameters(), roomForRecovery())));
 }

@@ -12,7 +12,7 @@ using namespace fastlio::testing;
 
 namespace
 {
-const RoomRecording& room()
+const RoomRecording& roomForStart()
 {
   static const RoomRecording recording = recordRoom(4.0);
   return recording;
@@ -31,7 +31,7 @@ RoomRecording movingFromTheStart(double imu_rate)
 
 TEST(OdometryStart, ScansBeforeTheInertialDataAreAccountedFor)
 {
-  RoomRecording late = room();
+  RoomRecording late = roomForStart();
   late.imu.erase(late.imu.begin(), late.imu.begin() + 20);  // from 0.1 s on
   late.scans.erase(late.scans.begin() + 38, late.scans.end());
   Odometry odometry(roomParameters());
@@ -53,12 +53,12 @@ TEST(OdometryStart, WithoutAnyInertialDataTheEndSaysSo)
 {
   Odometry odometry(roomParameters());
   Results results;
-  for (const LidarScan& scan : room().scans)
+  for (const LidarScan& scan : roomForStart().scans)
     odometry.addScan(scan);
   drain(odometry, results);
   EXPECT_TRUE(results.empty());
   finish(odometry, results);
-  ASSERT_EQ(results.size(), room().scans.size());
+  ASSERT_EQ(results.size(), roomForStart().scans.size());
   for (const ScanResult& result : results)
   {
     EXPECT_EQ(result.status, ScanStatus::Initializing);
@@ -72,13 +72,13 @@ TEST(OdometryStart, ScansDoNotPileUpWithoutInertialData)
   p.lidar.max_waiting = 1.0;
   Odometry odometry(p);
   Results results;
-  for (const LidarScan& scan : room().scans)
+  for (const LidarScan& scan : roomForStart().scans)
   {
     odometry.addScan(scan);
     drain(odometry, results);
   }
-  EXPECT_EQ(results.size(), room().scans.size() - 11);
-  EXPECT_EQ(results.front().begin_ns, spanOf(room().scans.front()).begin_ns);
+  EXPECT_EQ(results.size(), roomForStart().scans.size() - 11);
+  EXPECT_EQ(results.front().begin_ns, spanOf(roomForStart().scans.front()).begin_ns);
 }
 
 TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
@@ -87,11 +87,11 @@ TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
   p.lidar.max_waiting = 0.5;
   p.imu_rate = true;
   Odometry odometry(p);
-  for (const ImuSample& sample : room().imu)
+  for (const ImuSample& sample : roomForStart().imu)
     if (sample.stamp_ns < kRecordingStart + 2'500'000'000) odometry.addImu(sample);
   Results results;
   std::size_t states = 0;
-  for (const LidarScan& scan : room().scans)
+  for (const LidarScan& scan : roomForStart().scans)
   {
     odometry.addScan(scan);
     while (auto result = odometry.next())
@@ -102,8 +102,8 @@ TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
   }
   EXPECT_EQ(results.back().status, ScanStatus::Diverged);
   EXPECT_NE(results.back().message.find("have ended"), std::string::npos) << results.back().message;
-  EXPECT_EQ(results.size(), room().scans.size() - 6);
-  EXPECT_LE(states, room().imu.size());
+  EXPECT_EQ(results.size(), roomForStart().scans.size() - 6);
+  EXPECT_LE(states, roomForStart().imu.size());
 }
 
 TEST(OdometryStart, APlatformThatNeverRestsSaysSo)
@@ -183,7 +183,7 @@ TEST(OdometryStart, AStartInMotionNamesTheModeThatTakesIt)
 
 TEST(OdometryStart, ClocksThatAreAnHourApartAreNamed)
 {
-  RoomRecording apart = room();
+  RoomRecording apart = roomForStart();
   for (LidarScan& scan : apart.scans)
     scan.stamp_ns += 3'600'000'000'000;
   Odometry odometry(roomParameters());

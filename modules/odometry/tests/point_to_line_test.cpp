@@ -4,7 +4,7 @@
 /** \file point_to_line_test.cpp Edge residuals: eq. 12-14 with G = [u]x, numerically and by hand.
  */
 
-#include "random_numbers.h"
+#include "random_matching.h"
 #include <fastlio/odometry/point_to_line.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ namespace fastlio
 namespace
 {
 /** Edge points at a pose and a line for each of them. */
-struct Matching
+struct LineMatching
 {
   NavState x;
   BodyPoints body;
@@ -30,10 +30,10 @@ LineMatch lineThrough(const Vec3& q, const Vec3& u, double variance)
           float(q.y()), float(q.z()), float(variance)};
 }
 
-Matching randomMatching(unsigned seed, std::size_t n, double sigma = 0.02)
+LineMatching randomLineMatching(unsigned seed, std::size_t n, double sigma = 0.02)
 {
   Random random(seed);
-  Matching m;
+  LineMatching m;
   m.x.R = expSO3(random.vector());
   m.x.p = random.vector(20.0);
   m.body.resize(n);
@@ -49,16 +49,9 @@ Matching randomMatching(unsigned seed, std::size_t n, double sigma = 0.02)
   return m;
 }
 
-ResidualModel wideOpen()
-{
-  ResidualModel model;
-  model.gate = 1e6;
-  return model;
-}
-
 TEST(PointToLine, RowsAreThePapersResidualInOtherCoordinates)
 {
-  const Matching m = randomMatching(1, 200);
+  const LineMatching m = randomLineMatching(1, 200);
   for (std::size_t i = 0; i < m.body.size(); ++i)
   {
     const LineMatch& line = m.matches[i];
@@ -85,7 +78,7 @@ TEST(PointToLine, RowsAreThePapersResidualInOtherCoordinates)
 
 TEST(PointToLine, JacobianIsTheDerivative)
 {
-  const Matching m = randomMatching(2, 100, 0.5);
+  const LineMatching m = randomLineMatching(2, 100, 0.5);
   constexpr double kStep = 1e-6;
   for (std::size_t i = 0; i < m.body.size(); ++i)
   {
@@ -104,7 +97,7 @@ TEST(PointToLine, JacobianIsTheDerivative)
 
 TEST(PointToLine, MovingAlongTheLineChangesNothing)
 {
-  const Matching m = randomMatching(3, 50);
+  const LineMatching m = randomLineMatching(3, 50);
   for (std::size_t i = 0; i < m.body.size(); ++i)
   {
     const LineMatch& line = m.matches[i];
@@ -119,7 +112,7 @@ TEST(PointToLine, MovingAlongTheLineChangesNothing)
 
 TEST(PointToLine, SumsAndStackAgree)
 {
-  const Matching m = randomMatching(4, 300);
+  const LineMatching m = randomLineMatching(4, 300);
   const InformationSums sums =
       accumulateLines(m.x.pose(), m.body, m.matches, wideOpen(), 0, m.body.size());
   StackedMeasurements stacked;
@@ -143,7 +136,7 @@ TEST(PointToLine, SumsAndStackAgree)
 
 TEST(PointToLine, ARowBeyondTheGateTakesItsTwinAlong)
 {
-  Matching m = randomMatching(5, 1, 0.01);
+  LineMatching m = randomLineMatching(5, 1, 0.01);
   const Vec3 u(0, 0, 1), p_imu(m.body.x[0], m.body.y[0], m.body.z[0]);
   const Vec3 across = u.unitOrthogonal();  // the direction of one of the rows
   ResidualModel model;
@@ -161,7 +154,7 @@ TEST(PointToLine, ARowBeyondTheGateTakesItsTwinAlong)
 
 TEST(PointToLine, EdgesAloneFindThePose)
 {
-  Matching m = randomMatching(6, 60, 1e-3);
+  LineMatching m = randomLineMatching(6, 60, 1e-3);
   const Pose truth = m.x.pose();
   StateVector off = StateVector::Zero();
   off.head<6>() << 0.02, -0.03, 0.01, 0.2, -0.1, 0.15;

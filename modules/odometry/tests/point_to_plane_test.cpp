@@ -14,13 +14,6 @@ namespace fastlio
 {
 namespace
 {
-ResidualModel wideOpen()
-{
-  ResidualModel model;
-  model.gate = 1e6;
-  return model;
-}
-
 TEST(TransformToWorld, IsThePosesProductInTheRangeAskedFor)
 {
   const Matching m = randomMatching(1, 300);

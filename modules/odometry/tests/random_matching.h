@@ -30,6 +30,14 @@ inline PlaneMatch planeThrough(const Vec3& point, const Vec3& normal, double var
   return plane;
 }
 
+/** No residual is too large. */
+inline ResidualModel wideOpen()
+{
+  ResidualModel model;
+  model.gate = 1e6;
+  return model;
+}
+
 inline Matching randomMatching(unsigned seed, std::size_t n, double residual_sigma = 0.02)
 {
   Random random(seed);

@@ -3,7 +3,7 @@
 
 // Maps to start in that are damaged, lie about their size, or are no files.
 
-#include "output_test_support.h"
+#include "map_file_tools.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/rawlog/saved_map_file.h>
 
@@ -21,37 +21,6 @@ namespace
 {
 using testing::smallMap;
 using testing::TemporaryFolder;
-
-void write(Exporter& exporter)
-{
-  const RunSummary summary;
-  const auto map = smallMap();
-  (void)exporter.finish({summary, *map});
-}
-
-std::string messageOf(const std::string& path)
-{
-  try
-  {
-    (void)loadSavedMap(path);
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
-  return "";
-}
-
-void archive(const mrpt::serialization::CSerializable& object, const std::string& path)
-{
-  mrpt::io::CFileGZOutputStream stream(path);
-  mrpt::serialization::archiveFrom(stream) << object;
-}
-
-void text(const std::string& path, const std::string& content)
-{
-  std::ofstream(path, std::ios::binary) << content;
-}
 
 /** One clear sentence, and not a word on standard error. */
 void expectRefused(const std::string& path, const std::string& part)

@@ -205,7 +205,7 @@ TEST(InflatingFile, TellsAFileThatIsNotThere)
 TEST(InflatingFile, TellsAFolder)
 {
   const TemporaryFolder folder;
-  InflatingFile file(folder.path().string());
+  InflatingFile file(folder.path());
   char byte = 0;
   EXPECT_EQ(file.read(&byte, 1), 0U);
   EXPECT_EQ(file.end(), FileEnd::Corrupt);

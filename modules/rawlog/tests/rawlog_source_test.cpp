@@ -65,7 +65,7 @@ TEST_F(RawlogSourceTest, ReadsFilesInTheOrderGiven)
 TEST_F(RawlogSourceTest, AMissingFileDoesNotStopTheNext)
 {
   write(folder_.file("2"), serialize({imuAt(2)}));
-  const Reading reading = readAll({folder_.file("1"), folder_.path().string(), folder_.file("2")});
+  const Reading reading = readAll({folder_.file("1"), folder_.path(), folder_.file("2")});
   EXPECT_EQ(reading.seconds.size(), 1U);
   ASSERT_EQ(reading.problems.size(), 2U);
   EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotFound);
@@ -109,9 +109,9 @@ TEST_F(RawlogSourceTest, MemoryIsBoundedWhereTimeStandsStill)
 
 TEST_F(RawlogSourceTest, ExternalCloudsAreLoadedFromBesideTheFile)
 {
-  std::filesystem::create_directory(folder_.path() / "log_Images");
+  std::filesystem::create_directory(folder_.file("log_Images"));
   const auto points = fastlio::makeXyzirt(fastlio::CloudColumns{{1}, {2}, {3}, {4}, {5}, {0.5F}});
-  write((folder_.path() / "log_Images" / "scan.bin").string(), gzip(serialize({points})));
+  write(folder_.file("log_Images/scan.bin"), gzip(serialize({points})));
   const auto cloudIn = [](const std::string& file)
   {
     auto cloud = mrpt::obs::CObservationPointCloud::Create();
@@ -218,9 +218,8 @@ TEST_F(RawlogSourceTest, PipesAndDevicesAreRefusedAtOnce)
 TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
 {
   using Format = mrpt::obs::CObservationPointCloud::ExternalStorageFormat;
-  std::filesystem::create_directory(folder_.path() / "log_Images");
-  const auto file = [&](const char* name)
-  { return (folder_.path() / "log_Images" / name).string(); };
+  std::filesystem::create_directory(folder_.file("log_Images"));
+  const auto file = [&](const std::string& name) { return folder_.file("log_Images/" + name); };
   const std::vector<float> kitti{1, 2, 3, 0.5F, 4, 5, 6, 0.25F};
   write(
       file("scan.bin"),
@@ -256,8 +255,8 @@ TEST_F(RawlogSourceTest, ExternalCloudsOfEveryFormatAreLoaded)
 
 TEST_F(RawlogSourceTest, ExternalTextsOfTwoNumbersPerRowAreNoPlaces)
 {
-  std::filesystem::create_directory(folder_.path() / "log_Images");
-  write((folder_.path() / "log_Images" / "flat.txt").string(), "1 2\n3 4\n");
+  std::filesystem::create_directory(folder_.file("log_Images"));
+  write(folder_.file("log_Images/flat.txt"), "1 2\n3 4\n");
   auto cloud = mrpt::obs::CObservationPointCloud::Create();
   cloud->timestamp = fastlio::toMrptTime(kStart);
   cloud->setAsExternalStorage(

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "output_test_support.h"
+#include "map_file_tools.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/rawlog/saved_map_file.h>
@@ -19,13 +19,6 @@ using testing::smallMap;
 using testing::smallMapPoints;
 using testing::TemporaryFolder;
 
-void write(Exporter& exporter)
-{
-  const RunSummary summary;
-  const auto map = smallMap();
-  (void)exporter.finish({summary, *map});
-}
-
 void expectSmallMap(const SavedMap& saved)
 {
   const OutputPoints expected = smallMapPoints();
@@ -33,25 +26,6 @@ void expectSmallMap(const SavedMap& saved)
   EXPECT_EQ(saved.points.y, expected.y);
   EXPECT_EQ(saved.points.z, expected.z);
   EXPECT_FALSE(saved.planes);
-}
-
-std::string messageOf(const std::string& path)
-{
-  try
-  {
-    (void)loadSavedMap(path);
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
-  return "";
-}
-
-void archive(const mrpt::serialization::CSerializable& object, const std::string& path)
-{
-  mrpt::io::CFileGZOutputStream stream(path);
-  mrpt::serialization::archiveFrom(stream) << object;
 }
 
 // A millimetre counts, wherever on the earth.
@@ -67,11 +41,6 @@ void expectSmallMapAt(const Vec3& offset, const SavedMap& saved)
     const Vec3 p(saved.points.x[i], saved.points.y[i], saved.points.z[i]);
     EXPECT_LT((p + saved.origin - relative - offset).norm(), 1e-3) << i;
   }
-}
-
-void text(const std::string& path, const std::string& content)
-{
-  std::ofstream(path, std::ios::binary) << content;
 }
 
 TEST(SavedMapFile, CoordinatesFarFromTheOriginKeepTheirPrecision)

@@ -32,7 +32,7 @@ class Folders : public RecordingTest
     write(folder_.file(name), bytes);
   }
 
-  std::string root() { return folder_.path().string(); }
+  std::string root() { return folder_.path(); }
 };
 
 TEST(StampText, EveryFormIsExact)

@@ -222,7 +222,7 @@ TEST_F(RosTwoBags, AFolderIsReadInTheOrderOfItsNumbersAlsoCompressed)
   write(name + "/metadata.yaml", "rosbag2_bagfile_information:\n  version: 5\n");
   expectAll(readRecording(name), messages);
   expectAll(readRecording(name + "/walk_10.db3.zstd"), part(2));
-  EXPECT_EQ(recordingFormatOf(folder_.path().string())->name, std::string("rosbag2"));
+  EXPECT_EQ(recordingFormatOf(folder_.path())->name, std::string("rosbag2"));
 }
 
 TEST_F(RosTwoBags, AFileThatInflatesWithoutEndIsRefused)

@@ -17,25 +17,25 @@ using namespace fastlio::testing;
 using mrpt::maps::CGenericPointsMap;
 
 template <typename T>
-void put(std::string& bytes, T value)
+void append(std::string& bytes, T value)
 {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 void putText(std::string& bytes, const std::string& text)
 {
-  put(bytes, static_cast<std::uint32_t>(text.size()));
+  append(bytes, static_cast<std::uint32_t>(text.size()));
   bytes += text;
 }
 
 template <typename T>
 void putField(std::string& bytes, const std::string& name, const std::vector<T>& values)
 {
-  put(bytes, std::uint32_t{1});
+  append(bytes, std::uint32_t{1});
   putText(bytes, name);
-  put(bytes, static_cast<std::uint32_t>(values.size()));
+  append(bytes, static_cast<std::uint32_t>(values.size()));
   for (const T value : values)
-    put(bytes, value);
+    append(bytes, value);
 }
 
 /** A cloud of two points as MRPT of the given stream version writes it. */
@@ -43,12 +43,12 @@ std::string cloudBytes(std::uint8_t version, std::int8_t options_version)
 {
   const std::string name = "mrpt::maps::CGenericPointsMap";
   std::string bytes;
-  put(bytes, static_cast<std::uint8_t>(0x80U | name.size()));
+  append(bytes, static_cast<std::uint8_t>(0x80U | name.size()));
   bytes += name;
-  put(bytes, version);
-  put(bytes, std::uint32_t{2});
+  append(bytes, version);
+  append(bytes, std::uint32_t{2});
   for (const float coordinate : {1.F, 2.F, 3.F, 4.F, 5.F, 6.F})
-    put(bytes, coordinate);
+    append(bytes, coordinate);
   putField<float>(bytes, "intensity", {0.5F, 1.0F});
   if (version >= 1) putField<double>(bytes, "timestamp", {1.7e9, 1.7e9 + 0.1});
   putField<std::uint16_t>(bytes, "ring", {7, 8});
@@ -56,21 +56,21 @@ std::string cloudBytes(std::uint8_t version, std::int8_t options_version)
   if (version >= 4) putField<std::uint32_t>(bytes, "t", {0, 99'000'000});
   const mrpt::maps::CSimplePointsMap defaults;
   const auto& o = defaults.insertionOptions;
-  put(bytes, options_version);
-  put(bytes, o.minDistBetweenLaserPoints);
-  put(bytes, o.addToExistingPointsMap);
-  put(bytes, o.also_interpolate);
-  if (options_version == 0) put(bytes, false);
-  put(bytes, o.fuseWithExisting);
-  put(bytes, o.isPlanarMap);
-  put(bytes, o.horizontalTolerance);
-  put(bytes, o.maxDistForInterpolatePoints);
-  put(bytes, o.insertInvalidPoints);
-  put(bytes, std::int8_t{0});
-  put(bytes, defaults.likelihoodOptions.sigma_dist);
-  put(bytes, defaults.likelihoodOptions.max_corr_distance);
-  put(bytes, defaults.likelihoodOptions.decimation);
-  put(bytes, std::uint8_t{0x88});
+  append(bytes, options_version);
+  append(bytes, o.minDistBetweenLaserPoints);
+  append(bytes, o.addToExistingPointsMap);
+  append(bytes, o.also_interpolate);
+  if (options_version == 0) append(bytes, false);
+  append(bytes, o.fuseWithExisting);
+  append(bytes, o.isPlanarMap);
+  append(bytes, o.horizontalTolerance);
+  append(bytes, o.maxDistForInterpolatePoints);
+  append(bytes, o.insertInvalidPoints);
+  append(bytes, std::int8_t{0});
+  append(bytes, defaults.likelihoodOptions.sigma_dist);
+  append(bytes, defaults.likelihoodOptions.max_corr_distance);
+  append(bytes, defaults.likelihoodOptions.decimation);
+  append(bytes, std::uint8_t{0x88});
   return bytes;
 }
 
