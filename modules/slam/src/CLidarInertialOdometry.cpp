@@ -29,18 +29,48 @@ void registerSlamClasses()
   mrpt::rtti::registerClass(CLASS_ID(fastlio::CLidarInertialOdometry));
 }
 
+namespace
+{
+/** Whether a document has a key, written as "group.name". */
+OptionFilter standsIn(const mrpt::containers::yaml& document)
+{
+  return [document](std::string_view key)
+  {
+    const std::string group(key.substr(0, key.find('.'))), name(key.substr(key.find('.') + 1));
+    return document.has(group) && document[group].isMap() && document[group].has(name);
+  };
+}
+
+/** Whether a value was set in code, as far as that can be seen. */
+OptionFilter differsFromDefault(const Config& config)
+{
+  return [config](std::string_view key)
+  {
+    const auto& row = *findOption(configTable(), key);
+    return valueText(row, config) != valueText(row, Config{});
+  };
+}
+}  // namespace
+
 class CLidarInertialOdometry::Impl
 {
  public:
-  explicit Impl(const Config& config) : odometry_(config.odometry), sensors_(config) {}
+  Impl(const Config& config, OptionFilter is_given)
+      : odometry_(std::in_place, config.odometry), sensors_(config, std::move(is_given))
+  {
+  }
 
   /** What the observation was, for the log; empty when it was used or belongs to other sensors. */
   std::string take(const mrpt::obs::CObservation::ConstPtr& observation)
   {
-    for (BridgeOutput& output : sensors_.convert(observation))
+    const bool were_known = sensors_.areKnown();
+    auto outputs = sensors_.convert(observation);
+    // With the preset of the LiDAR, before the first sample.
+    if (!were_known && sensors_.areKnown()) odometry_.emplace(sensors_.config().odometry);
+    for (BridgeOutput& output : outputs)
     {
-      if (auto* sample = std::get_if<ImuSample>(&output)) odometry_.addImu(*sample);
-      if (auto* scan = std::get_if<LidarScan>(&output)) odometry_.addScan(std::move(*scan));
+      if (auto* sample = std::get_if<ImuSample>(&output)) odometry_->addImu(*sample);
+      if (auto* scan = std::get_if<LidarScan>(&output)) odometry_->addScan(std::move(*scan));
     }
     return sensors_.takeMessage();
   }
@@ -52,11 +82,11 @@ class CLidarInertialOdometry::Impl
 
   void drain(bool at_end)
   {
-    while (const auto result = at_end ? odometry_.flush() : odometry_.next())
+    while (const auto result = at_end ? odometry_->flush() : odometry_->next())
       announce(*result);
   }
 
-  [[nodiscard]] const Odometry& odometry() const { return odometry_; }
+  [[nodiscard]] const Odometry& odometry() const { return *odometry_; }
   [[nodiscard]] const PoseTrack& track() const { return track_; }
 
   std::optional<OdometryEstimate> latest;
@@ -72,27 +102,32 @@ class CLidarInertialOdometry::Impl
     if (callback) callback(*latest);
   }
 
-  Odometry odometry_;
+  std::optional<Odometry> odometry_;  // always there
   OnlineSensors sensors_;
   PoseTrack track_{{}};
 };
 
 CLidarInertialOdometry::CLidarInertialOdometry()
     : mrpt::system::COutputLogger("fastlio::CLidarInertialOdometry"),
-      impl_(std::make_unique<Impl>(Config{}))
+      impl_(std::make_unique<Impl>(Config{}, differsFromDefault(Config{})))
 {
 }
 CLidarInertialOdometry::~CLidarInertialOdometry() = default;
 
 void CLidarInertialOdometry::initialize(const mrpt::containers::yaml& parameters)
 {
-  initialize(parameters.empty() ? Config{} : loadConfig(parameters));
+  start(parameters.empty() ? Config{} : loadConfig(parameters), standsIn(parameters));
 }
 
 void CLidarInertialOdometry::initialize(const Config& config)
 {
+  start(config, differsFromDefault(config));
+}
+
+void CLidarInertialOdometry::start(const Config& config, OptionFilter is_given)
+{
   Callback callback = std::move(impl_->callback);
-  impl_ = std::make_unique<Impl>(config);
+  impl_ = std::make_unique<Impl>(config, std::move(is_given));
   impl_->callback = std::move(callback);
 }
 

@@ -3,6 +3,7 @@
 
 #include "online_sensors.h"
 
+#include <fastlio/config/presets.h>
 #include <fastlio/survey/input_plan.h>
 
 namespace fastlio
@@ -12,8 +13,8 @@ namespace
 constexpr std::size_t kMostKept = 5000;
 }  // namespace
 
-OnlineSensors::OnlineSensors(const Config& config)
-    : config_(config), patterns_(patternsOf(config.sensors))
+OnlineSensors::OnlineSensors(const Config& config, OptionFilter is_given)
+    : config_(config), is_given_(std::move(is_given)), patterns_(patternsOf(config.sensors))
 {
   patterns_.further_lidar_labels.clear();  // one LiDAR is used here
   (void)isComplete(survey_, patterns_);    // tells of labels that are no patterns
@@ -44,8 +45,10 @@ void OnlineSensors::start()
   try
   {
     SensorSelection selection = selectSensors(survey_, patterns_);
+    const auto preset = takePreset(selection, is_given_, config_);
     const InputPlan plan = planInput(selection, config_.sensors, config_.odometry.lidar);
     message_ = describe(selection);
+    if (preset) message_ += "\n" + preset->text;
     for (const auto* sentences : {&plan.notes, &plan.warnings})
       for (const auto& sentence : *sentences)
         message_ += "\n" + sentence;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/config/config.h>
+#include <fastlio/config/config_document.h>
 #include <fastlio/sensors/observation_bridge.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -23,8 +24,9 @@ namespace fastlio
 class OnlineSensors
 {
  public:
-  /** \exception std::invalid_argument a label is not a regular expression */
-  explicit OnlineSensors(const Config& config);
+  /** \param is_given whether the user gave a value, which the preset of a LiDAR leaves alone
+   * \exception std::invalid_argument a label is not a regular expression */
+  OnlineSensors(const Config& config, OptionFilter is_given);
 
   /** Everything that this observation makes available, in order. */
   [[nodiscard]] std::vector<BridgeOutput> convert(
@@ -36,6 +38,12 @@ class OnlineSensors
   /** What the user should know, once. */
   [[nodiscard]] std::string takeMessage() { return std::exchange(message_, {}); }
 
+  [[nodiscard]] bool areKnown() const { return bridge_.has_value(); }
+
+  /** What was given, and, once the sensors are known, the preset of the LiDAR that its label or its
+   * data name. */
+  [[nodiscard]] const Config& config() const { return config_; }
+
   /** IMU frame to vehicle frame; the identity as long as the sensors are not known. */
   [[nodiscard]] Pose T_vehicle_imu() const;
 
@@ -43,6 +51,7 @@ class OnlineSensors
   void start();
 
   Config config_;
+  OptionFilter is_given_;
   SensorPatterns patterns_;
   SensorSurvey survey_;
   std::deque<mrpt::obs::CObservation::ConstPtr> kept_;

@@ -57,6 +57,49 @@ TEST(CLidarInertialOdometry, RefusesBadYamlAndStaysAsItWas)
   EXPECT_EQ(odometry->parameters().lidar.min_range, OdometryOptions{}.lidar.min_range);
 }
 
+/** Two seconds of clouds whose LiDAR has a name, and of inertial samples. */
+void feedBeginning(CLidarInertialOdometry& odometry, const std::string& lidar_label)
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.duration = 2.0;
+  settings.lidar.kind = LidarKind::Os64;
+  settings.lidar.stride = 16;
+  const Simulation simulation(settings);
+  for (const auto& sample : simulation.imu().samples)
+    odometry.onNewObservation(toImuObservation(sample));
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+  {
+    const auto scan = toLidarObservation(simulation, i);
+    scan->sensorLabel = lidar_label;
+    odometry.onNewObservation(scan);
+  }
+}
+
+TEST(CLidarInertialOdometry, TakesThePresetOfTheLidarThatTheRecordingNames)
+{
+  const auto odometry = madeByName();
+  ASSERT_TRUE(odometry);
+  const double given = OdometryOptions{}.lidar.max_range;
+  feedBeginning(*odometry, "os2");
+  EXPECT_EQ(odometry->parameters().lidar.max_range, 240.0);
+  EXPECT_TRUE(odometry->latest());
+
+  // What the user gave stays, also where it is the default; in code, where it is not.
+  odometry->initialize(
+      mrpt::containers::yaml::FromText("lidar: {max_range: " + std::to_string(given) + "}"));
+  feedBeginning(*odometry, "os2");
+  EXPECT_EQ(odometry->parameters().lidar.max_range, given);
+  Config config;
+  config.odometry.lidar.max_range = 33.0;
+  odometry->initialize(config);
+  feedBeginning(*odometry, "os2");
+  EXPECT_EQ(odometry->parameters().lidar.max_range, 33.0);
+
+  odometry->initialize(mrpt::containers::yaml());
+  feedBeginning(*odometry, "lidar");
+  EXPECT_EQ(odometry->parameters().lidar.max_range, given);
+}
+
 TEST(CLidarInertialOdometry, LeavesOtherSensorsAlone)
 {
   const auto odometry = madeByName();

@@ -33,7 +33,7 @@ struct PresetUse
 /** Gives a configuration the values of the LiDAR whose model the recording names. A value that the
  * user gave stays. The mounting of a built-in IMU needs an IMU whose label names the same sensor.
  * \param is_given whether the user gave a key
- * eturn nothing: the recording names no model that has a preset */
+ * \return nothing: the recording names no model that has a preset */
 std::optional<PresetUse> takePreset(
     const SensorSelection& selection, const std::function<bool(std::string_view)>& is_given,
     Config& config);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/config/config.h>
+#include <fastlio/config/config_document.h>
 #include <fastlio/exporters/pose_track.h>
 #include <fastlio/odometry/scan_result.h>
 
@@ -42,7 +43,9 @@ struct OdometryEstimate
  *
  * Sensors: of each kind the first that is usable and whose label matches input.lidar_sensor_label
  * or input.imu_sensor_label; observations of others are left alone, and so are further LiDARs. The
- * first few scans are kept until it is clear what the times of their points mean. Scans are
+ * first few scans are kept until it is clear what the times of their points mean. When the label or
+ * the data of the LiDAR name a model of params/, its values take the place of the defaults, and the
+ * log says so; what the user gave stays. Scans are
  * processed once inertial samples reach their end, inside of onNewObservation(). One thread uses an
  * object. */
 class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::COutputLogger
@@ -62,7 +65,7 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** Takes parameters (docs/parameters.md; an empty document: all defaults) and starts anew.
    * \exception std::invalid_argument lists every problem of the document */
   void initialize(const mrpt::containers::yaml& parameters);
-  /** The same with parameters that were set in code. */
+  /** The same with parameters that were set in code: values other than the defaults. */
   void initialize(const Config& config);
 
   /** Takes an observation of any class; those of other sensors are left alone. Before initialize(),
@@ -88,9 +91,12 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** The points of the map that scans are matched with: a copy. */
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr map() const;
 
+  /** In use; with the preset of the LiDAR once it is known. */
   [[nodiscard]] const OdometryOptions& parameters() const;
 
  private:
+  void start(const Config& config, OptionFilter is_given);
+
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
