@@ -3,6 +3,7 @@
 
 #include <fastlio/evaluation/alignment.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 

@@ -7,6 +7,8 @@
 #include <fastlio/mapping/free_space.h>
 #include <fastlio/math/time.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <bitset>
 #include <deque>
