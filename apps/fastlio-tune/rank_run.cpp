@@ -15,7 +15,7 @@ namespace fastlio
 namespace
 {
 constexpr int kDecimals = 2;
-const char* const kMeasures[] = {"proxy", "slip", "residual"};
+const char* const kMeasures[] = {"proxy", "slip", "position_std", "residual"};
 
 /** The outcomes on a recording, as columns of numbers. */
 struct Columns

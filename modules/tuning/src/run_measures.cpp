@@ -16,8 +16,6 @@ namespace
 {
 constexpr double kSpan = 0.45;       // [s]: half a second, whatever the jitter of the scans
 constexpr double kLongestGap = 1.0;  // [s]: the run was re-initialised in between
-constexpr double kExponent = 0.03;   // of the information in the proxy
-constexpr double kLeast = 1e-12;     // logarithms stay finite
 
 /** Positions minus the integral of the velocities since the first scan. */
 struct Slip
@@ -72,13 +70,20 @@ std::optional<double> rmsOverSpans(const Slip& slip)
   return std::sqrt(squares / count);
 }
 
-/** Adds what is a mean over tracked scans. */
+/** Mean standard deviation of the position [m]. */
+double meanPositionStd(const RunTable& states)
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < states.size(); ++i)
+    sum += states.vector(i, {"sigma_pos_x", "sigma_pos_y", "sigma_pos_z"}).norm();
+  return sum / static_cast<double>(states.size());
+}
+
+/** Adds the means over tracked scans. */
 void addMeans(const RunTable& timing, Measures& measures)
 {
   double scans = 0.0;
   double squares = 0.0;
-  double innovation = 0.0;
-  double information = 0.0;
   double matched = 0.0;
   double points = 0.0;
   for (std::size_t i = 0; i < timing.size(); ++i)
@@ -86,16 +91,12 @@ void addMeans(const RunTable& timing, Measures& measures)
     if (timing.text(i, "status") != "tracking") continue;
     scans += 1.0;
     squares += std::pow(timing.number(i, "residual_rms"), 2);
-    innovation += timing.number(i, "normalized_innovation");
-    information += std::log(std::max(kLeast, timing.number(i, "information_min")));
     matched += timing.number(i, "points_effective");
     points += timing.number(i, "points_downsampled");
   }
   if (scans == 0.0 || points == 0.0) return;
   measures["residual"] = std::sqrt(squares / scans);
   measures["inliers"] = matched / points;
-  // H^T H / r with the configured noise r, by z^2/r: the choice of r cancels.
-  measures["information"] = information / scans - std::log(std::max(kLeast, innovation / scans));
 }
 }  // namespace
 
@@ -103,12 +104,14 @@ Measures measuresOfRun(const std::string& folder)
 {
   Measures measures;
   addMeans(RunTable(folder + "/timing.csv"), measures);
-  const Slip slips = slipOf(RunTable(folder + "/states.csv"));
+  const RunTable states(folder + "/states.csv");
+  const Slip slips = slipOf(states);
   if (!slips.times.empty()) measures["duration"] = slips.times.back();
   const auto slip = rmsOverSpans(slips);
-  if (!slip || measures.count("information") == 0) return measures;
+  if (!slip || measures.count("residual") == 0) return measures;
   measures["slip"] = *slip;
-  measures["proxy"] = *slip * std::exp(-kExponent * measures.at("information"));
+  measures["position_std"] = meanPositionStd(states);
+  measures["proxy"] = *slip * measures.at("position_std");
   return measures;
 }
 

@@ -16,10 +16,10 @@ namespace fastlio
  *   the scans at once, velocities the inertial samples: where noise, clocks or the map are wrong,
  *   the corrections of successive scans have one direction, and the two part. RMS over spans of
  *   half a second, so that white corrections cancel.
- * - `information`: mean logarithm of what scans tell in their weakest direction, with the noise
- * that the residuals show instead of the one that is configured; else small noise would look good.
- * - `proxy`: slip / exp(information)^0.03. The exponent is the one that ranks true errors best on
- *   recordings with ground truth (docs/tuning.md).
+ * - `position_std` [m]: mean standard deviation of the position. The run reports it itself; it is
+ * wider where innovations are larger than the noise model says.
+ * - `proxy` [m^2/s]: slip * position_std. The slip shows errors that the covariance does not know
+ * of; the covariance counts errors that do not show, as of few points or degenerate directions.
  * - `residual` [m], `inliers`: RMS of the residuals, points that were matched by all.
  * - `duration` [s]: from the first to the last state. A run that starts late or ends early has less
  *   to err in.
