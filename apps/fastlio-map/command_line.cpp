@@ -4,7 +4,7 @@
 #include "command_line.h"
 
 #include "../shared/unknown_option.h"
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>

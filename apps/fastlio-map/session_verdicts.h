@@ -4,8 +4,8 @@
 /** \file session_verdicts.h What became of the sessions, for people and as an exit status. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/run/run_summary.h>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include "batch.h"
 
 #include "../shared/run_names.h"
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/core/format.h>

@@ -4,10 +4,10 @@
 #include "command_line.h"
 
 #include "../shared/unknown_option.h"
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>

@@ -4,8 +4,8 @@
 /** \file run_counts.h Everything that was read or dropped, as named numbers. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/sensors/observation_bridge.h>
 
 #include <vector>

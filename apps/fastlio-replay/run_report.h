@@ -4,7 +4,7 @@
 /** \file run_report.h The end of a run, for people. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 
 #include <string>
 

@@ -8,8 +8,8 @@
 
 #include <fastlio/config/config.h>
 #include <fastlio/filter/imu.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/odometry_options.h>
 
 #include <string>
 #include <variant>

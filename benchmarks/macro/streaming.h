@@ -5,7 +5,7 @@
  * included. */
 #pragma once
 
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/odometry_options.h>
 
 #include <cstddef>
 #include <string>

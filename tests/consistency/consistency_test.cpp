@@ -9,8 +9,8 @@
 
 #include "repeats.h"
 #include "simulated_run.h"
+#include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/static_initializer.h>
 #include <fastlio/simulation/realistic.h>
 
 #include <Eigen/Cholesky>

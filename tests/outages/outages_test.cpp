@@ -6,9 +6,9 @@
 
 #include "repeats.h"
 #include "walks.h"
-#include <fastlio/exporters/run_health.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/run_health.h>
 
 #include <gtest/gtest.h>
 

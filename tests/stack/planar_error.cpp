@@ -4,7 +4,7 @@
 #include "planar_error.h"
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>

@@ -5,7 +5,7 @@
 #include "yaml_text.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_yaml.h>
-#include <fastlio/odometry/odometry_option_table.h>
+#include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/options/printable.h>
 
 #include <algorithm>

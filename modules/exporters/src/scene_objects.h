@@ -4,8 +4,8 @@
 /** \file scene_objects.h What a 3D scene of a run shows (internal). */
 #pragma once
 
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/pose_output.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/pose_output.h>
 
 #include <mrpt/opengl/CSetOfObjects.h>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "folder_listing.h"
-#include <fastlio/exporters/run_folder.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/run/run_folder.h>
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/recording_access.h>
 #include <fastlio/mapping/aids.h>
+#include <fastlio/run/recording_access.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservationGPS.h>

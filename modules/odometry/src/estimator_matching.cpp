@@ -48,7 +48,7 @@ MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPre
   {
     const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
     MatchResult match = matcher_.match(
-        scan, predicted.state, map_,
+        scan, predicted.state, map_.matched(),
         pull_in ? pullInMatching(options_) : ordinaryMatching(options_));
     const bool good = !match.update.updated || isConvincing(match, scan, map_);
     if (!map_can_tell || good) return {std::move(match), true, std::nullopt};

@@ -3,9 +3,9 @@
 
 // Starts of the estimator, and what it tells between scans.
 
-#include "calibration_prior.h"
 #include "estimator.h"
-#include "start_in_map.h"
+#include <fastlio/initialization/calibration_prior.h>
+#include <fastlio/initialization/start_in_map.h>
 #include <fastlio/math/time.h>
 
 #include <utility>

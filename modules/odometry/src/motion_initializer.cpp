@@ -4,11 +4,11 @@
 #include "motion_initializer.h"
 
 #include "estimator.h"
-#include "motion_fit.h"
-#include "motion_prior.h"
+#include <fastlio/initialization/motion_fit.h>
+#include <fastlio/initialization/motion_prior.h>
+#include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/static_initializer.h>
 
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>

@@ -4,8 +4,8 @@
 // A map of an earlier run used again.
 
 #include "odometry_runs.h"
+#include <fastlio/localmap/saved_map.h>
 #include <fastlio/map/voxel_plane_map.h>
-#include <fastlio/odometry/saved_map.h>
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
-#include <fastlio/exporters/scan_in_world.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/mrpt_poses.h>
+#include <fastlio/run/scan_in_world.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 

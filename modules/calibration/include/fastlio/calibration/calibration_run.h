@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/config/config.h>
-#include <fastlio/odometry/calibration_sums.h>
+#include <fastlio/errormodel/calibration_sums.h>
 
 #include <cstddef>
 #include <limits>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/config/config.h>
-#include <fastlio/odometry/calibration_sums.h>
+#include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/survey/input_plan.h>
 
 #include <array>

@@ -4,11 +4,11 @@
 /** \file exporter.h What writes results: one class per file format, fed scan by scan. */
 #pragma once
 
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/run_summary.h>
 
 #include <memory>
 #include <string>

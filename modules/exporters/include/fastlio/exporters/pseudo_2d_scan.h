@@ -5,8 +5,8 @@
 #pragma once
 
 #include <fastlio/exporters/export_options.h>
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/run/pose_track.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 

@@ -6,8 +6,8 @@
 
 #include <fastlio/exporters/export_options.h>
 #include <fastlio/exporters/exporter.h>
-#include <fastlio/exporters/pose_output.h>
-#include <fastlio/exporters/recording_access.h>
+#include <fastlio/run/pose_output.h>
+#include <fastlio/run/recording_access.h>
 
 #include <string>
 #include <string_view>

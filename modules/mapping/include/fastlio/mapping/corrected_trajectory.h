@@ -4,8 +4,8 @@
 /** \file corrected_trajectory.h The poses of a run after its submaps have moved. */
 #pragma once
 
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/mapping/mapper.h>
-#include <fastlio/odometry/scan_result.h>
 
 #include <cstddef>
 #include <vector>

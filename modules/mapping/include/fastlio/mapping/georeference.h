@@ -7,8 +7,8 @@
 
 #include <fastlio/earth/control_points.h>
 #include <fastlio/earth/reference_system.h>
-#include <fastlio/exporters/output_map.h>
 #include <fastlio/mapping/gnss.h>
+#include <fastlio/run/output_map.h>
 
 #include <optional>
 #include <string>

@@ -4,9 +4,9 @@
 /** \file registration.h The pose of one submap in another from their planes, with evidence. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/map/plane_voxel.h>
 #include <fastlio/parallel/workers.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <memory>

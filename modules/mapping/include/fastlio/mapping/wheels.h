@@ -4,8 +4,8 @@
 /** \file wheels.h Wheel odometry: how far the vehicle went where LiDAR and IMU leave it open. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/mapping/mapper.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -6,13 +6,13 @@
  */
 #pragma once
 
+#include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/filter/imu.h>
 #include <fastlio/imu/imu_report.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/calibration_sums.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/scan_result.h>
 
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 /** \file saved_map_file.h Maps of earlier runs out of files. */
 #pragma once
 
-#include <fastlio/odometry/saved_map.h>
+#include <fastlio/localmap/saved_map.h>
 
 #include <string>
 

@@ -4,7 +4,7 @@
 /** \file recording_survey.h A recording looked at as a whole, without running the odometry. */
 #pragma once
 
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/survey/imu_survey.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/lidar_look.h>
