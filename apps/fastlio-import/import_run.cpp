@@ -31,7 +31,7 @@ namespace
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 
-/** What was written, by label. */
+/** Counts of written observations, by label. */
 struct Written
 {
   std::size_t observations = 0;

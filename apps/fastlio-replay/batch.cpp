@@ -24,7 +24,7 @@ struct StatusText
   const char* text;
 };
 
-/** From the one that tells most to the one that tells least. */
+/** From the gravest to the least. */
 constexpr std::array<StatusText, 8> kStatuses = {
     {{static_cast<int>(ExitStatus::Interrupted), "interrupted"},
      {static_cast<int>(ExitStatus::OutputFailed), "outputs incomplete"},

@@ -192,7 +192,7 @@ void requireOutput(const ReplayArguments& arguments)
   if (arguments.imu_rate)
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
   if (!arguments.reference.empty())
-    throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
+    throw CLI::RequiredError("--output-dir, where report.html compares with the --reference,");
   if (!arguments.exporters.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
 }

@@ -16,7 +16,7 @@ namespace fastlio
 [[nodiscard]] std::vector<NamedCount> inputCounts(
     const BridgeStatistics& bridge, const InputStatistics& odometry);
 
-/** Why there is no result for the scans after the last one, as far as the counts tell. */
+/** Why there is no result for the scans after the last one, as far as the counts show it. */
 [[nodiscard]] std::string lostEndText(const InputStatistics& odometry);
 
 }  // namespace fastlio

@@ -49,7 +49,7 @@ std::string scansText(const RunStatistics& statistics)
   return text;
 }
 
-/** What the bridge, the odometry's input and the range limits left out. */
+/** Data that the bridge, the odometry's input and the range limits dropped. */
 std::vector<NamedCount> allLosses(const RunSummary& run)
 {
   std::vector<NamedCount> counts = run.input_counts;

@@ -19,7 +19,7 @@
 
 namespace fastlio
 {
-/** Why a run cannot start, and the exit status that tells it. */
+/** Why a run cannot start, and its exit status. */
 class SetupError : public std::runtime_error
 {
  public:

@@ -116,7 +116,8 @@ void addOptions(CLI::App& app, SimCommand& command)
   app.add_flag("-q,--quiet", command.quiet, "Print errors only");
   app.add_flag(
          "--realistic", command.realistic,
-         "Sensors with the errors that datasheets admit, drawn from the seed; scenario.json tells "
+         "Sensors with the errors that datasheets admit, drawn from the seed; scenario.json "
+         "contains "
          "them, config.yaml does not")
       ->group("Settings");
   for (const auto& shorthand : kShorthands)

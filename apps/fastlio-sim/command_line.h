@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What the user asks for. */
+/** The arguments of the program. */
 struct SimCommand
 {
   std::string scenario;

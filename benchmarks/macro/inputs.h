@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file inputs.h What the odometry is fed in a benchmark, in memory, so that reading takes no
+/** \file inputs.h The input of the odometry in a benchmark, in memory, so that reading takes no
  * part.
  */
 #pragma once

@@ -12,7 +12,7 @@
 
 namespace fastlio::benchmarks
 {
-/** What one pass over a file took. */
+/** The cost of one pass over a file. */
 struct StreamingResult
 {
   double recording_seconds = 0.0;  //!< from the first scan's begin to the last one's end

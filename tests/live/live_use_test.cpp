@@ -105,7 +105,7 @@ TEST_F(LiveUse, AnOverloadIsCountedAndEnds)
   EXPECT_NE(live.output.find("dropped because newer ones waited"), std::string::npos);
 }
 
-TEST_F(LiveUse, WrongUsageIsTold)
+TEST_F(LiveUse, WrongUsageIsReported)
 {
   const ProcessResult nothing = Process({FASTLIO_LIVE_EXAMPLE}, folder_.file("log.txt")).wait();
   EXPECT_EQ(nothing.exit_status, 1);

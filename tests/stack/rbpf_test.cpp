@@ -87,7 +87,7 @@ TEST_F(RbpfSlam, MapsWithTheOdometryOnly)
       {write("rbpf-without.ini", configuration(file("no-motion.rawlog"), file("rbpf-without")))});
   ASSERT_EQ(result.exit_status, 0) << result.output;
   const auto without = errorOf(file("rbpf-without/_finalmap_.simplemap"), "without odometry");
-  // It takes scans into the map when the motions tell that there is something new to see.
+  // It takes scans into the map when the motions show that there is something new to see.
   EXPECT_LT(without.key_frames, 3U);
 }
 

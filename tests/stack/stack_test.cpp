@@ -47,7 +47,7 @@ PlanarError errorOf(const std::string& simplemap, const Simulation& simulation)
   return planarError(map, simulation);
 }
 
-void tell(const std::string& what, const PlanarError& error)
+void report(const std::string& what, const PlanarError& error)
 {
   std::cout << "[  FIGURE  ] " << what << ": map error " << 100.0 * error.rms << " cm rms, "
             << 100.0 * error.largest << " cm at most, " << error.points << " points of "
@@ -86,7 +86,7 @@ TEST_F(IcpSlam, MapsOnThePlanarScans)
     const auto result = run("icp-slam", {config});
     ASSERT_EQ(result.exit_status, 0) << result.output;
     errors[name] = errorOf(file("icp-" + name + "/_finalmap_.simplemap"), stack().simulation());
-    tell("icp-slam " + name + " odometry", errors[name]);
+    report("icp-slam " + name + " odometry", errors[name]);
   }
   EXPECT_GT(errors["with"].key_frames, 10U);
   EXPECT_LT(errors["with"].rms, 0.25);

@@ -18,7 +18,7 @@ namespace
 {
 using mrpt::containers::yaml;
 
-/** What is wrong in a document, and where. */
+/** An error in a document, and its place. */
 struct Problem
 {
   int line = 0;  //!< counted from 1; 0: unknown, as for values that were set in code

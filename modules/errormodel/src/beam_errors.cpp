@@ -101,7 +101,7 @@ std::vector<BeamSums> BeamErrors::sums() const
     sums.elevation = beamElevation(bin);
     sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
     sums.weighted << range.weighted, elevation.weighted;
-    // They share the errors of the map: points tell less than their number says.
+    // They share the errors of the map: points hold less information than their number suggests.
     sums.information /= kSharedNoise;
     sums.weighted /= kSharedNoise;
   }

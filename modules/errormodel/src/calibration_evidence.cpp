@@ -13,7 +13,7 @@ namespace
 using Square6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-// Beside so many scans one more tells little: from then on one in so many is followed by a
+// Beside so many scans one more adds little: from then on one in so many is followed by a
 // solution.
 constexpr int kScansSolvedEach = 20;
 constexpr int kScansPerSolution = 10;

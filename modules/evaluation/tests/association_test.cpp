@@ -96,7 +96,7 @@ TEST(Association, TimeOffsetMovesTheEstimate)
   EXPECT_EQ(t.estimate.front().stamp_ns, kStart);
 }
 
-TEST(Association, WithoutOverlapBothRangesAreTold)
+TEST(Association, WithoutOverlapBothRangesAreNamed)
 {
   Trajectory estimate = samples::curve(50);
   for (StampedPose& pose : estimate.poses)

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scene_objects.h What a 3D scene of a run shows (internal). */
+/** \file scene_objects.h The objects in the 3D scene of a run. */
 #pragma once
 
 #include <fastlio/run/output_map.h>

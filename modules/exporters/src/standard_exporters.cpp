@@ -115,7 +115,7 @@ const std::vector<ExporterKind>& exporterKinds()
       {"g2o", "poses.g2o", "pose graph for g2o", false, makeG2oExporter},
       {"scene", "scene.3Dscene", "map, path and uncertainty for SceneViewer3D", false,
        makeSceneExporter},
-      // After the files whose problems it tells.
+      // After the files whose problems it lists.
       {"report", "report.html", "page that shows and explains the run", true, makeReportExporter},
       // The last: it lists the files before it.
       {kSummary, "summary.json", "the run: inputs, parameters, losses, speed, problems", true,

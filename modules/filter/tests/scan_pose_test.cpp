@@ -14,7 +14,7 @@ namespace
 {
 using testing::Random;
 
-/** What the points of a scan were compensated with, at some distance from \a x. */
+/** The compensation of a scan's points, at some distance from \a x. */
 CompensatedWith compensationNear(Random& random, const NavState& x, double distance)
 {
   CompensatedWith c;

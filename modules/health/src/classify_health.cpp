@@ -24,7 +24,8 @@ constexpr double kPredicted = 0.25;
 constexpr double kMaxDegenerateStd = 0.5;
 // Smallest eigenvalue of H^T R^-1 H: the scan knows each direction to 0.1 m or 0.1 rad.
 constexpr double kMinInformation = 100.0;
-// Fraction of the time that inertial data may be in doubt: longer bridges bend the scan.
+// Fraction of the time that the noise of inertial data may be inflated: longer bridges bend the
+// scan.
 constexpr double kMaxInflatedRatio = 0.25;
 // Beyond these, the filter explains something else by its biases.
 constexpr double kMaxGyroBias = 0.17453292519943295;  // [rad/s]; 10 deg/s
@@ -115,7 +116,8 @@ bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
   return std <= kMaxDegenerateStd;
 }
 
-/** What scans correct again and again, the inertial data got wrong, or the scans' pose did. */
+/** Scans correct the same error again and again: either the inertial data or the poses of the scans
+ * are wrong. */
 void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanHealth& health)
 {
   if (s.mounting_error)

@@ -25,11 +25,11 @@ constexpr double kForgetting = 0.998;
 // Turns of less than this, root mean square, are mostly noise [rad].
 constexpr double kLeastTurn = 0.004;
 constexpr double kLeastCorrelation = 0.95;
-// A second axis of rotation with less of the first one's singular value tells nothing.
+// A second axis of rotation with less of the first one's singular value says nothing.
 constexpr double kLeastSecondAxis = 0.05;
 
-// What every platform does and no noise density tells: vibration between the inertial samples turns
-// and shifts it, and stamps are good to half a millisecond.
+// Every platform does it and no noise density includes it: vibration between the inertial samples
+// turns and shifts it, and stamps are good to half a millisecond.
 constexpr double kVibrationAngle = 5e-4;  // [rad]
 constexpr double kVibrationShift = 1e-3;  // [m]
 constexpr double kStampJitter = 5e-4;     // [s]

@@ -17,7 +17,7 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kMostDiagnostics = 1000;
-// Samples scatter so much more than their noise densities say: not every shaken sensor is told.
+// Samples scatter so much more than their noise densities say: not every shaken sensor is reported.
 constexpr double kMostScatter = 10.0;
 constexpr double kScatterTime = 5.0;  // that a scatter is averaged over at least [s]
 // Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
@@ -39,14 +39,14 @@ void RunDiagnostics::report(std::int64_t stamp_ns, std::string text)
 
 void RunDiagnostics::consider(const ImuSample& sample)
 {
-  if (scatter_told_) return;
+  if (scatter_reported_) return;
   scatter_.add(sample);
   if (scatter_.duration() < kScatterTime) return;
   const double gyro = scatter_.gyroDensity(), accel = scatter_.accelDensity();
   const double gyro_ratio = gyro / imu_noise_.gyro_noise_density;
   const double accel_ratio = accel / imu_noise_.accel_noise_density;
   if (std::max(gyro_ratio, accel_ratio) < kMostScatter) return;
-  scatter_told_ = true;
+  scatter_reported_ = true;
   report(
       sample.stamp_ns,
       mrpt::format(
@@ -67,8 +67,8 @@ void RunDiagnostics::consider(const ScanResult& result)
 void RunDiagnostics::considerMounting(const ScanResult& result)
 {
   const std::optional<MountingError>& error = result.statistics.mounting_error;
-  if (mounting_told_ || !error || error->leastAngle() < maxMountingError(calibration_)) return;
-  mounting_told_ = true;
+  if (mounting_reported_ || !error || error->leastAngle() < maxMountingError(calibration_)) return;
+  mounting_reported_ = true;
   const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
   report(
       result.stamp_ns,
@@ -83,8 +83,8 @@ void RunDiagnostics::considerMounting(const ScanResult& result)
 void RunDiagnostics::considerMotion(const ScanResult& result)
 {
   const double innovation = result.statistics.unexplained_motion_innovation;
-  if (motion_told_ || mounting_told_ || innovation < kMaxMotionInnovation) return;
-  motion_told_ = true;
+  if (motion_reported_ || mounting_reported_ || innovation < kMaxMotionInnovation) return;
+  motion_reported_ = true;
   report(
       result.stamp_ns,
       mrpt::format(
@@ -103,8 +103,8 @@ void RunDiagnostics::considerExtrinsic(const ScanResult& result)
       isOdd(check.rotation, check.rotation_std, calibration_.extrinsic_rotation_std);
   const bool moved =
       isOdd(check.translation, check.translation_std, calibration_.extrinsic_translation_std);
-  if (extrinsic_told_ || mounting_told_ || (!turned && !moved)) return;
-  extrinsic_told_ = true;
+  if (extrinsic_reported_ || mounting_reported_ || (!turned && !moved)) return;
+  extrinsic_reported_ = true;
   const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
   const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
   report(

@@ -42,7 +42,7 @@ class TurningPlatform
   {
     const Vec3 turn = 0.05 * Vec3(std::sin(0.3 * i), std::cos(0.2 * i), 1.0 + std::sin(0.1 * i));
     before_ = state_.x;
-    // What the scans see, brought to the IMU by the mounting in use.
+    // The motion that the scans see, brought to the IMU by the mounting in use.
     const Vec3 seen = R_true_given_.transpose() * turn;
     truth_ = before_.R * expSO3(seen);
     state_.x.R = before_.R * expSO3(gyro_scale_ * turn) * expSO3(factor_ * noise(std_));

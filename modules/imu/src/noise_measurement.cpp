@@ -12,7 +12,7 @@ namespace
 {
 constexpr double kShare = 1.0 / 3.0;  // of the measured density that counts
 constexpr double kMemory = 50.0;      // samples that an estimate averages over
-constexpr double kLeast = 20.0;       // fewer tell nothing
+constexpr double kLeast = 20.0;       // fewer say nothing
 // Third differences of three axes: their mean square over the variance of one axis.
 constexpr double kGain = 3.0 * 20.0;
 constexpr double kMostUnevenSpacing = 1.8;  // beyond it, a sample is missing

@@ -73,7 +73,8 @@ FilterState startInCarriedWorld(const FilterState& start, const CarriedPose& car
   s.x.time_offset = carried.x.time_offset;
   s.P = turned(start.P, W);
 
-  // What the start does not know about gravity's direction is now the attitude's tilt.
+  // The uncertainty of gravity's direction at the start is now the uncertainty of the attitude's
+  // tilt.
   const Mat3 g_covariance = s.P.block<3, 3>(kGravity, kGravity);
   const double g2 = carried.x.g.squaredNorm();
   replaceBlock(s.P, kGravity, carried.P.block<3, 3>(kGravity, kGravity));

@@ -29,7 +29,7 @@ class Random
   std::normal_distribution<double> normal_;
 };
 
-/** What is true of a resting IMU, in its own frame. */
+/** The truth about a resting IMU, in its own frame. */
 struct RestTruth
 {
   Vec3 gyro_bias, accel_bias, g;

@@ -160,7 +160,7 @@ PointTimeFinding readRelative(const Question& question)
     if (certain) break;
     if (fraction >= kPossibleLeast && fraction <= kPossibleMost) possible.push_back(unit);
   }
-  // What is configured is done as long as it can be done at all.
+  // The configuration decides as long as the data permit it.
   if (possible.empty() && question.given.unit != PointTimeUnit::Auto)
     possible = {question.given.unit};
   if (possible.empty())

@@ -78,7 +78,7 @@ UpdateByCalibration LocalMap::considerUpdate(
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
 {
-  return isYoung() || matchesAsUsual(statistics, points);
+  return isSparse() || matchesAsUsual(statistics, points);
 }
 
 void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
@@ -104,7 +104,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   return position_variance < std::pow(kMaxInsertionStd, 2);
 }
 
-bool LocalMap::isYoung() const
+bool LocalMap::isSparse() const
 {
   return insertions_ < kSparseMapInsertions;
 }

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file neighbor_fit.h What the maps that fit planes and lines to nearest points have in common.
+/** \file neighbor_fit.h Common parts of the maps that fit planes and lines to nearest points.
  */
 #pragma once
 

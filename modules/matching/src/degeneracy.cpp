@@ -53,7 +53,7 @@ void homogeneous(
   }
 }
 
-/** What each plane tells about a direction, in the order of the planes' numbers. */
+/** The information of each plane along a direction, in the order of the planes' numbers. */
 void informationByPlane(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, const Vector6& direction, std::vector<PlaneInformation>& planes)

@@ -63,7 +63,7 @@ FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, doubl
   return start;
 }
 
-/** Every so many-th point: enough to tell candidates apart. */
+/** Every so many-th point: enough to rank candidates. */
 DeskewedScan sampleOf(const DeskewedScan& scan)
 {
   const BodyPoints& all = scan.surfaces;
@@ -239,7 +239,7 @@ PoseSearchResult searchPose(
   };
   const CandidateGrid grid = candidateGrid(predicted, most);
   std::vector<PoseCandidate> places = tryPlaces(grid);
-  // The best place tells the height: its rivals stand on the same level.
+  // The best place determines the height: its rivals stand on the same level.
   if (!grid.complete && !places.empty())
     places =
         tryPlaces(levelGrid(predicted, places.front().T_world_imu.p.z() - predicted.x.p.z(), most));

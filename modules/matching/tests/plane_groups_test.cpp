@@ -37,7 +37,7 @@ ResidualModel narrow()
   return model;
 }
 
-/** What PlaneGroup and the sums are defined as, point by point. */
+/** PlaneGroup and the sums by their definitions, point by point. */
 struct Definition
 {
   Matrix6 information = Matrix6::Zero(), shared_noise = Matrix6::Zero();

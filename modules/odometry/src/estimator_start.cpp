@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Starts of the estimator, and what it tells between scans.
+// Starts of the estimator, and its state between scans.
 
 #include "estimator.h"
 #include <fastlio/initialization/calibration_prior.h>

@@ -59,7 +59,7 @@ void setImu(
 RosHeader readRosHeader(WireReader& in)
 {
   if (in.isRos1()) (void)in.number<std::uint32_t>();  // the sequence number
-  // Seconds of ROS 1 have no sign, which tells after 2038 only.
+  // Seconds of ROS 1 have no sign, which matters after 2038 only.
   const std::int64_t seconds =
       in.isRos1() ? std::int64_t{in.number<std::uint32_t>()} : in.number<std::int32_t>();
   const auto nanoseconds = in.number<std::uint32_t>();

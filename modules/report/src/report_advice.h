@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file report_advice.h What a cause of trouble means, and what to try (internal). */
+/** \file report_advice.h Meaning of each cause of trouble, and advice. */
 #pragma once
 
 #include <fastlio/interface/scan_result.h>

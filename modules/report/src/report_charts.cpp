@@ -33,7 +33,7 @@ struct ChartSpec
 {
   const char* title;
   const char* unit;
-  const char* remark;  //!< HTML
+  const char* note;  //!< HTML
   std::vector<ChartLine> lines;
   bool from_zero = true;
   std::optional<PlotRange> range = {};
@@ -171,8 +171,8 @@ std::string chartHtml(const ReportSeries& series, const ChartSpec& spec)
     if (line.sigma) panel.bands.push_back(bandOf(series, line));
     if (*line.name != '\0') legend.push_back({line.name, line.colour});
   }
-  const std::string remark = hasNumber(panel) ? spec.remark : "No scan has a value.";
-  return figureHtml(panel, kChartPlace, spec.title, legend, remark);
+  const std::string note = hasNumber(panel) ? spec.note : "No scan has a value.";
+  return figureHtml(panel, kChartPlace, spec.title, legend, note);
 }
 
 std::string healthChart(const ReportSeries& series)

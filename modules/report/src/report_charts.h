@@ -34,7 +34,7 @@ constexpr double kSigmas = 3.0;
 /** Motion, uncertainty, biases, health and evidence. */
 [[nodiscard]] std::string timeCharts(const ReportSeries& series);
 
-/** What depends on the machine: time per stage, memory. */
+/** Quantities of the machine: time per stage, memory. */
 [[nodiscard]] std::string measuredCharts(const ReportSeries& series);
 
 /** Errors with three standard deviations, and NEES. */

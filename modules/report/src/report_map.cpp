@@ -20,7 +20,7 @@ constexpr std::array<double, 3> kOpacities = {0.35, 0.65, 1.0};
 constexpr double kPixelsPerCell = 2.5;
 constexpr double kInnerWidth = 400.0, kInnerHeight = 340.0;  // [px], about
 constexpr double kFarthestPose = 1e8;                        // [m]: nothing is there
-constexpr std::size_t kSample = 20000;                       // points that tell the extent
+constexpr std::size_t kSample = 20000;                       // points that determine the extent
 
 /** Some points of the map, at even distances. */
 struct MapSample

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "report_charts.h"
-#include <fastlio/plot/report_figure.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/plot/report_figure.h>
 
 namespace fastlio
 {
@@ -18,9 +18,9 @@ std::string mapFigures(const MapViews& views)
   std::vector<LegendEntry> top_legend = legend;
   if (views.top.series.size() > 1 && !views.top.series[1].points.empty())
     top_legend.push_back({"degenerate direction", "var(--warn)"});
-  std::string remark = std::to_string(views.points) + " points of the map, coloured by height.";
-  if (!views.problem.empty()) remark = "The map is not complete: " + htmlText(views.problem);
-  return figureHtml(views.top, placeOf(views.top), "From above", top_legend, remark) +
+  std::string note = std::to_string(views.points) + " points of the map, coloured by height.";
+  if (!views.problem.empty()) note = "The map is not complete: " + htmlText(views.problem);
+  return figureHtml(views.top, placeOf(views.top), "From above", top_legend, note) +
          figureHtml(
              views.side, placeOf(views.side), "From the side", legend,
              "Along " + std::string(views.side_axis == "x" ? "y" : "x") +

@@ -36,7 +36,7 @@ Trajectory readReference(const std::string& file)
   return readTrajectory(file);
 }
 
-/** As fastlio-eval does by default; where positions on a line do not tell the rotation, by the
+/** As fastlio-eval does by default; where positions on a line do not determine the rotation, by the
  * first pose. */
 EvaluationReport evaluated(const Trajectory& estimate, const Trajectory& reference)
 {

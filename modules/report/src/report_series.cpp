@@ -18,7 +18,7 @@ namespace
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr double kMillimetres = 1e3;
 
-/** Resident memory of this process [MB]; not a number where the system does not tell. */
+/** Resident memory of this process [MB]; not a number where the system does not report it. */
 float residentMegabytes()
 {
   std::ifstream in("/proc/self/statm");

@@ -154,7 +154,7 @@ std::string sensorsHtml(const RunSummary& run)
 
 std::string calibrationHtml(const RunSummary& run)
 {
-  if (run.statistics.poses() == 0) return "<p>There is no pose to tell it.</p>\n";
+  if (run.statistics.poses() == 0) return "<p>No scan has a pose.</p>\n";
   const CalibrationCheck& check = run.statistics.calibration();
   return tableOf(
              {{"Extrinsic rotation, error [deg]",

@@ -26,7 +26,7 @@ double untrustedSeconds(const std::vector<UntrustedStretch>& stretches)
   return seconds;
 }
 
-/** What it means, what to try, and where more is said. */
+/** Its meaning, advice, and a link to the document. */
 std::string adviceParagraphs(HealthCause cause)
 {
   const HealthAdvice advice = adviceOf(cause);
@@ -65,7 +65,7 @@ std::string shareText(const std::vector<UntrustedStretch>& stretches, double dur
          " s of this run (" + number + (stretches.size() == 1 ? " stretch)" : " stretches)");
 }
 
-/** Of the longest stretch, where the first trouble does not tell its cause. */
+/** Of the longest stretch, where the first trouble names no cause. */
 std::string longestStretchHtml(const RunHealth& health, const std::vector<UntrustedStretch>& all)
 {
   const auto shorter = [](const UntrustedStretch& a, const UntrustedStretch& b)
@@ -104,7 +104,7 @@ RunVerdict ofHealth(const RunStatistics& statistics)
   return {"good", "The run can be trusted: none of " + scans + " was in trouble.", ""};
 }
 
-/** What else went wrong. */
+/** Further problems. */
 std::vector<std::string> furtherProblems(const RunSummary& run)
 {
   std::vector<std::string> sentences;

@@ -44,7 +44,7 @@ class FurtherFolder
   std::string path_;
 };
 
-/** What report.html is for these scans. \param run is completed with them */
+/** report.html for these scans. \param run is completed with them */
 inline std::string reportOf(
     const std::vector<ScanResult>& scans, RunSummary run = {}, const std::string& reference = {})
 {

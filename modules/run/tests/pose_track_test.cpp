@@ -84,7 +84,8 @@ TEST(PoseTrack, KnowsNothingOutsideAndInGaps)
   EXPECT_FALSE(track.at(kTrackStamp + 30 * kScan + 1));
 }
 
-/** Without a map's part: the two errors are independent, so numbers tell what the derivatives do.
+/** Without a map's part: the two errors are independent, so numerical derivatives check the
+ * analytical ones.
  */
 TEST(RelativePose, CovarianceIsThatOfTheErrorsOfBoth)
 {

@@ -14,7 +14,7 @@ using testing::goodRun;
 using testing::kPeriod;
 using testing::resultAt;
 
-TEST(ExitStatus, TellsTheGravestTrouble)
+TEST(ExitStatus, IsThatOfTheGravestTrouble)
 {
   RunSummary run = goodRun();
   EXPECT_EQ(exitStatusOf(run), ExitStatus::Ok);

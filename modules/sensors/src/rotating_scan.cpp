@@ -70,7 +70,7 @@ class Collector
 
   [[nodiscard]] int columns() const { return columns_; }
 
-  /** Share of the sweep that has passed at a column. */
+  /** Fraction of the sweep that has passed at a column. */
   [[nodiscard]] double shareAt(int column) const { return static_cast<double>(column) / columns_; }
 
   void add(const Vec3& p, int row, int column, double seconds_in_column)

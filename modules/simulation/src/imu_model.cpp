@@ -43,7 +43,7 @@ Reading meanReading(const Motion& motion, double gravity, double t, double perio
   return mean;
 }
 
-/** What a sensor with such errors reads. */
+/** The reading of a sensor with such errors. */
 Reading distorted(const ImuErrors& errors, const Reading& r)
 {
   return {errors.gyro * r.gyro + errors.g_sensitivity * r.accel, errors.accel * r.accel};

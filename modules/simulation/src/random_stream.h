@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What random numbers are for. */
+/** The uses of random numbers. */
 enum class NoiseSource : std::uint32_t
 {
   GyroBias = 1,

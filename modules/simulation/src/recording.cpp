@@ -92,7 +92,7 @@ class RawlogFile
   std::size_t next_ = 0, next_aid_ = 0;
 };
 
-/** What the sensors beside LiDAR and IMU deliver, in the order of stamps. */
+/** The observations of the sensors beside LiDAR and IMU, in the order of stamps. */
 std::vector<Encoded> encodeAids(const Simulation& simulation)
 {
   std::vector<Encoded> aids;

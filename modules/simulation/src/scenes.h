@@ -26,7 +26,7 @@ struct Scene
   double blend = 2.0;                         //!< time from rest to full speed, and back [s]
 };
 
-/** Tells of what was appended to a scene's bodies since there were so many that it is one thing. */
+/** Marks the bodies that were appended to a scene since there were so many as one thing. */
 void noteMovable(Scene& scene, std::size_t bodies_before);
 
 // Indoors (scenes_indoor.cpp).

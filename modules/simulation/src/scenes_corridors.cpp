@@ -102,7 +102,7 @@ Bodies westernStairs()
   return bodies;
 }
 
-/** What is not alike: some cabinets, benches and pillars. z is the storey. */
+/** The differences: some cabinets, benches and pillars. z is the storey. */
 Bodies fewDifferences()
 {
   Bodies bodies;

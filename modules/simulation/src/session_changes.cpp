@@ -93,7 +93,7 @@ Bodies moved(Bodies thing, const std::optional<HeightField>& ground, RandomStrea
   return thing;
 }
 
-/** What a session makes of a thing; nothing when it is gone. */
+/** A thing in another session; nothing when it is gone. */
 Bodies onThatDay(
     const Bodies& thing, const Scene& scene, const KeptWay& way, double changes,
     RandomStream& random)

@@ -82,7 +82,7 @@ Rows returnRows()
        [](S& s) -> OptionValue {
          return RealValue{&s.lidar.untold.clock_error, -10.0, 10.0};
        },
-       "as lidar.time_offset, but config.yaml does not tell it"},
+       "as lidar.time_offset, but config.yaml does not contain it"},
       {"lidar.pose_rotation_std", "deg",
        [](S& s) -> OptionValue {
          return RealValue{&s.lidar.untold.rotation_std, 0.0, 90.0, kRadPerDeg};
@@ -158,12 +158,12 @@ Rows surroundingRows()
        [](S& s) -> OptionValue {
          return RealValue{&s.surface.glass, 0.0, 1.0};
        },
-       "share of flat, upright surfaces that light passes"},
+       "fraction of flat, upright surfaces that light passes"},
       {"surface.mirrors", "",
        [](S& s) -> OptionValue {
          return RealValue{&s.surface.mirrors, 0.0, 1.0};
        },
-       "share of flat, upright surfaces that reflect like a mirror"},
+       "fraction of flat, upright surfaces that reflect like a mirror"},
   };
 }
 }  // namespace

@@ -97,7 +97,7 @@ void addRangeNoise(std::vector<Echo>& echoes, const SimulationSettings& s, std::
 }
 }  // namespace
 
-/** What the constructor makes before the members. */
+/** The objects that the constructor makes before the members. */
 struct Simulation::Parts
 {
   SimulationSettings settings;

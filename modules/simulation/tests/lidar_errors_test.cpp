@@ -170,7 +170,7 @@ TEST(LidarErrors, MountingIsNotWhatTheRecordingTells)
   EXPECT_NEAR(std::sqrt(moved / (3 * kSeeds)), 0.01, 0.0007);
 }
 
-TEST(LidarErrors, ScansAreFiredFromTheTrueMountingAndToldAnother)
+TEST(LidarErrors, ScansAreFiredFromTheTrueMountingAndStoreAnother)
 {
   SimulationSettings settings = exactOffice();
   settings.lidar.untold.position_std = 0.05;

@@ -124,7 +124,7 @@ TEST(MatchingParameters, AreValidForEveryScenario)
   EXPECT_EQ(problemOf([&] { validate(matchingConfig(perfect)); }), "");
 }
 
-TEST(MatchingParameters, TellTheFilterWhatTheSensorsAre)
+TEST(MatchingParameters, GiveTheFilterTheSensorsAsTheyAre)
 {
   SimulationSettings settings = defaultSettings("office");
   settings.lidar.time_offset = 0.02;

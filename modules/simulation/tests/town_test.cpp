@@ -62,7 +62,7 @@ TEST(Town, RidesAsAVehicleOverHills)
 
 TEST(Town, LooksDifferentInEveryStreet)
 {
-  // What stands around crossings: no two have walls at the same ranges.
+  // The surroundings of crossings: no two have walls at the same ranges.
   const Simulation simulation(testing::wholeRide("town"));
   std::vector<std::vector<double>> views;
   for (double t = 10.0; t < 100.0; t += 10.0)

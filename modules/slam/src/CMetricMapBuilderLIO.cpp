@@ -120,7 +120,7 @@ void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observati
   takeKeyFrames();
 }
 
-/** The first pose tells where the odometry's world is: the vehicle starts at T_map_start_. */
+/** The first pose locates the odometry's world: the vehicle starts at T_map_start_. */
 void CMetricMapBuilderLIO::placeOrigin()
 {
   const auto& poses = odometry_.track().poses();

@@ -25,7 +25,7 @@ constexpr double kOpening = 2.0;  // enough to meet every LiDAR and IMU [s]
 constexpr double kLongestPause = 1.0;
 // A file is cut by bytes: the last sensors to be written overlap the next file by a scan or two.
 constexpr double kLongestOverlap = 0.3;
-// The opening's share of the bytes tells the duration to within this factor.
+// The opening's fraction of the bytes gives the duration to within this factor.
 constexpr double kDoubtOfDuration = 10.0;
 
 /** How a recording begins. */
@@ -122,7 +122,7 @@ std::optional<std::size_t> successorOf(std::size_t file, const std::vector<Openi
   return next;
 }
 
-/** What continues a file, and after which pause. */
+/** The file that continues another one, and the pause between them. */
 struct Continuation
 {
   std::size_t file = 0;

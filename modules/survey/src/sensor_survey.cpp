@@ -26,7 +26,7 @@ using mrpt::obs::CObservation;
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::size_t kFewestScans = 5;
 
-// What one observation tells about its sensor.
+// The facts of one observation about its sensor.
 struct Appearance
 {
   SensorKind kind = SensorKind::Other;
@@ -175,7 +175,7 @@ std::optional<std::size_t> note(SensorSurvey& survey, const CObservation& observ
 bool hasUsable(
     const std::vector<SensorSummary>& sensors, SensorKind kind, const LabelPattern& pattern)
 {
-  // What the times of points mean shows from several scans.
+  // The meaning of point times shows from several scans.
   const std::size_t least = kind == SensorKind::Lidar ? kFewestScans : 1;
   return std::any_of(
       sensors.begin(), sensors.end(),
@@ -230,7 +230,7 @@ SensorSurvey surveySensors(
   RawlogSource source(files);
   SensorSurvey survey;
   std::int64_t begin_ns = 0;
-  const CompiledPatterns compiled(patterns);  // patterns that are none are told before reading
+  const CompiledPatterns compiled(patterns);  // patterns that are none are reported before reading
   while (const auto observation = source.next())
   {
     if (observation->timestamp == INVALID_TIMESTAMP) continue;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibration_run.h One recording through the odometry, for what it tells about the
+/** \file calibration_run.h One recording through the odometry, for its evidence about the
  * calibration. */
 #pragma once
 
@@ -33,7 +33,7 @@ struct RunAgreement
   [[nodiscard]] double mapThickness() const;  //!< root mean square of the residuals [m]
 };
 
-/** What a run tells. */
+/** The evidence of a run. */
 struct CalibrationRunResult
 {
   CalibrationFindings findings;

@@ -32,7 +32,7 @@ struct Rig
   std::vector<BeamRow> beams;            //!< ascending by elevation
 };
 
-/** What a configuration and the recording say. */
+/** The values of a configuration and the recording. */
 [[nodiscard]] Rig rigOf(
     const Config& config, const SensorSelection& selection, const InputPlan& plan);
 

@@ -25,7 +25,7 @@
 #define FASTLIO_MRPT_HAS_NN_INTERFACE (MRPT_VERSION >= 0x20b03)
 /** mrpt::maps::CPointsMapXYZIRT. */
 #define FASTLIO_MRPT_HAS_XYZIRT (MRPT_VERSION >= 0x20b04)
-/** CObservationRotatingScan has points and tells where it is stored, in streams too. */
+/** CObservationRotatingScan has points and knows where it is stored, in streams too. */
 #define FASTLIO_MRPT_HAS_ROTATING_POINTS (MRPT_VERSION >= 0x20b04)
 /** CSimpleMap consists of key frames that have a twist. */
 #define FASTLIO_MRPT_HAS_KEYFRAMES (MRPT_VERSION >= 0x20b05)
@@ -48,14 +48,14 @@ namespace fastlio
 #if FASTLIO_MRPT_HAS_NN_INTERFACE
 /** Base of maps that are searched by MRPT's names. */
 using NearestNeighborsInterface = mrpt::maps::NearestNeighborsCapable;
-/** What a map definition's factory hands over. */
+/** The result of a map definition's factory. */
 using CreatedMap = std::shared_ptr<mrpt::maps::CMetricMap>;
 #else
 /** Base of maps that are searched by MRPT's names: nothing is virtual yet. */
 struct NearestNeighborsInterface
 {
 };
-/** What a map definition's factory hands over; the caller owns it. */
+/** The result of a map definition's factory; the caller owns it. */
 using CreatedMap = mrpt::maps::CMetricMap*;
 #endif
 

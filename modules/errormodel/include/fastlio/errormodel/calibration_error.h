@@ -13,7 +13,8 @@
  *
  * where B_c moves the scan with the extrinsic, and V says how the planes in view lie wrong, as a
  * rigid motion of the world: the map is made of scans that had the same error. C is how far the
- * innovation of the scan depends on theta, so the innovations tell theta (CalibrationEvidence). */
+ * innovation of the scan depends on theta, so the innovations determine theta
+ * (CalibrationEvidence). */
 #pragma once
 
 #include <fastlio/errormodel/calibration_sums.h>

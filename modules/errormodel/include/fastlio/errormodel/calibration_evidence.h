@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibration_evidence.h What the innovations of the scans tell about the error theta of the
+/** \file calibration_evidence.h The evidence of the innovations about the error theta of the
  * calibration in use: the second stage of a two-stage filter (B. Friedland, "Treatment of bias in
  * recursive filtering", 1969), whose first stage takes the calibration for true. */
 #pragma once
@@ -28,7 +28,7 @@ class CalibrationEvidence
 
   /** Covariance of a pose that depends on theta, by the prior of the extrinsic. */
   [[nodiscard]] Matrix6 byPrior(const PoseByCalibration& pose) const;
-  /** What all scans so far tell. */
+  /** The estimate from all scans so far. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
   [[nodiscard]] const CalibrationSums& sums() const { return sums_; }
 

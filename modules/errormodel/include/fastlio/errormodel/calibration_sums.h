@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibration_sums.h What a run tells about the error theta of the calibration that it used:
+/** \file calibration_sums.h The evidence of a run about the error theta of the calibration that it used:
  * sums that add up over runs, and their solution. docs/covariance.md has the equations. */
 #pragma once
 
@@ -38,7 +38,7 @@ struct CalibrationSums
   CalibrationSums& operator+=(const CalibrationSums& other);
 };
 
-/** What was known of theta before: independent errors, possibly zero. */
+/** The prior of theta: independent errors, possibly zero. */
 struct CalibrationPrior
 {
   CalibrationErrorVector mean = CalibrationErrorVector::Zero();
@@ -56,7 +56,7 @@ struct CalibrationEstimate
   double innovation_scale = 1.0;
 };
 
-/** \param systematic the innovations tell so many times less than their covariance says, because
+/** \param systematic the innovations hold so many times less information than their covariance says, because
  * what the model lacks is the same in many scans */
 [[nodiscard]] CalibrationEstimate solve(
     const CalibrationSums& sums, const CalibrationPrior& prior, double systematic = 1.0);
@@ -72,7 +72,7 @@ struct BeamSums
       Eigen::Matrix<double, 2, 1, Eigen::DontAlign>::Zero();
 };
 
-/** Everything that a run tells about the calibration it used. */
+/** All evidence of a run about the calibration it used. */
 struct CalibrationFindings
 {
   CalibrationSums sums;

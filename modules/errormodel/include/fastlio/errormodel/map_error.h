@@ -50,7 +50,7 @@ using TwistCovariance = Matrix6;
     const Matrix6& pose_covariance, const Pose& T_world_imu);
 [[nodiscard]] Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_imu);
 
-/** What the last update of the filter did, linearised. */
+/** The last update of the filter, linearised. */
 struct LinearizedUpdate
 {
   Pose T_world_scan;                               //!< scan pose of the posterior
@@ -82,7 +82,7 @@ class MapErrorModel
       const LinearizedUpdate& update, const GroupedMeasurements& scan,
       const Matrix6& beam_errors = Matrix6::Zero());
 
-  /** What is to be added to the filter's own covariance: the map's error, less the part of it that
+  /** The covariance to be added to the filter's own: the map's error, less the part of it that
    * the filter has counted as noise of the points. */
   [[nodiscard]] StateMatrix addition() const;
 

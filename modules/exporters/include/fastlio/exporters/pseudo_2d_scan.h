@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What configures pseudo2dScan(). */
+/** Options of pseudo2dScan(). */
 struct Pseudo2dScanOptions
 {
   int rays = 720;

@@ -15,7 +15,7 @@
 
 namespace fastlio
 {
-/** What to write and where; an empty path leaves the file or files out. */
+/** The files to write and their places; an empty path leaves the file or files out. */
 struct ExportTarget
 {
   std::string directory;      //!< exists; receives the files

@@ -31,7 +31,7 @@ inline constexpr double kMaxMotionInnovation = 12.0;
  * known of it. */
 [[nodiscard]] double maxGyroScaleError(const CalibrationOptions& options);
 
-/** What the filter did with a scan, as far as its status depends on it. */
+/** The filter's treatment of a scan, as far as the status depends on it. */
 struct ScanOutcome
 {
   /** Where the filter was with this scan. */
@@ -56,11 +56,11 @@ struct ScanOutcome
 /** The status alone. */
 [[nodiscard]] ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options);
 
-/** What the health of a scan depends on besides the scan itself. */
+/** Quantities that the health of a scan depends on besides the scan itself. */
 struct HealthContext
 {
   std::int64_t since_ns = 0;    //!< end of the scan before
-  double inflated_ratio = 0.0;  //!< of the time since then, in which inertial data are in doubt
+  double inflated_ratio = 0.0;  //!< of the time since then, in intervals of noise inflation
   bool map_is_sparse = false;   //!< few points match it yet
   double max_mounting_error = maxMountingError({});  //!< [rad]
   double max_gyro_scale_error = maxGyroScaleError({});

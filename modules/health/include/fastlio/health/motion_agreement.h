@@ -41,15 +41,15 @@ class MotionAgreement
   [[nodiscard]] double unexplainedInnovation() const;
 
   /** The rotation between the mounting in use and the one that the turns of the last minute show;
-   * nothing while they do not tell. */
+   * nothing while they do not determine it. */
   [[nodiscard]] std::optional<MountingError> mountingError() const;
 
   /** The turns of the gyro over those of the scans in the last minute; nothing while they do not
-   * tell. */
+   * determine it. */
   [[nodiscard]] std::optional<GyroScale> gyroScale() const;
 
  private:
-  /** What the turns of the last minute show, without their means: the bias of the gyro does not
+  /** The turns of the last minute, without their means: the bias of the gyro does not
    * matter. */
   struct Turns
   {

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file run_diagnostics.h What the user should know about a run, told once (internal). */
+/** \file run_diagnostics.h Diagnostics of a run for the user, each reported once. */
 #pragma once
 
 #include <fastlio/imu/imu_report.h>
@@ -43,7 +43,8 @@ class RunDiagnostics
   CalibrationOptions calibration_;
   ImuNoise imu_noise_;
   SampleScatter scatter_;
-  bool scatter_told_ = false, mounting_told_ = false, extrinsic_told_ = false, motion_told_ = false;
+  bool scatter_reported_ = false, mounting_reported_ = false, extrinsic_reported_ = false,
+       motion_reported_ = false;
   std::vector<Diagnostic> all_;
 };
 

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibration_prior.h What is known of the LiDAR's calibration at the start. */
+/** \file calibration_prior.h The prior of the LiDAR's calibration at the start. */
 #pragma once
 
 #include <fastlio/filter/state.h>
@@ -10,7 +10,7 @@
 namespace fastlio
 {
 /** The state at the start with the prior of the extrinsic; what is not estimated is known exactly,
- * and so is the time offset until the map can tell it (Estimator::releaseTimeOffset).
+ * and so is the time offset until the map makes it observable (Estimator::releaseTimeOffset).
  *
  * The map begins with the first scan, so that scan's pose has no error, whatever that of the
  * extrinsic: attitude and position of the body bear its opposite, and gravity, known in the body

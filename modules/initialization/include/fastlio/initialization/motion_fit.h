@@ -20,7 +20,7 @@ struct TimedPose
   Pose T_world_imu;
 };
 
-/** What the fit knows beforehand. */
+/** The prior of the fit. */
 struct MotionFitPrior
 {
   Vec3 gyro_bias = Vec3::Zero();   //!< [rad/s]

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file motion_prior.h What is known of a platform in motion before its scans are looked at. */
+/** \file motion_prior.h The prior of a platform in motion, before its scans are used. */
 #pragma once
 
 #include <fastlio/imu/imu_buffer.h>
@@ -38,7 +38,7 @@ struct Inputs
 /** Eq. 4 backwards, exactly: attitude first, then velocity, then position. */
 [[nodiscard]] NavState propagatedBack(NavState x, const Inputs& inputs);
 
-/** What the prior leaves open. */
+/** The uncertainty of the prior. */
 struct PriorWidth
 {
   double velocity = 0.0;  //!< [m/s]

@@ -15,12 +15,12 @@ namespace fastlio
  * on where the map's axes point: they turn with the body, and so does what is known of them. */
 [[nodiscard]] FilterState standingAt(const FilterState& state, const Pose& T_map_imu);
 
-/** The state moved to a place and heading in the map; roll and pitch stay as gravity tells them. */
+/** The state moved to a place and heading in the map; roll and pitch stay as gravity gives them. */
 [[nodiscard]] FilterState placedInMap(const FilterState& start, const Pose& T_map_imu);
 
 /** As uncertain about place and heading as the parameters say, and about roll and pitch as the
  * biases leave them open. An error of the map's axes turns attitude, velocity and gravity together,
- * so that what the scan tells of it leaves gravity as it is in the body.
+ * so that the correction by the scan leaves gravity as it is in the body.
  * \param scale of these variances */
 [[nodiscard]] FilterState withUncertainPlace(
     const FilterState& state, const InitializationOptions& parameters, double scale);

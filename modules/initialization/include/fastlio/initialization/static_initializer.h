@@ -30,7 +30,7 @@ struct RestStatistics
 
 /** How many of the leading samples rest like the window's first half; all of them when the platform
  * does not move off. Blocks of a twentieth of the window are compared by their means: those of the
- * first half tell what vibration and noise do, and a later one that departs from them ends the
+ * first half show the size of vibration and noise, and a later one that departs from them ends the
  * rest. Without this, a platform that creeps off just before the first scan starts with a velocity
  * of zero that it no longer has, and with a gravity that leans into its acceleration. */
 [[nodiscard]] std::size_t restingSamples(const std::vector<ImuSample>& samples);

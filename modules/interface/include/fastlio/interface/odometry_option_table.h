@@ -14,7 +14,7 @@ namespace fastlio
 {
 [[nodiscard]] const OptionTable<OdometryOptions>& odometryOptionTable();
 
-/** What is wrong with \a options, ranges and relations, each with its key; empty: nothing. */
+/** The errors in \a options, ranges and relations, each with its key; empty: nothing. */
 [[nodiscard]] std::vector<std::string> optionProblems(const OdometryOptions& options);
 
 /** The guard of options that were set in code.

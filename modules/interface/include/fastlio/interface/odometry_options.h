@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file odometry_options.h What configures the estimator, with defaults. Names of members equal
+/** \file odometry_options.h Options of the estimator, with defaults. Names of members equal
  * the YAML keys (group.key); odometry_option_table.h has unit, range and effect of those that a
  * user may set. Constants of the method stand where they are used. */
 #pragma once

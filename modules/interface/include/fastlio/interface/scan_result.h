@@ -16,7 +16,7 @@
 
 namespace fastlio
 {
-/** What became of a scan. */
+/** The status of a scan. */
 enum class ScanStatus
 {
   Initializing,    //!< still collecting the resting start; no pose yet
@@ -29,7 +29,7 @@ enum class ScanStatus
 /** Printable name of a status ("tracking", ...). */
 [[nodiscard]] const char* toString(ScanStatus status);
 
-/** What is wrong with a scan. */
+/** The reason for a scan's poor health. */
 enum class HealthCause
 {
   None,
@@ -70,7 +70,7 @@ struct MountingError
   double angle = 0.0;                    //!< of R_true_given [rad]
   double std = 0.0;                      //!< of the angle, by what the turns leave over [rad]
 
-  /** What the angle is at least, by three standard deviations [rad]. */
+  /** Lower bound of the angle, by three standard deviations [rad]. */
   [[nodiscard]] double leastAngle() const { return std::max(0.0, angle - 3.0 * std); }
 };
 
@@ -86,8 +86,8 @@ struct GyroScale
    * bounds as they are apart, because noise of both sensors has parts in common. */
   [[nodiscard]] double leastError() const
   {
-    const double doubt = 3.0 * std + upper - lower;
-    return std::max({0.0, lower - 1.0 - doubt, 1.0 - upper - doubt});
+    const double margin = 3.0 * std + upper - lower;
+    return std::max({0.0, lower - 1.0 - margin, 1.0 - upper - margin});
   }
 };
 
@@ -126,14 +126,14 @@ struct ScanStatistics
       0.0;  //!< of the last scans: corrections of the predicted pose over what noise, calibration
             //!< and vibration explain; 0: too few scans
   double unexplained_motion_innovation = 0.0;   //!< the same over what the noise alone explains
-  std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: it does not tell
+  std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: not observable
   std::optional<GyroScale> gyro_scale;          //!< likewise
   CalibrationCheck calibration;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
 };
 
-/** What the LiDAR measured besides the positions of Odometry::registeredPoints(), in their order.
+/** Fields of the LiDAR beside the positions of Odometry::registeredPoints(), in their order.
  */
 struct RegisteredFields
 {
@@ -150,7 +150,7 @@ struct ScanResult
   std::string message;  //!< why, when the status is not Tracking
   FilterState filter;   //!< state and covariance, IMU body in the world frame
   /** The part of filter.P's pose block that comes from the errors of map and calibration: nearly
-   * the same for scans that follow each other, so it tells little about the motion between them. */
+   * the same for scans that follow each other, so it says little about the motion between them. */
   Matrix6 map_covariance = Matrix6::Zero();
   ScanStatistics statistics;
   ScanHealth health;

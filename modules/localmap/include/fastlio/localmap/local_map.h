@@ -51,7 +51,7 @@ class LocalMap
   [[nodiscard]] const CalibrationErrorModel& calibrationError() const { return calibration_; }
   [[nodiscard]] bool empty() const { return surfaces_->pointCount() == 0; }
   /** It consists of so few scans that not much matches it yet. */
-  [[nodiscard]] bool isYoung() const;
+  [[nodiscard]] bool isSparse() const;
   /** It is the map of an earlier run. */
   [[nodiscard]] bool isGiven() const { return given_; }
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
@@ -59,7 +59,7 @@ class LocalMap
 
   /** The state that scans are matched with comes from a mean specific force. */
   void startCalibrationError(const NavState& x, bool tilted) { calibration_.start(x, tilted); }
-  /** What errors of map and calibration make of the state passes on from scan to scan. */
+  /** The effect of the errors of map and calibration on the state passes on from scan to scan. */
   void propagateError(const ErrorTransition& transition);
   /** The same through an update without a scan. \param kept I - K H */
   void correctError(const StateMatrix& kept);

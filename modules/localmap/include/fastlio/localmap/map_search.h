@@ -27,7 +27,7 @@ struct MapSearchResult
 };
 
 /** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
- * can tell. Along a degenerate direction residuals stay large by design: nothing corrects them. */
+ * can show. Along a degenerate direction residuals stay large by design: nothing corrects them. */
 [[nodiscard]] bool isConvincing(
     const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
 

@@ -17,7 +17,7 @@ class VoxelPlaneMap;
 struct SavedMap
 {
   WorldPoints points;  //!< on surfaces, about as dense as map.output_spacing [m]
-  /** What points and planes are counted from, in the world [m]: single precision has steps of 0.5 m
+  /** Origin of points and planes, in the world [m]: single precision has steps of 0.5 m
    * at UTM coordinates. */
   Vec3 origin = Vec3::Zero();
   /** Ready planes, used instead of the points when map.type is planes. */

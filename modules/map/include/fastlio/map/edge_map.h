@@ -25,7 +25,7 @@ struct LineMatch
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
 };
 
-/** What configures an EdgeMap. */
+/** Options of an EdgeMap. */
 struct EdgeMapOptions
 {
   /** Neighbours that make a line, 3 to kMaxNeighbors. */

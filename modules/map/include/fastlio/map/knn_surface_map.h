@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What configures a KnnSurfaceMap. */
+/** Options of a KnnSurfaceMap. */
 struct KnnSurfaceMapOptions
 {
   /** Neighbours that make a plane, 3 to kMaxNeighbors. */

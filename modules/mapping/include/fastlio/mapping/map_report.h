@@ -28,7 +28,7 @@ struct ClosureAgreement
 /** Of the accepted closures. */
 [[nodiscard]] std::vector<ClosureAgreement> agreements(const MappingResult& result);
 
-/** What is told about a map. */
+/** The content of a report about a map. */
 struct MapAccount
 {
   std::string version;

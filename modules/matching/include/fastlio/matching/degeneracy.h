@@ -15,8 +15,8 @@ namespace fastlio
 {
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
  * of w_j cov(h_j), the rows' covariance for the normals' variance. A wall of a tunnel that is known
- * to a degree seems to tell where along the tunnel one is. Of the points [first, last); the parts
- * of a scan add up. */
+ * to a degree seems to constrain the position along the tunnel. Of the points [first, last); the
+ * parts of a scan add up. */
 [[nodiscard]] Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last);
@@ -26,7 +26,7 @@ namespace fastlio
 [[nodiscard]] ScanConstraints informationByDirection(
     const Matrix6& information, const Matrix6& noise_information);
 
-/** What the points on one plane tell about a direction. */
+/** The information of the points on one plane along a direction. */
 struct PlaneInformation
 {
   std::uint32_t plane = 0;

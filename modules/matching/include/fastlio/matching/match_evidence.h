@@ -20,8 +20,8 @@ inline constexpr double kMaxInnovation = 3.0;
 [[nodiscard]] double inlierRatio(const ScanStatistics& statistics, std::size_t points);
 
 /** The scan matches as those before it did: its inlier ratio is at least kMinUsualFraction of the
- * usual one. (Residuals alone do not tell: along a tunnel they grow although the pose is right but
- * for one direction.) \param points of the scan that could have matched */
+ * usual one. (Residuals alone are not enough: along a tunnel they grow although the pose is right
+ * but for one direction.) \param points of the scan that could have matched */
 [[nodiscard]] bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points);
 
 }  // namespace fastlio

@@ -27,7 +27,7 @@ struct PlaneMeasurement
   double variance = 0.0;  //!< [m^2]
 };
 
-/** What decides on a match: the noise model, the gate and how far the prediction may be off. */
+/** The rule for a match: the noise model, the gate and how far the prediction may be off. */
 struct ResidualModel
 {
   double range_variance = 4e-4;  //!< [m^2]

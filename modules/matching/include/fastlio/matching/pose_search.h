@@ -46,7 +46,7 @@ struct CandidateGrid
 using MatchFromStart =
     std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
 
-/** What a found pose has to show. */
+/** The evidence that a pose needs to be accepted. */
 struct PoseSearchLimits
 {
   double min_inlier_ratio = 0.3;

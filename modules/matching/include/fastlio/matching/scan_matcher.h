@@ -32,7 +32,7 @@ struct MatchOptions
 /** With more iterations: for a prediction that may be far off. */
 [[nodiscard]] MatchOptions pullInMatching(const OdometryOptions& options);
 
-/** What scans are matched with. */
+/** The maps that a scan is matched with. */
 struct MatchedMaps
 {
   const SurfaceMap& surfaces;

@@ -10,7 +10,7 @@
 
 namespace fastlio
 {
-/** Reads a map to start in; what it is, the content tells, not the name:
+/** Reads a map to start in; its content decides what it is, not its name:
  *
  * - PLY (ASCII or binary), PCD (ASCII or binary): the points,
  * - an archive of MRPT, gzip or not: points maps of any class, fastlio::CVoxelPlanesMap (its planes

@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What a report is made of. */
+/** The content of a report. */
 struct ReportContent
 {
   const RunSummary& run;
@@ -45,7 +45,7 @@ struct RunVerdict
 [[nodiscard]] std::string parametersHtml(const RunSummary& run);
 [[nodiscard]] std::string diagnosticsHtml(const RunSummary& run);
 [[nodiscard]] std::string adviceHtml();
-/** What differs from run to run of the same input: times and memory. */
+/** Quantities that differ from run to run of the same input: times and memory. */
 [[nodiscard]] std::string measuredFactsHtml(const RunSummary& run);
 
 /** The whole page. */

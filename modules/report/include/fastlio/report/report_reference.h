@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What a reference says of a run. */
+/** The comparison of a run with a reference. */
 struct ReferenceFindings
 {
   std::string file;     //!< empty: there is no reference
@@ -34,7 +34,7 @@ class ReferenceComparison
 
   void add(const ScanResult& result);
 
-  /** Whatever the reference is, nothing is thrown: the findings tell the problem. */
+  /** Whatever the reference is, nothing is thrown: the findings hold the problem. */
   [[nodiscard]] ReferenceFindings findings() const;
 
  private:

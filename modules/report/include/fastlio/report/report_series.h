@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file report_series.h What a run was like over time, in bounded memory (internal). */
+/** \file report_series.h Quantities of a run over time, in bounded memory. */
 #pragma once
 
 #include <fastlio/interface/scan_result.h>
@@ -18,7 +18,7 @@
 
 namespace fastlio
 {
-/** What is drawn over time. Three in a row: x, y, z. */
+/** Quantities drawn over time. Three in a row: x, y, z. */
 enum ReportChannel : std::size_t
 {
   kHeightChannel,                                     //!< of the body [m]

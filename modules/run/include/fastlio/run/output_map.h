@@ -34,7 +34,7 @@ struct OutputPoints
   void clear();
 };
 
-/** What configures an OutputMap. */
+/** Options of an OutputMap. */
 struct OutputMapOptions
 {
   double spacing = 0.1;                      //!< least distance of points within a tile [m]; 0: any

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file pose_output.h The pose that files tell: of which body, with which covariance. */
+/** \file pose_output.h The pose in files: of which body, with which covariance. */
 #pragma once
 
 #include <fastlio/interface/scan_result.h>

@@ -35,7 +35,7 @@ struct RelativePose
   Matrix6 covariance = Matrix6::Zero();
 };
 
-/** From \a a to \a b. The filter tells the covariance of each pose, not what they have in common;
+/** From \a a to \a b. The filter gives the covariance of each pose, not what they have in common;
  * so this is an upper bound: errors of the poses' own count as independent, and of the map's part,
  * which is nearly the same for both, only what it grew by counts. */
 [[nodiscard]] RelativePose relativePose(const TrackedPose& a, const TrackedPose& b);

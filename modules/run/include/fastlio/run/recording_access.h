@@ -15,8 +15,8 @@
 
 namespace fastlio
 {
-/** What was read, and how: exporters go through it a second time, so that raw scans need not be
- * kept in memory during the run. */
+/** The files that were read, and their options: exporters go through it a second time, so that raw
+ * scans need not be kept in memory during the run. */
 struct RecordingAccess
 {
   std::vector<std::string> files;

@@ -13,13 +13,13 @@
 
 namespace fastlio
 {
-/** What a run is going to write into a folder. */
+/** The files that a run is going to write into a folder. */
 struct RunFolderPlan
 {
   std::string directory;
   std::vector<std::string> files;  //!< names, without the folder
   std::string record;              //!< the file among them that each complete run writes (JSON)
-  std::string record_key;          //!< a key that tells such a file from others
+  std::string record_key;          //!< a key that distinguishes such a file from others
   bool overwrite = false;          //!< also files that no run wrote may be replaced
 };
 

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file run_statistics.h What a run was like, accumulated scan by scan. */
+/** \file run_statistics.h Statistics of a run, accumulated scan by scan. */
 #pragma once
 
 #include <fastlio/filter/update.h>
@@ -48,7 +48,7 @@ struct DegenerateDirections
 {
   std::size_t scans = 0;
   std::int64_t first_ns = 0, last_ns = 0;  //!< stamps of the first and the last of them
-  MotionDirection weakest;                 //!< of the scan that told least
+  MotionDirection weakest;                 //!< of the scan that constrained it least
   double signal_to_noise = 0.0;            //!< its information over that of noise in the normals
 };
 

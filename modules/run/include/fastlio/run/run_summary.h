@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file run_summary.h Everything that is worth knowing about a run after its end. */
+/** \file run_summary.h The summary of a run after its end. */
 #pragma once
 
 #include <fastlio/files/atomic_file.h>
@@ -30,7 +30,7 @@ struct InputFile
   std::uintmax_t bytes = 0;
 };
 
-/** A run, as summary.json tells it. */
+/** A run, as summary.json describes it. */
 struct RunSummary
 {
   std::string program, version;          //!< who computed it
@@ -55,7 +55,7 @@ struct RunSummary
   std::vector<OutputFile> outputs;           //!< files that are complete
 };
 
-/** Those that tell of dropped data, without zeros. */
+/** Those of dropped data, without zeros. */
 [[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
 
 /** Exit status of the programs; part of their interface, do not renumber. */

@@ -11,7 +11,7 @@
 namespace fastlio
 {
 /** Every point of the scan with the pose of its own time; those without a pose are left out.
- * \param track of the vehicle, or any other body: its frame tells which */
+ * \param track of the vehicle, or any other body, named by its frame */
 [[nodiscard]] OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track);
 
 /** The LiDAR's mounting on the track's body. */

@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What a ray of no width finds. */
+/** The hit of a ray of no width. */
 using Look = std::function<std::optional<Return>(const Ray&)>;
 
 /** Splits a beam into rays and makes one return of what they find, as a receiver for the strongest

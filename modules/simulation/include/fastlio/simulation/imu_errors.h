@@ -9,7 +9,7 @@
 
 namespace fastlio
 {
-/** What one sensor measures instead of the angular rate w and the specific force f:
+/** The measurements of one sensor instead of the angular rate w and the specific force f:
  * gyro w + g_sensitivity f and accel f. */
 struct ImuErrors
 {

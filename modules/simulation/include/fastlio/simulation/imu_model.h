@@ -19,7 +19,7 @@ struct ImuBias
   Vec3 accel = Vec3::Zero();  //!< [m/s^2]
 };
 
-/** What the sensor delivered, in the order of time, and what was true. */
+/** The samples of the sensor, in the order of time, and the truth. */
 struct ImuRecording
 {
   std::vector<ImuSample> samples;  //!< stamps as delivered (with jitter)

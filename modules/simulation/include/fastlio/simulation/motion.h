@@ -94,7 +94,8 @@ class Motion
   MotionTiming timing_;
 };
 
-/** What an ideal inertial sensor measures. \param gravity in the world frame, e.g. (0, 0, -9.81)
+/** The measurements of an ideal inertial sensor. \param gravity in the world frame, e.g. (0, 0,
+ * -9.81)
  * \return R^T (a - g) in the IMU frame [m/s^2] */
 [[nodiscard]] Vec3 specificForce(const Kinematics& motion, const Vec3& gravity);
 

@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What a ray meets first, with its range from the ray's origin. */
+/** The first hit of a ray, with its range from the ray's origin. */
 using FirstHit = std::function<std::optional<RayHit>(const Ray&, double max_range)>;
 
 /** Follows light through glass and off mirrors. Which squares of a world are panes depends on their

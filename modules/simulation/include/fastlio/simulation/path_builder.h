@@ -34,8 +34,8 @@ struct Route
 void addOscillation(
     CarrierPath& path, CarrierPath::Channel channel, double amplitude, double frequency);
 
-/** What a walking person's hands do: up and down with each step, sideways with every other one, and
- * some swing in attitude. \param strength factor on all amplitudes */
+/** The motion of a walking person's hands: up and down with each step, sideways with every other
+ * one, and some swing in attitude. \param strength factor on all amplitudes */
 void addWalkingSway(CarrierPath& path, double step_frequency, double strength = 1.0);
 
 /** Tilts a vehicle as the ground below it: pitch and roll by the slope along and across the yaw. */

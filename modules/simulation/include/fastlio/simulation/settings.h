@@ -38,7 +38,7 @@ enum class CloudTimeUnit
   Nanoseconds
 };
 
-/** What is the zero of the times of points, and the stamp of the scan. */
+/** The zero of the times of points, and the stamp of the scan. */
 enum class CloudTimeReference
 {
   Start,    //!< the first shot
@@ -63,7 +63,7 @@ struct BeamSettings
   double outage_length = 0.05;         //!< packets of this time are lost then [s]
 };
 
-/** What is not as the recording says: config.yaml and sensorPose do not know of it. */
+/** Errors that the recording does not contain: config.yaml and sensorPose do not know of them. */
 struct UntoldSettings
 {
   double clock_error = 0.0;   //!< added to the LiDAR's stamps beside time_offset [s]
@@ -128,7 +128,7 @@ struct ImuSettings
   ImuErrorSettings errors;
 };
 
-/** What carries the sensors, and what stands close to them; all off. */
+/** The carrier of the sensors and objects close to them; all off. */
 struct CarrierSettings
 {
   double vibration_accel = 0.0;  //!< 20 to 200 Hz, root mean square per axis [m/s^2]
@@ -140,8 +140,8 @@ struct CarrierSettings
 /** Surfaces that are not matt; off. */
 struct SurfaceSettings
 {
-  double glass = 0.0;    //!< share of flat, upright surfaces that light passes
-  double mirrors = 0.0;  //!< share of flat, upright surfaces that reflect like a mirror
+  double glass = 0.0;    //!< fraction of flat, upright surfaces that light passes
+  double mirrors = 0.0;  //!< fraction of flat, upright surfaces that reflect like a mirror
 };
 
 /** A receiver of satellite navigation; off. The world's x axis points east, y north, z up, and its
@@ -169,7 +169,7 @@ struct WheelSettings
   double noise = 0.01;       //!< of each wheel's distance, standard deviation after 1 m [m/sqrt(m)]
 };
 
-/** What stands in the world; for scenarios that say so. */
+/** Objects in the world; for scenarios that have them. */
 struct WorldSettings
 {
   double length = 1200.0;  //!< town: length of the ride [m]; the town grows with it

@@ -27,7 +27,7 @@
 
 namespace fastlio
 {
-/** What came back of a shot. */
+/** The return of a shot. */
 struct Echo
 {
   double range = 0.0;      //!< with noise [m]; 0: nothing came back
@@ -67,7 +67,7 @@ class Simulation
   [[nodiscard]] FiredSweep fire(std::size_t index) const;
 
   /** The same as points, with the stamp that the LiDAR delivers (clockOffset()) and the mounting
-   * that the recording tells. */
+   * in the recording. */
   [[nodiscard]] LidarScan scan(std::size_t index) const;
 
   /** The true state of motion at a stamp of the IMU's clock. */

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file world.h What the LiDAR sees: bodies at rest, ground and moving objects. */
+/** \file world.h The world around the LiDAR: bodies at rest, ground and moving objects. */
 #pragma once
 
 #include <fastlio/simulation/height_field.h>

@@ -22,7 +22,7 @@
 
 namespace fastlio
 {
-/** What a scan gave. */
+/** The outcome of a scan. */
 struct OdometryEstimate
 {
   ScanResult result;  //!< of the IMU

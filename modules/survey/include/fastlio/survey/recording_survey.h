@@ -66,7 +66,7 @@ struct SurveyOptions
 {
   bool check_motion = true;
   std::size_t most_scans = 100;  //!< for the check of motion
-  /** Share of the work that is done, 0..1. */
+  /** Fraction of the work that is done, 0..1. */
   std::function<void(double)> progress;
 };
 

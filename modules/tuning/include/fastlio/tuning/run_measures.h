@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file run_measures.h What a run tells about its own error, without ground truth. */
+/** \file run_measures.h Measures of the error of a run, without ground truth. */
 #pragma once
 
 #include <fastlio/tuning/run_outcome.h>
@@ -16,15 +16,16 @@ namespace fastlio
  *   the scans at once, velocities the inertial samples: where noise, clocks or the map are wrong,
  *   the corrections of successive scans have one direction, and the two part. RMS over spans of
  *   half a second, so that white corrections cancel.
- * - `information`: mean logarithm of what scans tell in their weakest direction, with the noise
- * that the residuals show instead of the one that is configured; else small noise would look good.
+ * - `information`: mean logarithm of the information of scans along their weakest direction, with
+ * the noise that the residuals show instead of the one that is configured; else small noise would
+ * look good.
  * - `proxy`: slip / exp(information)^0.03. The exponent is the one that ranks true errors best on
  *   recordings with ground truth (docs/tuning.md).
  * - `residual` [m], `inliers`: RMS of the residuals, points that were matched by all.
  * - `duration` [s]: from the first to the last state. A run that starts late or ends early has less
  *   to err in.
  *
- * A run with too few scans to tell has no slip and no proxy.
+ * A run with too few scans has no slip and no proxy.
  * \exception std::exception a file cannot be read; the message names it */
 [[nodiscard]] Measures measuresOfRun(const std::string& folder);
 
