@@ -65,7 +65,7 @@ PlanarError errorOf(const std::string& simplemap, const std::string& what)
   const PlanarError error = planarError(map, StackRun::get().simulation());
   std::cout << "[  FIGURE  ] rbpf-slam " << what << ": map error " << 100.0 * error.rms
             << " cm rms, " << 100.0 * error.largest << " cm at most, " << error.points
-            << " points of " << error.key_frames << " key frames\n";
+            << " points of " << error.key_frames << " keyframes\n";
   return error;
 }
 

@@ -108,7 +108,7 @@ const std::vector<ExporterKind>& exporterKinds()
        [](const Options& o) { return makeMetricMapExporter(o.path("map.metricmap")); }},
       {"planes", "map.planes", "map of planes that scans were matched with, for --map-in", false,
        [](const Options& o) { return makePlanesExporter(o.path("map.planes")); }},
-      {"simplemap", "keyframes.simplemap", "key frames with their raw scans", false,
+      {"simplemap", "keyframes.simplemap", "keyframes with their raw scans", false,
        makeSimpleMapExporter},
       {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},
       {"graph", "poses.graph", "pose graph for MRPT", false, makeGraphExporter},

@@ -67,7 +67,7 @@ class PoseTrack
   std::int64_t begin_ns_ = 0;  //!< of the first scan
 };
 
-/** Chooses key frames: the first pose, then whenever the body has moved or turned enough. */
+/** Chooses keyframes: the first pose, then whenever the body has moved or turned enough. */
 class KeyFrameRule
 {
  public:
@@ -75,7 +75,7 @@ class KeyFrameRule
    * \param angle [rad] */
   KeyFrameRule(double distance, double angle) : distance_(distance), angle_(angle) {}
 
-  /** True when \a T_world_body is a new key frame. */
+  /** True when \a T_world_body is a new keyframe. */
   [[nodiscard]] bool accept(const Pose& T_world_body);
 
  private:
