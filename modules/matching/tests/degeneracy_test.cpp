@@ -88,7 +88,7 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   return a;
 }
 
-TEST(Degeneracy, theAxisOfATunnelIsFound)
+TEST(Degeneracy, TheAxisOfATunnelIsFound)
 {
   const Analysis a = analyse(tunnel(0.01, 0));
   EXPECT_TRUE(mayBeDegenerate(a.sums.HtRinvH));
@@ -99,7 +99,7 @@ TEST(Degeneracy, theAxisOfATunnelIsFound)
   EXPECT_GT(std::abs(motions[0].axis.x()), 0.99);
 }
 
-TEST(Degeneracy, noiseOfTheNormalsIsWhatThereIsAlongTheTunnel)
+TEST(Degeneracy, NoiseOfTheNormalsIsWhatThereIsAlongTheTunnel)
 {
   // The information along the axis is a sum of squares of what the noise made of the normals.
   for (const double normal_std : {0.003, 0.01, 0.03})
@@ -110,7 +110,7 @@ TEST(Degeneracy, noiseOfTheNormalsIsWhatThereIsAlongTheTunnel)
   }
 }
 
-TEST(Degeneracy, noiseIsTheSumOfTheRowsCovariances)
+TEST(Degeneracy, NoiseIsTheSumOfTheRowsCovariances)
 {
   const MatchedScan scan = tunnel(0.01, 20);
   const Pose pose{expSO3({0.3, -0.2, 1.1}), {1.0, -2.0, 0.5}};
@@ -154,14 +154,14 @@ TEST(Degeneracy, FewPlanesAcrossTheTunnelDoNotConstrainIt)
   EXPECT_EQ(analyse(scan).constraints.unconstrained, 0) << "six planes agree";
 }
 
-TEST(Degeneracy, aWallAtTheEndConstrainsTheTunnel)
+TEST(Degeneracy, AWallAtTheEndConstrainsTheTunnel)
 {
   const Analysis a = analyse(tunnel(0.01, 50));
   EXPECT_EQ(a.constraints.unconstrained, 0);
   EXPECT_EQ(a.constraints.projection, Matrix6::Identity());
 }
 
-TEST(Degeneracy, whatIsLeftMovesTheOtherDirectionsOnly)
+TEST(Degeneracy, WhatIsLeftMovesTheOtherDirectionsOnly)
 {
   const Analysis a = analyse(tunnel(0.01, 0));
   const InformationSums left = constrainedSums(a.sums, a.constraints);
@@ -175,7 +175,7 @@ TEST(Degeneracy, whatIsLeftMovesTheOtherDirectionsOnly)
   EXPECT_NEAR(across_after / across_before, 1.0, 0.01);
 }
 
-TEST(Degeneracy, nothingIsLeftAloneWhereItIsSwitchedOff)
+TEST(Degeneracy, NothingIsLeftAloneWhereItIsSwitchedOff)
 {
   EXPECT_EQ(analyse(tunnel(0.01, 0), 0.0).constraints.unconstrained, 0);
 }
