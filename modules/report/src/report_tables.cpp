@@ -49,22 +49,6 @@ std::string listOf(const std::vector<std::string>& texts)
   return listOfHtml(items, "summary.json");
 }
 
-std::string statusCounts(const RunStatistics& statistics)
-{
-  std::string text = std::to_string(statistics.scans());
-  const char* separator = ": ";
-  for (std::size_t i = 0; i < kScanStatusCount; ++i)
-  {
-    const auto status = static_cast<ScanStatus>(i);
-    if (statistics.count(status) == 0) continue;
-    text += separator + std::to_string(statistics.count(status)) + " " + toString(status);
-    separator = ", ";
-  }
-  if (const std::size_t missing = statistics.missingScans(); missing > 0)
-    text += "; " + std::to_string(missing) + " missing in between";
-  return text;
-}
-
 std::string degenerateText(const DegenerateDirections& open)
 {
   if (open.scans == 0) return "none";
@@ -102,7 +86,7 @@ std::string factsHtml(const RunSummary& run)
                       std::to_string(static_cast<int>(status)) + ")"},
        {"Time", fixedText(s.duration(), 3) + " s, from " + secondsText(s.beginNs()) + " to " +
                     secondsText(s.endNs())},
-       {"Scans", htmlText(statusCounts(s))},
+       {"Scans", htmlText(scanCountsText(s))},
        {"Poses",
         std::to_string(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
        {"Path", fixedText(s.pathLength(), 3) + " m"},

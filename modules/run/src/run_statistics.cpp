@@ -139,4 +139,20 @@ std::optional<Trouble> RunStatistics::firstTrouble() const
   return std::nullopt;
 }
 
+std::string scanCountsText(const RunStatistics& statistics)
+{
+  std::string text = std::to_string(statistics.scans());
+  const char* separator = ": ";
+  for (std::size_t i = 0; i < kScanStatusCount; ++i)
+  {
+    const auto status = static_cast<ScanStatus>(i);
+    if (statistics.count(status) == 0) continue;
+    text += separator + std::to_string(statistics.count(status)) + " " + toString(status);
+    separator = ", ";
+  }
+  if (const std::size_t missing = statistics.missingScans(); missing > 0)
+    text += "; " + std::to_string(missing) + " missing in between";
+  return text;
+}
+
 }  // namespace fastlio

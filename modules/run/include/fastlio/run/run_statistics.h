@@ -115,4 +115,8 @@ class RunStatistics
   std::optional<Trouble> not_initialized_;
 };
 
+/** Number of scans, of each status that occurs, and of missing ones: "299: 1 first scan, 298
+ * tracking". */
+[[nodiscard]] std::string scanCountsText(const RunStatistics& statistics);
+
 }  // namespace fastlio
