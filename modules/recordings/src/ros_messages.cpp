@@ -3,6 +3,7 @@
 
 #include "ros_messages.h"
 
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/math/CQuaternion.h>
@@ -108,7 +109,7 @@ RosObservation readNavSatFix(WireReader& in, const std::string& label)
   gps->sensorLabel = label;
   gps->timestamp = toMrptTime(header.stamp_ns);
   gps->originalReceivedTimestamp = gps->timestamp;
-  const auto in_a_day = static_cast<double>(header.stamp_ns % (86'400 * kNsPerRosSecond)) * 1e-9;
+  const auto in_a_day = toSeconds(header.stamp_ns % (86'400 * kNsPerRosSecond));
   gnss::Message_NMEA_GGA gga;
   gga.fields.UTCTime.hour = static_cast<std::uint8_t>(in_a_day / 3600);
   gga.fields.UTCTime.minute = static_cast<std::uint8_t>(std::fmod(in_a_day, 3600) / 60);

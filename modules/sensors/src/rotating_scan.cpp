@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "velodyne_models.h"
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/rotating_scan.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
@@ -86,7 +87,7 @@ class Collector
     result_.points.push_back(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
         bright ? static_cast<float>(at(scan_.intensityImage, row, column)) : 0.0F,
-        timed_ ? static_cast<std::int32_t>(std::lround(time_s * 1e9)) : 0,
+        timed_ ? static_cast<std::int32_t>(toNanoseconds(time_s)) : 0,
         static_cast<std::uint16_t>(row));
   }
 

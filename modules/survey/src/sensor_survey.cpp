@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
@@ -23,7 +24,6 @@ namespace
 using namespace fastlio;
 using mrpt::obs::CObservation;
 
-constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::size_t kFewestScans = 5;
 
 // The facts of one observation about its sensor.
@@ -226,7 +226,7 @@ bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns)
 SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
 {
-  const std::int64_t at_least_ns = std::llround(at_least * kNanosecondsPerSecond);
+  const std::int64_t at_least_ns = toNanoseconds(at_least);
   RawlogSource source(files);
   SensorSurvey survey;
   std::int64_t begin_ns = 0;
