@@ -29,7 +29,7 @@ struct PointTimeFacts
   [[nodiscard]] std::string periodText() const;
 
   /** Fraction of the intervals between scans in which the times advance as the stamps do. */
-  [[nodiscard]] double shareOfAdvances(double unit, double tolerance) const;
+  [[nodiscard]] double fractionOfAdvances(double unit, double tolerance) const;
 
   /** Median of the earliest time minus the stamp [s]. */
   [[nodiscard]] double clockOffset(double unit) const;

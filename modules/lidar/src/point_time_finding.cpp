@@ -116,7 +116,7 @@ std::optional<PointTimeUnit> unitOfClock(const Question& question)
   for (const PointTimeUnit unit : kUnits)
   {
     if (!question.mayBe(unit)) continue;
-    const double fraction = question.facts.shareOfAdvances(secondsPer(unit), kClockTolerance);
+    const double fraction = question.facts.fractionOfAdvances(secondsPer(unit), kClockTolerance);
     if (fraction >= kClockAgreement) return unit;
   }
   return std::nullopt;

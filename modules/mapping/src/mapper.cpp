@@ -133,10 +133,10 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     const bool same_pass =
         earlier.session == latest.session && latest.travel - earlier.travel < limits_.least_travel;
     if (same_pass) continue;
-    const double spread = std::min(
+    const double doubt = std::min(
         kWidestDoubt,
-        limits_.odometry_sigmas * largestPositionStd(covariances_[b] + covariances_[a]));
-    const double reach = limits_.distance + spread;
+        limits_.odometry_doubt * largestPositionStd(covariances_[b] + covariances_[a]));
+    const double reach = limits_.distance + doubt;
     const double squared = (poses_[a].p - poses_[b].p).squaredNorm();
     if (squared < reach * reach) near.emplace_back(squared, a);
   }
@@ -178,13 +178,13 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
  * far as they have a way in common; their sum is an upper bound. */
 RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 {
-  const double factor2 = limits_.odometry_sigmas * limits_.odometry_sigmas;
+  const double doubt2 = limits_.odometry_doubt * limits_.odometry_doubt;
   Matrix6 turn = Matrix6::Identity();
   turn.bottomRightCorner<3, 3>() = poses_[a].R.transpose();
   RelativePose motion;
   motion.T_a_b = poses_[a].inverse() * poses_[b];
   motion.covariance =
-      withFloor(turn * (factor2 * (covariances_[a] + covariances_[b])) * turn.transpose());
+      withFloor(turn * (doubt2 * (covariances_[a] + covariances_[b])) * turn.transpose());
   return motion;
 }
 

@@ -58,7 +58,7 @@ RunVerdict withoutPose(const RunStatistics& statistics)
       paragraph(htmlText(why)) + adviceParagraphs(HealthCause::Starting)};
 }
 
-std::string shareText(const std::vector<UntrustedStretch>& stretches, double duration)
+std::string untrustedTime(const std::vector<UntrustedStretch>& stretches, double duration)
 {
   const std::string number = std::to_string(stretches.size());
   return fixedText(untrustedSeconds(stretches), 1) + " of " + fixedText(duration, 1) +
@@ -90,10 +90,11 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "bad",
         "The odometry lost its pose: do not rely on " +
-            shareText(stretches, statistics.duration()) + ".",
+            untrustedTime(stretches, statistics.duration()) + ".",
         details};
   if (!stretches.empty())
-    return {"warn", "Do not rely on " + shareText(stretches, statistics.duration()) + ".", details};
+    return {
+        "warn", "Do not rely on " + untrustedTime(stretches, statistics.duration()) + ".", details};
   const std::string scans = std::to_string(health.scans()) + " scans";
   if (first)
     return {

@@ -72,7 +72,10 @@ class Collector
   [[nodiscard]] int columns() const { return columns_; }
 
   /** Fraction of the sweep that has passed at a column. */
-  [[nodiscard]] double shareAt(int column) const { return static_cast<double>(column) / columns_; }
+  [[nodiscard]] double fractionAt(int column) const
+  {
+    return static_cast<double>(column) / columns_;
+  }
 
   void add(const Vec3& p, int row, int column, double seconds_in_column)
   {
@@ -82,7 +85,7 @@ class Collector
       ++result_.out_of_range;
       return;
     }
-    const double time_s = shareAt(column) * scan_.sweepDuration + seconds_in_column;
+    const double time_s = fractionAt(column) * scan_.sweepDuration + seconds_in_column;
     const bool bright = row < scan_.intensityImage.rows() && column < scan_.intensityImage.cols();
     result_.points.push_back(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
@@ -148,7 +151,7 @@ RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
       }
       const auto in_sequence = static_cast<std::size_t>(row) % timing.lasers_per_sequence;
       const double delay = 1e-6 * timing.laser_us * static_cast<double>(in_sequence);
-      const double azimuth = scan.startAzimuth + collector.shareAt(column) * scan.azimuthSpan +
+      const double azimuth = scan.startAzimuth + collector.fractionAt(column) * scan.azimuthSpan +
                              turn_rate * delay - laser.azimuth_correction;
       const double flat = range * laser.cos_elevation + laser.offset_xy;
       collector.add(

@@ -46,7 +46,7 @@ SimulationSettings realistic(SimulationSettings settings)
 {
   worsenInertial(settings.imu);
   worsenBeams(settings.lidar.beam);
-  settings.lidar.untold = {0.004, 0.3 * kRadPerDeg, 0.01};
+  settings.lidar.hidden = {0.004, 0.3 * kRadPerDeg, 0.01};
   settings.surface = {0.05, 0.01};
   settings.carrier.vibration_accel = 0.5;
   settings.carrier.vibration_gyro = 0.02;

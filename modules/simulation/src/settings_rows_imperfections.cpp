@@ -80,17 +80,17 @@ Rows returnRows()
        "length of such a loss"},
       {"lidar.clock_error", "s",
        [](S& s) -> OptionValue {
-         return RealValue{&s.lidar.untold.clock_error, -10.0, 10.0};
+         return RealValue{&s.lidar.hidden.clock_error, -10.0, 10.0};
        },
        "as lidar.time_offset, but config.yaml does not contain it"},
       {"lidar.pose_rotation_std", "deg",
        [](S& s) -> OptionValue {
-         return RealValue{&s.lidar.untold.rotation_std, 0.0, 90.0, kRadPerDeg};
+         return RealValue{&s.lidar.hidden.rotation_std, 0.0, 90.0, kRadPerDeg};
        },
        "standard deviation, per axis, by which the true mounting is turned from lidar.pose"},
       {"lidar.pose_position_std", "m",
        [](S& s) -> OptionValue {
-         return RealValue{&s.lidar.untold.position_std, 0.0, 10.0};
+         return RealValue{&s.lidar.hidden.position_std, 0.0, 10.0};
        },
        "standard deviation, per axis, by which the true mounting is away from lidar.pose"},
   };

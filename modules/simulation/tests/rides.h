@@ -84,7 +84,7 @@ inline std::vector<double> viewFrom(const World& world, const Pose& pose, double
 }
 
 /** Fraction of directions in which two views have the same range within a tolerance [m]. */
-inline double shareAlike(
+inline double fractionAlike(
     const std::vector<double>& a, const std::vector<double>& b, double tolerance)
 {
   double alike = 0.0;

@@ -72,7 +72,7 @@ TEST(Town, LooksDifferentInEveryStreet)
   }
   for (std::size_t a = 0; a < views.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      EXPECT_LT(testing::shareAlike(views[a], views[b], 0.3), 0.5) << a << " and " << b;
+      EXPECT_LT(testing::fractionAlike(views[a], views[b], 0.3), 0.5) << a << " and " << b;
 }
 
 TEST(Route, SlowsDownInBendsAsTheAccelerationAsks)

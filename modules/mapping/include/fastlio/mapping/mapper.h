@@ -65,7 +65,7 @@ struct ClosureLimits
   double max_position_std = 0.3;  //!< of a closure, in its least known direction [m]
   /** Standard deviations of the odometry count so many times: real sensors have errors that it does
    * not know of. */
-  double odometry_sigmas = 2.0;
+  double odometry_doubt = 2.0;
 };
 
 /** How a session was found in the map of those before. */

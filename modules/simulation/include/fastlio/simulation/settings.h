@@ -64,7 +64,7 @@ struct BeamSettings
 };
 
 /** Errors that the recording does not contain: config.yaml and sensorPose do not know of them. */
-struct UntoldSettings
+struct HiddenErrors
 {
   double clock_error = 0.0;   //!< added to the LiDAR's stamps beside time_offset [s]
   double rotation_std = 0.0;  //!< of the mounting, per axis [rad]
@@ -92,7 +92,7 @@ struct LidarSettings
   CloudTimeUnit time_unit = CloudTimeUnit::Seconds;
   CloudTimeReference time_reference = CloudTimeReference::Start;
   BeamSettings beam;
-  UntoldSettings untold;
+  HiddenErrors hidden;
 };
 
 /** Errors of the inertial sensor that stay as they are during a recording; all off. */
