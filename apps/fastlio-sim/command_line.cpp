@@ -3,9 +3,9 @@
 
 #include "command_line.h"
 
-#include <fastlio/simulation/realistic.h>
-#include <fastlio/simulation/scenario.h>
-#include <fastlio/simulation/settings_table.h>
+#include <fastlio/scenarios/realistic.h>
+#include <fastlio/scenarios/scenario.h>
+#include <fastlio/scenarios/settings_table.h>
 
 #include <array>
 #include <sstream>

@@ -11,7 +11,7 @@
 #include "simulated_run.h"
 #include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/time.h>
-#include <fastlio/simulation/realistic.h>
+#include <fastlio/scenarios/realistic.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/live/udp_receiver.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/scenario.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include "walks.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
-#include <fastlio/simulation/realistic.h>
+#include <fastlio/scenarios/realistic.h>
 
 #include <gtest/gtest.h>
 

@@ -3,12 +3,12 @@
 
 #include "carrier_vibration.h"
 #include "caster.h"
-#include "random_stream.h"
-#include "scenario_table.h"
-#include "session_changes.h"
 #include <fastlio/math/time.h>
+#include <fastlio/scenarios/random_stream.h>
+#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/session_changes.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/packet_loss.h>
-#include <fastlio/simulation/settings_table.h>
 #include <fastlio/simulation/simulation.h>
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
+#include <fastlio/scenarios/realistic.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
-#include <fastlio/simulation/realistic.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/vlp16.h>
 

@@ -3,8 +3,8 @@
 
 #include "short_simulation.h"
 #include <fastlio/config/config.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 

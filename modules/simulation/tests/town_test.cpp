@@ -3,7 +3,7 @@
 
 #include "rides.h"
 #include <fastlio/math/angles.h>
-#include <fastlio/simulation/path_builder.h>
+#include <fastlio/worlds/path_builder.h>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 /** \file gnss_model.h A receiver of satellite navigation: noise that lasts, outages, multipath. */
 #pragma once
 
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
+#include <fastlio/worlds/motion.h>
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,7 @@
  * sensitivity of the gyro to acceleration, resolution. */
 #pragma once
 
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
 
 namespace fastlio
 {

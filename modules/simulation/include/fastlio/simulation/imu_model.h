@@ -4,9 +4,9 @@
 /** \file imu_model.h An inertial sensor with all its faults. */
 #pragma once
 
+#include <fastlio/scenarios/settings.h>
 #include <fastlio/simulation/imu_errors.h>
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/worlds/motion.h>
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/simulation/lidar_errors.h>
-#include <fastlio/simulation/primitive.h>
+#include <fastlio/worlds/primitive.h>
 
 #include <functional>
 #include <optional>

@@ -15,13 +15,13 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/gnss_model.h>
 #include <fastlio/simulation/imu_model.h>
 #include <fastlio/simulation/lidar_errors.h>
 #include <fastlio/simulation/lidar_model.h>
-#include <fastlio/simulation/scenario.h>
 #include <fastlio/simulation/wheel_model.h>
-#include <fastlio/simulation/world.h>
+#include <fastlio/worlds/world.h>
 
 #include <memory>
 
