@@ -42,7 +42,7 @@ errors() {
     }'
 }
 
-# The numbers of the truth that scenario.json tells: position of the LiDAR, matrix of the gyro, by rows.
+# The numbers of the truth in scenario.json: position of the LiDAR, matrix of the gyro, by rows.
 truth() {
   awk '
     /"T_imu_lidar"/ { pose = 1 }

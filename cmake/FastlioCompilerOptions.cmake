@@ -16,7 +16,7 @@ if(MRPT_FASTLIO_WERROR)
 endif()
 if(MRPT_FASTLIO_NATIVE)
   target_compile_options(fastlio_compiler_options INTERFACE -march=native)
-  # Eigen's heap layout follows the widest vectors unless told otherwise, and MRPT's libraries, built for
+  # Eigen's heap layout follows the widest vectors unless configured otherwise, and MRPT's libraries, built for
   # the baseline of x86-64, share Eigen's inline functions with ours: they must agree on 16 bytes.
   target_compile_definitions(fastlio_compiler_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
   # GCC's flow analysis warns inside of its own AVX-512 header (GCC bug 105593) and of Eigen's AVX2 loads

@@ -15,7 +15,8 @@ namespace
 constexpr const char* kDescription =
     "Finds how the sensors of a rig sit and measure, from its recordings: pose of the LiDAR in the "
     "IMU frame, time offset, scales and axes of gyro and accelerometer, offsets of the LiDAR's "
-    "beams. Each value comes with its standard deviation, and with the motion that would tell it "
+    "beams. Each value comes with its standard deviation, and with the motion that would improve "
+    "it "
     "better. A trial on data that the values were not fitted to says whether to use them.";
 constexpr const char* kFooter = R"(Exit status:
   0  the calibration is written

@@ -146,7 +146,7 @@ void addGateOptions(CLI::App& app, GateLimits& g)
   add("--max-nees", g.max_nees, "Mean NEES of the pose (expected: 6)");
   add("--max-nees-position", g.max_nees_position, "Mean NEES of the position (expected: 3)");
   add("--max-nees-rotation", g.max_nees_rotation, "Mean NEES of the rotation (expected: 3)");
-  add("--min-coverage", g.min_coverage_percent, "Share of the reference's time span [%]");
+  add("--min-coverage", g.min_coverage_percent, "Fraction of the reference's time span [%]");
 }
 
 }  // namespace

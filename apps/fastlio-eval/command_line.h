@@ -11,7 +11,7 @@
 
 namespace fastlio
 {
-/** What the user asks for. */
+/** The arguments of the program. */
 struct EvalCommand
 {
   std::filesystem::path reference;
@@ -21,7 +21,7 @@ struct EvalCommand
   GateLimits gates;
   std::string json_path;           //!< "-": standard output; empty: none
   std::filesystem::path svg_path;  //!< empty: none
-  bool quiet = false;              //!< no table: the exit status tells, and the files
+  bool quiet = false;              //!< no table: only the exit status and the files
 };
 
 /** Declares the options on an application, bound to a command that must outlive it. */

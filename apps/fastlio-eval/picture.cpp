@@ -57,7 +57,7 @@ std::string quoted(const std::string& path)
   return text + "'";
 }
 
-/** What rsvg-convert makes of the picture. */
+/** The picture after rsvg-convert. */
 std::string pngOf(const std::string& svg)
 {
   const TemporaryFile file(svg);

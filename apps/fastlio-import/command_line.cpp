@@ -22,7 +22,7 @@ constexpr const char* kDescription =
 
 std::string footer()
 {
-  std::string text = "Formats, which the content of the input tells:\n  MRPT rawlog\n";
+  std::string text = "Formats, recognised by the content of the input:\n  MRPT rawlog\n";
   for (const RecordingFormat& format : recordingFormats())
     text += std::string("  ") + format.content + "\n";
   return text + R"(

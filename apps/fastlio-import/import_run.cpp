@@ -8,6 +8,7 @@
 #include "topic_list.h"
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/recordings/recording_reader.h>
@@ -31,7 +32,7 @@ namespace
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservationPointCloud;
 
-/** What was written, by label. */
+/** Counts of written observations, by label. */
 struct Written
 {
   std::size_t observations = 0;
@@ -158,7 +159,7 @@ void report(const ImportArguments& arguments, const ImportPlan& plan, const Impo
   if (arguments.quiet) return;
   for (const auto& [label, written] : import.written())
     std::cout << printable(label) << ": " << written.observations << " observations in "
-              << 1e-9 * static_cast<double>(written.last_ns - written.first_ns) << " s\n";
+              << toSeconds(written.last_ns - written.first_ns) << " s\n";
   std::cout << describeTimes(plan);
   for (const OutputFile& file : import.files())
     std::cout << file.path << ": " << file.bytes << " bytes\n";

@@ -4,6 +4,7 @@
 #include "rawlog_parts.h"
 
 #include <fastlio/files/gzip_file.h>
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
@@ -111,7 +112,7 @@ bool RawlogParts::isFull(std::int64_t stamp_ns) const
   if (options_.split_mib > 0 && static_cast<double>(bytes_) >= options_.split_mib * kMib)
     return true;
   return options_.split_seconds > 0 &&
-         static_cast<double>(stamp_ns - first_ns_) >= options_.split_seconds * 1e9;
+         stamp_ns - first_ns_ >= toNanoseconds(options_.split_seconds);
 }
 
 bool RawlogParts::write(const mrpt::obs::CObservation& observation)

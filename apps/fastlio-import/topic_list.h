@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file topic_list.h What is in the inputs, for people. */
+/** \file topic_list.h A list of the inputs' content, for people. */
 #pragma once
 
 #include "command_line.h"
@@ -13,7 +13,7 @@
 
 namespace fastlio
 {
-/** What was found out about the inputs before they are read as a whole. */
+/** Findings about the inputs before they are read as a whole. */
 struct ImportPlan
 {
   SensorSurvey survey;
@@ -26,7 +26,7 @@ struct ImportPlan
 /** Lines: topics of each input with counts and reasons; reads all of it. */
 [[nodiscard]] std::string listTopics(const ImportArguments& arguments, const ImportPlan& plan);
 
-/** Lines: what the times of points mean, and what tells that. */
+/** Lines: the meaning of the times of points, and its source. */
 [[nodiscard]] std::string describeTimes(const ImportPlan& plan);
 
 }  // namespace fastlio

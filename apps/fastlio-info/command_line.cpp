@@ -49,7 +49,8 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
       ->type_name("FILE");
   app.add_option(
          "--write-config", arguments.new_config,
-         "Write the parameters that the recording tells, each with its reason, to be edited; a "
+         "Write the parameters that follow from the recording, each with its reason, to be edited; "
+         "a "
          "file "
          "that is there already is left alone")
       ->type_name("FILE.yaml");

@@ -25,7 +25,7 @@ struct InfoArguments
   std::string new_config;             //!< where to write a parameter file; empty: nowhere
   std::vector<std::string> settings;  //!< KEY=VALUE, over the file
   bool check_motion = true;
-  bool quiet = false;  //!< no table: the exit status tells, and the files that are asked for
+  bool quiet = false;  //!< no table: only the exit status and the files that are asked for
 };
 
 /** The arguments, or the exit status to end with. */

@@ -158,7 +158,7 @@ std::string motionText(const RecordingSurvey& survey)
                               "the given rotation is within %.1f deg of the one that both motions "
                               "show",
                               kDegPerRad * survey.rotation_error)
-                        : std::string("the motion turns about one axis only: not to be told"));
+                        : std::string("the motion turns about one axis only: not observable"));
 }
 
 std::string listText(const char* title, const std::vector<std::string>& sentences)

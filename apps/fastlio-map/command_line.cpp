@@ -4,7 +4,7 @@
 #include "command_line.h"
 
 #include "../shared/unknown_option.h"
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
@@ -133,7 +133,7 @@ const std::vector<MapFileKind>& mapFileKinds()
        false},
       {"metricmap", "map.metricmap", "map for MRPT programs", false},
       {"planes", "map.planes", "map of planes, for fastlio-replay --map-in", true},
-      {"simplemap", "keyframes.simplemap", "key frames with their raw scans, of one run", false},
+      {"simplemap", "keyframes.simplemap", "keyframes with their raw scans, of one run", false},
       {"graph", "poses.graph", "pose graph with the closures, for MRPT", true},
       {"g2o", "poses.g2o", "the same for g2o", true},
       {"report", "report.html", "page that shows what was closed, and what was not", true},

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file command_line.h What the user asks of fastlio-map. */
+/** \file command_line.h The arguments of fastlio-map. */
 #pragma once
 
 #include <string>

@@ -104,7 +104,7 @@ void endIfInterrupted(bool is_interrupted)
   if (is_interrupted) throw Failure{ExitStatus::Interrupted, "interrupted; nothing was written"};
 }
 
-/** Writes a page or a record; what goes wrong is told beside the others. */
+/** Writes a page or a record; what goes wrong is reported beside the others. */
 void write(const MapFiles& files, const char* kind, const std::string& text, MapAccount& account)
 {
   if (!files.wants(kind)) return;
@@ -218,7 +218,7 @@ ExitStatus run(const MapArguments& arguments)
   const MapFiles files(arguments, names);
   const RunFolderPlan plan = checkedFolder(arguments, files, inputs.size(), recordings);
   const std::vector<Session> sessions = checked([&] { return usableSessions(arguments, inputs); });
-  // What does not depend on the recordings is checked before hours of work.
+  // Checks that do not need the recordings come before hours of work.
   auto place = checked([&] { return georeference({}, arguments.control_points, arguments.crs); });
   catchInterruptions();
   const PassHooks hooks = hooksOf(arguments.quiet);

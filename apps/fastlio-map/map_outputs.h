@@ -6,13 +6,13 @@
 
 #include "command_line.h"
 #include <fastlio/exporters/exporter.h>
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/pose_output.h>
-#include <fastlio/exporters/run_folder.h>
 #include <fastlio/map/voxel_plane_map.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
 #include <fastlio/mapping/moving_objects.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/pose_output.h>
+#include <fastlio/run/run_folder.h>
 
 #include <memory>
 #include <optional>

@@ -148,7 +148,7 @@ std::vector<Session> openSessions(
       given.lines[applySetting(setting, given.config)] = 0;
     given.config.odometry.threads = arguments.threads;
     validate(given.config);
-    // What a run used holds the values of the preset already.
+    // The parameters of a run hold the values of the preset already.
     const bool all_given = input.parameters && arguments.config_file.empty();
     sessions.emplace_back(
         input.name, input.files, given.config,

@@ -22,7 +22,7 @@ struct RunInput
   std::string note = {};             //!< on files that were joined; empty: nothing
 };
 
-/** What the arguments name, folders of runs taken apart.
+/** The inputs that the arguments name, folders of runs taken apart.
  * \exception std::runtime_error a folder is none of a run, or its recording is gone
  * \exception std::invalid_argument a recording is named twice */
 [[nodiscard]] std::vector<RunInput> runInputs(const MapArguments& arguments);

@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file session_verdicts.h What became of the sessions, for people and as an exit status. */
+/** \file session_verdicts.h The verdict on each session, for people and as an exit status. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/run/run_summary.h>
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ namespace fastlio
 [[nodiscard]] ExitStatus statusOf(
     const BuiltMap& map, const std::vector<std::string>& output_problems);
 
-/** What people should know. */
+/** Diagnostics for people. */
 [[nodiscard]] std::vector<std::string> notesOf(
     const std::vector<Session>& sessions, const BuiltMap& map);
 

@@ -4,7 +4,7 @@
 #include "batch.h"
 
 #include "../shared/run_names.h"
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/core/format.h>
@@ -24,7 +24,7 @@ struct StatusText
   const char* text;
 };
 
-/** From the one that tells most to the one that tells least. */
+/** From the gravest to the least. */
 constexpr std::array<StatusText, 8> kStatuses = {
     {{static_cast<int>(ExitStatus::Interrupted), "interrupted"},
      {static_cast<int>(ExitStatus::OutputFailed), "outputs incomplete"},

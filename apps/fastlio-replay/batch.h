@@ -27,7 +27,7 @@ struct BatchRun
 /** A row per run: recording, how it ended, folder. */
 [[nodiscard]] std::string batchTable(const std::vector<BatchRun>& runs);
 
-/** The status that tells most: interrupted, not written, wrong usage, unusable, truncated,
+/** The gravest status: interrupted, not written, wrong usage, unusable, truncated,
  * diverged, degraded, ok. */
 [[nodiscard]] int worstStatus(const std::vector<BatchRun>& runs);
 

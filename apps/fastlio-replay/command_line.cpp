@@ -4,10 +4,10 @@
 #include "command_line.h"
 
 #include "../shared/unknown_option.h"
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
@@ -192,7 +192,7 @@ void requireOutput(const ReplayArguments& arguments)
   if (arguments.imu_rate)
     throw CLI::RequiredError("--output-dir, where --imu-rate writes imu_rate.csv,");
   if (!arguments.reference.empty())
-    throw CLI::RequiredError("--output-dir, where report.html tells of the --reference,");
+    throw CLI::RequiredError("--output-dir, where report.html compares with the --reference,");
   if (!arguments.exporters.empty())
     throw CLI::RequiredError("--output-dir, where --export writes,");
 }

@@ -75,7 +75,7 @@ void requireOutsideOfRecordings(
               "', which belongs to the recording '" + rawlog + "'; choose another place");
 }
 
-/** Only the report tells of a reference. */
+/** Only the report compares with a reference. */
 void requireReport(const ReplayArguments& arguments, const std::vector<std::string>& names)
 {
   if (arguments.reference.empty() || std::count(names.begin(), names.end(), kReport) > 0) return;
@@ -88,7 +88,7 @@ std::string tumFolder(const std::string& path)
 {
   if (fs::is_directory(path))
     throw std::runtime_error("--output-tum-path '" + path + "' is a folder; give a file name");
-  // What is there already is replaced where it is, a device is written to.
+  // An existing file is replaced where it is, a device is written to.
   const fs::path folder = fs::absolute(withLinksFollowed(path)).parent_path();
   if (!fs::exists(path)) requireWritableFolder(folder.string());
   return folder.string();

@@ -6,8 +6,8 @@
 
 #include "command_line.h"
 #include <fastlio/config/config.h>
-#include <fastlio/exporters/run_folder.h>
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_folder.h>
+#include <fastlio/run/run_summary.h>
 
 #include <optional>
 #include <string>

@@ -174,13 +174,14 @@ void ReplayRun::checkEnd()
   if (in.scans_after_result > kFewScans)
     statistics_.addLostEnd(until_ns, in.scans_after_result, lostEndText(in));
   else if (rest_s > kShortTime)
-    end_remark_ = Diagnostic{
+    end_diagnostic_ = Diagnostic{
         statistics_.endNs(), mrpt::format(
                                  "no scans follow, but %.1f s of inertial data do: the trajectory "
                                  "ends here",
                                  rest_s)};
-  if (end_remark_)
-    logger_.logStr(LVL_WARN, "at " + secondsText(end_remark_->stamp_ns) + ": " + end_remark_->text);
+  if (end_diagnostic_)
+    logger_.logStr(
+        LVL_WARN, "at " + secondsText(end_diagnostic_->stamp_ns) + ": " + end_diagnostic_->text);
 }
 
 bool ReplayRun::feed(DecodedInput input)
@@ -233,7 +234,7 @@ void ReplayRun::extendOutputMap()
   }
 }
 
-/** Tells when scans start to fare differently; every scan at DEBUG. */
+/** Reports when scans start to fare differently; every scan at DEBUG. */
 void ReplayRun::reportChange(const ScanResult& result)
 {
   const bool changed = !last_status_ || *last_status_ != result.status;
@@ -289,7 +290,7 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.statistics = statistics_;
   summary.imu = odometry_.imuReport();
   summary.diagnostics = odometry_.diagnostics();
-  if (end_remark_) summary.diagnostics.push_back(*end_remark_);
+  if (end_diagnostic_) summary.diagnostics.push_back(*end_diagnostic_);
   summary.interrupted = interrupted();
   summary.input_problems = sentences(source.problems());
   summary.failure = failure_;

@@ -56,8 +56,8 @@ class ReplayRun
   std::optional<ScanStatus> last_status_;
   std::size_t exporter_problems_told_ = 0;
   std::size_t diagnostics_reported_ = 0;
-  std::optional<Diagnostic> end_remark_;  //!< the recording goes on after the trajectory
-  std::string failure_;                   //!< an exception that ended the loop
+  std::optional<Diagnostic> end_diagnostic_;  //!< the recording goes on after the trajectory
+  std::string failure_;                       //!< an exception that ended the loop
 };
 
 }  // namespace fastlio

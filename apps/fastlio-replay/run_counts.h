@@ -4,8 +4,8 @@
 /** \file run_counts.h Everything that was read or dropped, as named numbers. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/sensors/observation_bridge.h>
 
 #include <vector>
@@ -16,7 +16,7 @@ namespace fastlio
 [[nodiscard]] std::vector<NamedCount> inputCounts(
     const BridgeStatistics& bridge, const InputStatistics& odometry);
 
-/** Why there is no result for the scans after the last one, as far as the counts tell. */
+/** Why there is no result for the scans after the last one, as far as the counts show it. */
 [[nodiscard]] std::string lostEndText(const InputStatistics& odometry);
 
 }  // namespace fastlio

@@ -33,23 +33,7 @@ std::string sizeText(std::uintmax_t bytes)
   return fixedText(size * 1e-6, 1) + " MB";
 }
 
-std::string scansText(const RunStatistics& statistics)
-{
-  std::string text = std::to_string(statistics.scans());
-  const char* separator = ": ";
-  for (std::size_t i = 0; i < kScanStatusCount; ++i)
-  {
-    const auto status = static_cast<ScanStatus>(i);
-    if (statistics.count(status) == 0) continue;
-    text += separator + std::to_string(statistics.count(status)) + " " + toString(status);
-    separator = ", ";
-  }
-  if (const std::size_t missing = statistics.missingScans(); missing > 0)
-    text += "; " + std::to_string(missing) + " missing in between";
-  return text;
-}
-
-/** What the bridge, the odometry's input and the range limits left out. */
+/** Data that the bridge, the odometry's input and the range limits dropped. */
 std::vector<NamedCount> allLosses(const RunSummary& run)
 {
   std::vector<NamedCount> counts = run.input_counts;
@@ -170,7 +154,7 @@ std::string reportText(const RunSummary& summary)
   const auto& statistics = summary.statistics;
   const auto lost = allLosses(summary);
   const ExitStatus status = exitStatusOf(summary);
-  std::string text = line("Scans", scansText(statistics));
+  std::string text = line("Scans", scanCountsText(statistics));
   text += line("Path", fixedText(statistics.pathLength(), 2) + " m");
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));

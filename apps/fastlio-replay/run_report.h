@@ -4,7 +4,7 @@
 /** \file run_report.h The end of a run, for people. */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
+#include <fastlio/run/run_summary.h>
 
 #include <string>
 
@@ -13,7 +13,7 @@ namespace fastlio
 /** A table of what was processed, how fast, what was lost, which files there are and the status. */
 [[nodiscard]] std::string reportText(const RunSummary& summary);
 
-/** What a person should know of beside the table: one sentence each, the cause of a non-zero exit
+/** Diagnostics beside the table: one sentence each, the cause of a non-zero exit
  * status among them. */
 [[nodiscard]] std::vector<std::string> troubleSentences(const RunSummary& summary);
 

@@ -7,9 +7,9 @@
 #include "command_line.h"
 #include "output_places.h"
 #include <fastlio/config/config.h>
-#include <fastlio/exporters/pose_output.h>
-#include <fastlio/exporters/run_summary.h>
-#include <fastlio/odometry/saved_map.h>
+#include <fastlio/localmap/saved_map.h>
+#include <fastlio/run/pose_output.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -19,7 +19,7 @@
 
 namespace fastlio
 {
-/** Why a run cannot start, and the exit status that tells it. */
+/** Why a run cannot start, and its exit status. */
 class SetupError : public std::runtime_error
 {
  public:

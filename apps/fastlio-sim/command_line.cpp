@@ -3,9 +3,9 @@
 
 #include "command_line.h"
 
-#include <fastlio/simulation/realistic.h>
-#include <fastlio/simulation/scenario.h>
-#include <fastlio/simulation/settings_table.h>
+#include <fastlio/scenarios/realistic.h>
+#include <fastlio/scenarios/scenario.h>
+#include <fastlio/scenarios/settings_table.h>
 
 #include <array>
 #include <sstream>
@@ -116,7 +116,8 @@ void addOptions(CLI::App& app, SimCommand& command)
   app.add_flag("-q,--quiet", command.quiet, "Print errors only");
   app.add_flag(
          "--realistic", command.realistic,
-         "Sensors with the errors that datasheets admit, drawn from the seed; scenario.json tells "
+         "Sensors with the errors that datasheets admit, drawn from the seed; scenario.json "
+         "contains "
          "them, config.yaml does not")
       ->group("Settings");
   for (const auto& shorthand : kShorthands)

@@ -4,7 +4,7 @@
 /** \file command_line.h The options of fastlio-sim. */
 #pragma once
 
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
 
 #include <CLI/CLI.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What the user asks for. */
+/** The arguments of the program. */
 struct SimCommand
 {
   std::string scenario;

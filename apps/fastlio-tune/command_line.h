@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file command_line.h What fastlio-tune is told to do. */
+/** \file command_line.h The arguments of fastlio-tune. */
 #pragma once
 
 #include "job_runner.h"

@@ -28,7 +28,7 @@ constexpr std::size_t kLongestComplaint = 500;
 constexpr const char* kFolderName = "fastlio-tune-";
 constexpr const char* kOwnerFile = "owner";
 
-/** A folder that is removed at the end; it tells its process, in case that is killed. */
+/** A folder that is removed at the end; its name holds its process, in case that is killed. */
 struct ScratchFolder
 {
   ScratchFolder()
@@ -50,7 +50,7 @@ struct ScratchFolder
   fs::path path;
 };
 
-/** What the run said on standard error, in one line, without what differs from run to run. */
+/** The run's text on standard error, in one line, without parts that differ from run to run. */
 std::string complaintOf(const ScratchFolder& folder)
 {
   std::ifstream in(folder.path / "errors");

@@ -30,7 +30,7 @@ double secondsSince(Clock::time_point start)
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/** What the workers of a process share. */
+/** Data that the workers of a process share. */
 struct Crew
 {
   RunnerOptions options;
@@ -55,7 +55,7 @@ class Progress
   Clock::time_point said_ = Clock::now();
 };
 
-/** Runs a claimed job, and tells the store now and then that it still does. */
+/** Runs a claimed job, and reports to the store now and then that it still does. */
 void runClaimed(const Crew& crew, JobStore& store, const Worker& worker, const Job& job)
 {
   bool ours = true;

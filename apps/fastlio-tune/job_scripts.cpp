@@ -68,6 +68,6 @@ void printScript(const TuneCommand& command)
               ? "fastlio-tune: cmaes makes jobs as results come: keep the same command running "
                 "with -j 0 instead of the --print option, and give workers a --wait\n"
               : "fastlio-tune: when the workers are done, the same command without the "
-                "--print option tells the result\n");
+                "--print option prints the result\n");
 }
 }  // namespace fastlio

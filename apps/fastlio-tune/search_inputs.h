@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file search_inputs.h What a search works on, checked. */
+/** \file search_inputs.h The checked inputs of a search. */
 #pragma once
 
 #include "command_line.h"

@@ -107,10 +107,10 @@ std::string keyFigure(
     const bool is_best = i == result.best;
     panel.marks.push_back({{x, std::min(ratios[i], kHighestRatio)}, "", is_best ? kBest : kEach});
   }
-  std::string remark;
+  std::string note;
   for (std::size_t v = 0; !numbers && v < key.values.size(); ++v)
-    remark += (v == 0 ? "" : ", ") + std::to_string(v) + ": " + htmlText(key.values[v]);
-  return figureHtml(panel, kHalf, key.key, {{"a set", kEach}, {"the best", kBest}}, remark);
+    note += (v == 0 ? "" : ", ") + std::to_string(v) + ": " + htmlText(key.values[v]);
+  return figureHtml(panel, kHalf, key.key, {{"a set", kEach}, {"the best", kBest}}, note);
 }
 
 std::string inOneLine(std::string text)
@@ -140,7 +140,7 @@ std::string recordingsTable(const SearchInputs& inputs, const TuningResult& resu
          "<th>ratio</th><th>left out</th></tr>\n" +
          rows +
          "</table></div>\n<p><i>left out</i>: the ratio of the parameters that the other "
-         "recordings choose. It tells what to expect on a recording that took no part.</p>\n";
+         "recordings choose. It shows what to expect on a recording that took no part.</p>\n";
 }
 
 std::string keysTable(const SearchInputs& inputs, const TuningResult& result)

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file tuning_report.h What a search has found, as a page. */
+/** \file tuning_report.h The result of a search, as a page. */
 #pragma once
 
 #include "tuning_result.h"

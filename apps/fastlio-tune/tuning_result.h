@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file tuning_result.h What a search has found, as table, parameter file and JSON. */
+/** \file tuning_result.h The result of a search, as table, parameter file and JSON. */
 #pragma once
 
 #include "trials.h"
@@ -23,7 +23,7 @@ struct TuningResult
   std::vector<KeyEffect> effects;
 };
 
-/** What each key does: of `each`, error by error of the base per value; else main effects. */
+/** The effect of each key: of `each`, error by error of the base per value; else main effects. */
 [[nodiscard]] std::vector<KeyEffect> effectsOf(
     const TuneCommand& command, const SearchInputs& inputs, const Trials& trials);
 

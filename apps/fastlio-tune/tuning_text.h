@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file tuning_text.h What table, parameter file and page say in the same words. */
+/** \file tuning_text.h Texts that table, parameter file and page have in common. */
 #pragma once
 
 #include "tuning_result.h"
@@ -20,7 +20,7 @@ namespace fastlio
 /** Without its folder, printable. */
 [[nodiscard]] std::string fileNameOf(const std::string& path);
 
-/** What the numbers of the effects are. */
+/** The meaning of the numbers of the effects. */
 [[nodiscard]] std::string effectsTitle(const TuneCommand& command);
 
 /** A sentence. */

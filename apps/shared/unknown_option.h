@@ -16,7 +16,7 @@
 
 namespace fastlio
 {
-/** What is left when all options have been read, and the option that is most like it. */
+/** The first argument left when all options have been read, and the option that is most like it. */
 inline std::string unknownOptionText(const CLI::App& app)
 {
   const std::vector<std::string> left = app.remaining(true);

@@ -62,7 +62,7 @@ Problem makeProblem(std::size_t count)
   return problem;
 }
 
-/** What eq. 20 needs of the rows: its part of the cost grows with their number. */
+/** The part of eq. 20 that needs the rows: its cost grows with their number. */
 InformationSums sumsOf(const StackedMeasurements& m)
 {
   InformationSums sums;

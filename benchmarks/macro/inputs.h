@@ -1,15 +1,15 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file inputs.h What the odometry is fed in a benchmark, in memory, so that reading takes no
+/** \file inputs.h The input of the odometry in a benchmark, in memory, so that reading takes no
  * part.
  */
 #pragma once
 
 #include <fastlio/config/config.h>
 #include <fastlio/filter/imu.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/odometry_options.h>
 
 #include <string>
 #include <variant>

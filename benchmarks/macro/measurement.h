@@ -5,7 +5,7 @@
 #pragma once
 
 #include "inputs.h"
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/scan_result.h>
 
 #include <cstdint>
 #include <vector>

@@ -5,14 +5,14 @@
  * included. */
 #pragma once
 
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/odometry_options.h>
 
 #include <cstddef>
 #include <string>
 
 namespace fastlio::benchmarks
 {
-/** What one pass over a file took. */
+/** The cost of one pass over a file. */
 struct StreamingResult
 {
   double recording_seconds = 0.0;  //!< from the first scan's begin to the last one's end

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What sharing a loop costs: the way between two cores, and a loop that does nothing.
+// The cost of sharing a loop: the way between two cores, and a loop that does nothing.
 
 #include <fastlio/parallel/workers.h>
 

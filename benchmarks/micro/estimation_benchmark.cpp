@@ -8,7 +8,7 @@
 #include <fastlio/filter/update.h>
 #include <fastlio/map/plane_fit.h>
 #include <fastlio/map/plane_voxel.h>
-#include <fastlio/odometry/point_to_plane.h>
+#include <fastlio/matching/point_to_plane.h>
 
 #include <benchmark/benchmark.h>
 

@@ -77,7 +77,7 @@ class Printer
   void operator()(const fastlio::OdometryEstimate& estimate)
   {
     if (!estimate.vehicle) return;
-    // The scans of the start wait for it to be known; they tell nothing about the pace.
+    // The scans of the start wait for it to be known; they say nothing about the pace.
     if (first_pose_ns_ == 0) first_pose_ns_ = now_ns();
     if (estimate.result.stamp_ns > first_pose_ns_)
       late_ms_.push_back(1e-6 * static_cast<double>(now_ns() - estimate.result.stamp_ns));

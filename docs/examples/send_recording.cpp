@@ -34,7 +34,7 @@ struct Message
   std::string bytes;
 };
 
-/** Packets at the times that they tell, after the stamp of their scan. */
+/** Packets at their own times, after the stamp of their scan. */
 void addPackets(const CObservationVelodyneScan& scan, std::vector<Message>& messages)
 {
   constexpr std::int64_t kHour_us = 3'600'000'000;
@@ -48,7 +48,7 @@ void addPackets(const CObservationVelodyneScan& scan, std::vector<Message>& mess
   }
 }
 
-/** What follows the stamp in a line of text. */
+/** The text after the stamp in a line. */
 std::string numbersOf(const CObservationIMU& imu)
 {
   using namespace mrpt::obs;

@@ -3,10 +3,10 @@
 
 #include "MolaLidarInertialOdometry.h"
 
-#include <fastlio/exporters/mrpt_poses.h>
-#include <fastlio/exporters/pose_output.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/mrpt_poses.h>
+#include <fastlio/run/pose_output.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/initializer.h>

@@ -26,7 +26,7 @@ TEST(BaselineConsumer, SeesTheTypesAsTheLibrariesDo)
   {
     EXPECT_EQ(native[i].size, baseline[i].size) << native[i].name;
     EXPECT_EQ(native[i].alignment, baseline[i].alignment) << native[i].name;
-    // What operator new of C++14 and MRPT's containers give.
+    // The alignment of operator new of C++14 and of MRPT's containers.
     EXPECT_LE(baseline[i].alignment, alignof(std::max_align_t)) << native[i].name;
   }
 }

@@ -12,8 +12,8 @@
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/map/plane_fit.h>
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/matching/point_to_plane.h>
 #include <fastlio/odometry/odometry.h>
-#include <fastlio/odometry/point_to_plane.h>
 
 #include <cstddef>
 #include <string>

@@ -17,7 +17,7 @@ namespace
 {
 constexpr double kRadToDeg = 180.0 / M_PI;
 
-/** What a scenario must keep. First poses are aligned. */
+/** The limits of a scenario. First poses are aligned. */
 struct AccuracyGate
 {
   const char* scenario;
@@ -26,7 +26,7 @@ struct AccuracyGate
   double ape;             // RMSE [m]
   double drift;           // end to end [m]
   double rotation;        // APE RMSE [deg]
-  std::size_t unmatched;  // scans without update, while the map is young
+  std::size_t unmatched;  // scans without update, while the map is sparse
 };
 
 /** The name of a test in lists. */
@@ -57,7 +57,7 @@ std::ostream& operator<<(std::ostream& out, const AccuracyGate& gate)
 //   rest_crowd  0.0 m   0.0022   0.0023   0.016
 //
 // The tunnel has no feature along its axis: nothing but the accelerometer, whose bias is known to
-// 0.03 m/s^2, tells how far it went (0.5 * 0.03 * 11^2 = 1.8 m after 11 s of motion). Its gate says
+// 0.03 m/s^2, gives the way (0.5 * 0.03 * 11^2 = 1.8 m after 11 s of motion). Its gate says
 // that the odometry slides no more than that, and keeps its attitude. On the open area the first
 // scans see too little for planes.
 constexpr AccuracyGate kGates[] = {
@@ -89,7 +89,7 @@ SimulationSettings settingsOf(const AccuracyGate& gate, std::uint64_t seed)
   return settings;
 }
 
-EvaluationReport judge(const SimulatedRun& run)
+EvaluationReport evaluated(const SimulatedRun& run)
 {
   EvaluationOptions options;
   options.alignment = Alignment::First;
@@ -107,7 +107,7 @@ TEST_P(Accuracy, IsKept)
   const SimulatedRun run = runOdometry(settingsOf(gate, 1));
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
   EXPECT_LE(countOf(run, ScanStatus::PredictionOnly), gate.unmatched);
-  const EvaluationReport report = judge(run);
+  const EvaluationReport report = evaluated(run);
   EXPECT_GT(report.association.used, static_cast<std::size_t>(10.0 * gate.duration) - 5);
   EXPECT_LT(report.ape.translation.rmse, gate.ape) << "m";
   EXPECT_LT(report.drift.error.translation, gate.drift)
@@ -135,7 +135,7 @@ TEST(SparsePlaces, FewMatchesOnAMeadowAreNoTrouble)
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
   EXPECT_LE(countOf(run, ScanStatus::PredictionOnly), 15U);
   EXPECT_GE(run.scans.back().result.health.value, 0.5) << run.scans.back().result.health.reason;
-  EXPECT_LT(judge(run).ape.translation.rmse, 0.06) << "m";
+  EXPECT_LT(evaluated(run).ape.translation.rmse, 0.06) << "m";
 }
 
 // The gates see what they shall see: without motion compensation the shaken sensor fails them.
@@ -149,7 +149,7 @@ TEST(AccuracyGates, FailWithoutMotionCompensation)
   // Half a scan's offset would make up for some of it.
   parameters.calibration.estimate_time_offset = false;
   const SimulatedRun run = runOdometry(Simulation(settings), parameters);
-  const EvaluationReport report = judge(run);
+  const EvaluationReport report = evaluated(run);
   EXPECT_GT(report.ape.translation.rmse, gate.ape);
   EXPECT_GT(report.ape.rotation.rmse * kRadToDeg, gate.rotation);
 }

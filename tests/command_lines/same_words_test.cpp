@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Who knows the options of one program knows those of the others.
+// The options of the programs have the same names.
 
 #include "process.h"
 #include "temporary_folder.h"

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file consistency_test.cpp Does the covariance tell the truth? Repeated simulated runs whose
+/** \file consistency_test.cpp Is the covariance right? Repeated simulated runs whose
  * noise is the filter's, each with another start, other noise, biases and gravity, at the same
  * instants.
  *
@@ -9,9 +9,9 @@
 
 #include "repeats.h"
 #include "simulated_run.h"
+#include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/static_initializer.h>
-#include <fastlio/simulation/realistic.h>
+#include <fastlio/scenarios/realistic.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ constexpr double kInstants[] = {6.0, 10.0};
 constexpr double kMeanNeesLower = 1.45, kMeanNeesUpper = 5.28;
 
 /** Of the components of biases and gravity; consistent: 0.997. The run to come is short and begins
- * at rest: what the rest tells of a bias is what a few seconds of noise make of it. */
+ * at rest: a few seconds of noise limit the knowledge of a bias. */
 constexpr double kShareWithin3Sigma = 0.96;
 
 struct ConsistencyCase
@@ -91,7 +91,7 @@ OdometryOptions parametersOf(const SimulationSettings& settings)
 {
   OdometryOptions parameters = matchingParameters(settings);
   parameters.initialization.gravity = InitializationOptions{}.gravity;
-  // The simulated sensors are as they are told to be.
+  // The simulated sensors are as the options describe them.
   CalibrationOptions& calibration = parameters.calibration;
   calibration.extrinsic_rotation_std = calibration.extrinsic_translation_std = 0.0;
   calibration.imu_scale_std = calibration.imu_misalignment_std = 0.0;
@@ -117,7 +117,7 @@ double nees(const StateVector& error, const StateMatrix& P, StateBlock block)
   return e.dot(covariance.llt().solve(e));
 }
 
-/** What the runs show at one instant: an entry per run. */
+/** The errors of the runs at one instant: an entry per run. */
 struct Samples
 {
   std::vector<double> attitude, position;
@@ -196,7 +196,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenario, Consistency, ::testing::ValuesIn(kCases),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// The measure sees what it shall see: a filter that is not told of 20 ms between the clocks is
+// The measure sees what it shall see: a filter that does not know of 20 ms between the clocks is
 // overconfident.
 TEST(ConsistencyGates, FailWhenTheClocksDisagree)
 {
@@ -219,7 +219,7 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
   EXPECT_GT(std::max(p.mean, a.mean), p.mean_upper);
 }
 
-/** Sensors with what their datasheets admit, of which the odometry is told nothing. */
+/** Sensors with what their datasheets admit, of which the odometry knows nothing. */
 class RealisticConsistency : public ::testing::TestWithParam<ConsistencyCase>
 {
 };

@@ -24,7 +24,7 @@ for program in "${!page_of[@]}"; do
   for option in $options; do
     case $option in --help|--version) continue ;; esac
     grep -qE -- "(^|[^-A-Za-z0-9])$option([^a-z_-]|$)" "$page" ||
-      { echo "FAILED: $page does not tell of $option of fastlio-$program"; failures=$((failures + 1)); }
+      { echo "FAILED: $page does not mention $option of fastlio-$program"; failures=$((failures + 1)); }
   done
 done
 for page in README.md CONTRIBUTING.md docs/*.md; do

@@ -42,4 +42,4 @@ printf 'a\n<!-- begin t -->\nold\n<!-- end t -->\nb\n' >"$output/document.md"
 echo new >"$output/table.md"
 replace() { awk -v name="$1" -v table="$output/table.md" -f "$experiments/replace_table.awk" "$output/document.md"; }
 [ "$(replace t | tr '\n' ' ')" = "a <!-- begin t --> new <!-- end t --> b " ] || fail "not replaced: $(replace t)"
-! replace u >/dev/null 2>&1 || fail "a missing place was not told"
+! replace u >/dev/null 2>&1 || fail "a missing place was not reported"

@@ -5,9 +5,9 @@
 
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/config/config_document.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/scenario.h>
 
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>

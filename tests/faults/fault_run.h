@@ -11,7 +11,7 @@
 
 namespace fastlio::testing
 {
-/** What a replay gave. */
+/** The outcome of a replay. */
 struct FaultOutcome
 {
   bool ended = false;  //!< by itself, with one of the documented exit statuses

@@ -31,7 +31,7 @@ struct ObservationFault
   double error_factor = 0.0;
   double poses_share = 0.0;  //!< so many of the clean recording's poses are there, at least
   /** A regular expression for the words that name the fault in what the program prints; empty: it
-   * is put right without loss, or nothing tells it from what sensors measure. */
+   * is put right without loss, or nothing distinguishes it from measurements. */
   std::string words = {};
 };
 

@@ -63,7 +63,7 @@ class FaultTable : public ::testing::Environment
 
 const auto* const kTable = ::testing::AddGlobalTestEnvironment(new FaultTable);
 
-/** What holds for every fault. */
+/** Properties of every fault. */
 bool survived(const FaultOutcome& outcome)
 {
   EXPECT_TRUE(outcome.ended) << "exit status " << outcome.exit_status << "\n" << outcome.log;

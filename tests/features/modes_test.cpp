@@ -29,14 +29,14 @@ OdometryOptions withFeatures(const SimulationSettings& settings, FeatureMode mod
   return parameters;
 }
 
-EvaluationReport judge(const SimulatedRun& run)
+EvaluationReport evaluated(const SimulatedRun& run)
 {
   EvaluationOptions options;
   options.alignment = Alignment::First;
   return evaluate(estimateOf(run), truthOf(run), options);
 }
 
-/** What a scenario must keep in both feature modes. */
+/** The limits of a scenario in both feature modes. */
 struct FeatureGate
 {
   const char* scenario;
@@ -65,7 +65,7 @@ TEST_P(FeatureAccuracy, IsKeptInBothModes)
   {
     const SimulatedRun run = runOdometry(simulation, withFeatures(settings, mode));
     EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
-    EXPECT_LT(judge(run).ape.translation.rmse, GetParam().ape) << "m, mode " << int(mode);
+    EXPECT_LT(evaluated(run).ape.translation.rmse, GetParam().ape) << "m, mode " << int(mode);
   }
 }
 
@@ -79,10 +79,10 @@ TEST(FeatureModes, EdgesAloneHoldThePose)
   const Simulation simulation(settings);
   OdometryOptions parameters = withFeatures(settings, FeatureMode::PlanarAndEdge);
   parameters.downsampling.target_points = 1;  // next to nothing for planes
-  parameters.features.half_width = 0.5;       // clear edges only: nothing else is left to tell
+  parameters.features.half_width = 0.5;       // clear edges only: nothing else is left
   const SimulatedRun with_edges = runOdometry(simulation, parameters);
   EXPECT_EQ(countOf(with_edges, ScanStatus::Diverged), 0U);
-  EXPECT_LT(judge(with_edges).ape.translation.rmse, 0.1);
+  EXPECT_LT(evaluated(with_edges).ape.translation.rmse, 0.1);
   EXPECT_GT(with_edges.scans.back().result.statistics.points_effective, 40U);
 
   parameters.features.mode = FeatureMode::Planar;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file fuzz_targets.h What is fed with arbitrary bytes: everything that reads what others wrote.
+/** \file fuzz_targets.h The code that is fed with arbitrary bytes: every reader of foreign files.
  * A target must come back, without an exception, whatever the bytes are. */
 #pragma once
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Usage: node read_mcap.cjs FILE
-// Prints a line per topic: name, type, number of messages, sum of what tells the content.
+// Prints a line per topic: name, type, number of messages, sum of the content.
 // FASTLIO_NODE_MODULES names the folder with @mcap/core, @foxglove/rosmsg and @foxglove/rosmsg2-serialization.
 const childProcess = require("child_process");
 const fs = require("fs");

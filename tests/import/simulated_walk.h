@@ -7,8 +7,8 @@
 #include "process.h"
 #include "test_files.h"
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZOutputStream.h>

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-// What is counted: simulating the recording is left out. A plain name, which the script can give to
-// valgrind.
+// The counted part: simulating the recording is left out. A plain name, which the script can give
+// to valgrind.
 extern "C" __attribute__((noinline)) void fastlioCountedRun(
     const fastlio::OdometryOptions& parameters, const fastlio::testing::RoomRecording& recording,
     fastlio::testing::Results& results)

@@ -8,8 +8,8 @@
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/live/udp_receiver.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/scenario.h>
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,7 @@ TEST_F(LiveUse, AnOverloadIsCountedAndEnds)
   EXPECT_NE(live.output.find("dropped because newer ones waited"), std::string::npos);
 }
 
-TEST_F(LiveUse, WrongUsageIsTold)
+TEST_F(LiveUse, WrongUsageIsReported)
 {
   const ProcessResult nothing = Process({FASTLIO_LIVE_EXAMPLE}, folder_.file("log.txt")).wait();
   EXPECT_EQ(nothing.exit_status, 1);

@@ -68,7 +68,7 @@ cmp <(head -n $((lines - 1)) part.tum) <(head -n $((lines - 1)) replay/trajector
 if [ -x "$prefix/bin/sm-cli" ]; then
   export LD_LIBRARY_PATH=$prefix/lib
   "$prefix/bin/sm-cli" info replay/keyframes.simplemap >mola.log 2>&1 || fail 'sm-cli'
-  grep -qiE 'keyframes|size' mola.log || fail 'sm-cli says nothing of key frames'
+  grep -qiE 'keyframes|size' mola.log || fail 'sm-cli says nothing of keyframes'
   cat >pipeline.yaml <<'END'
 generators:
   - class_name: mp2p_icp_filters::Generator

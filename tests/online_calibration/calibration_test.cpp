@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file calibration_test.cpp Does the odometry find a wrong extrinsic and a wrong clock? Simulated
- * recordings whose calibration the filter is not told. */
+ * recordings whose calibration the filter does not know. */
 
 #include "simulated_run.h"
 
@@ -74,7 +74,7 @@ TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
   const auto first = std::find_if(run.scans.begin(), run.scans.end(), estimated);
   ASSERT_NE(first, run.scans.end());
   ASSERT_GT(first - run.scans.begin(), 5);
-  constexpr double kInlierRatio = 0.3;  // of a map that can tell
+  constexpr double kInlierRatio = 0.3;  // of a map that shows them
   for (auto scan = run.scans.begin(); scan + 1 != first; ++scan)
     EXPECT_LT(fraction(*scan), kInlierRatio);
   EXPECT_GE(fraction(*(first - 1)), kInlierRatio);
@@ -121,8 +121,8 @@ TEST(Calibration, FindsTheExtrinsic)
   const FilterState end = endOfMiscalibratedRun(correction, parameters);
   const Pose error = correction.inverse() * end.x.extrinsic_correction;
   EXPECT_LT(logSO3(error.R).norm(), 0.004) << "rad; it was 0.027";
-  // The walk turns about the vertical: it tells the horizontal position, of the height it tells
-  // little, and says so.
+  // The walk turns about the vertical: it determines the horizontal position, the height hardly,
+  // and the covariance says so.
   EXPECT_LT(error.p.head<2>().norm(), 0.015) << "m; it was 0.036";
   const Vec3 sigma = end.P.diagonal().segment<3>(kExtrinsicTranslation).cwiseSqrt();
   EXPECT_LT(sigma.head<2>().maxCoeff(), 0.01);
@@ -157,7 +157,7 @@ TEST(Calibration, StaysAsGivenUnlessAskedFor)
   EXPECT_EQ(end.x.time_offset, 0.0);
 }
 
-TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
+TEST(Degeneracy, TheTunnelIsReportedAndItsCovarianceGrows)
 {
   SimulationSettings settings = defaultSettings("tunnel");
   settings.duration = 12.0;
@@ -173,11 +173,11 @@ TEST(Degeneracy, TheTunnelIsToldAndItsCovarianceGrows)
     return std::sqrt(P.diagonal().maxCoeff());
   };
   std::size_t open = 0, open_when_off = 0;
-  const double told = sigmaAlong(MeasurementOptions{}.min_signal_to_noise, open);
+  const double aware = sigmaAlong(MeasurementOptions{}.min_signal_to_noise, open);
   const double fooled = sigmaAlong(0.0, open_when_off);
   EXPECT_GT(open, 50U);
   EXPECT_EQ(open_when_off, 0U);
-  EXPECT_GT(told, 3.0 * fooled) << "m";
+  EXPECT_GT(aware, 3.0 * fooled) << "m";
 }
 }  // namespace
 }  // namespace fastlio::testing

@@ -1,13 +1,13 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What makes a map that is consistent in itself and wrong: tunnels, units, mountings. The odometry
+// Causes of a map that is consistent in itself and wrong: tunnels, units, mountings. The odometry
 // is right about it, or reports it.
 
 #include "walks.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
-#include <fastlio/simulation/realistic.h>
+#include <fastlio/scenarios/realistic.h>
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ namespace fastlio::testing
 {
 namespace
 {
-// Nothing tells where along a tunnel one is: an outage of one direction. Single planes that a voxel
-// at an edge fitted across the tunnel made the odometry sure of it (up to 17 sigma off).
+// Nothing constrains the position along a tunnel: an outage of one direction. Single planes that a
+// voxel at an edge fitted across the tunnel made the odometry sure of it (up to 17 sigma off).
 class Tunnel : public ::testing::TestWithParam<std::uint64_t>
 {
 };

@@ -6,9 +6,9 @@
 
 #include "repeats.h"
 #include "walks.h"
-#include <fastlio/exporters/run_health.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/run_health.h>
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Outage
   double begin_s, length_s;
 };
 
-/** What the outage takes away. */
+/** The data that the outage takes away. */
 enum class Missing
 {
   Scans,  //!< no scan arrives
@@ -155,7 +155,7 @@ AlteredInputs altered(const Fault& fault, std::int64_t begin_ns)
   return inputs;
 }
 
-/** What fastlio-replay calls it: no scan is lost at the end, no stretch cannot be trusted. */
+/** As fastlio-replay names it: no scan is lost at the end, no stretch cannot be trusted. */
 bool endsOk(const SimulatedRun& run)
 {
   RunHealth health;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "simulated_run.h"
-#include <fastlio/simulation/scenario.h>
+#include <fastlio/scenarios/scenario.h>
 
 #include <cmath>
 #include <string>

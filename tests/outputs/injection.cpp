@@ -80,7 +80,7 @@ void journal(const char* what, const char* path, long bytes)
 
 }  // namespace fastlio::testing
 
-/** What fails before main(), in libraries that start up, is nobody's to handle. */
+/** Nobody can handle a failure before main(), in libraries that start up. */
 extern "C" int __libc_start_main(  // NOLINT(bugprone-reserved-identifier): it is that function
     fastlio::testing::Main function, int argc, char** argv, void (*begin)(), void (*end)(),
     void (*unload)(), void* stack)

@@ -88,7 +88,7 @@ class OutputFaults : public FailingRuns
     }
   }
 
-  /** What a summary lists is there as a whole. */
+  /** Every file in a summary is complete. */
   static void expectListedSizes(const Files& files)
   {
     if (files.count("summary.json") == 0) return;
@@ -101,7 +101,7 @@ class OutputFaults : public FailingRuns
     }
   }
 
-  /** What a run left, however it ended. */
+  /** The files that a run left, however it ended. */
   void expectNothingDestroyed(bool with_earlier, int status)
   {
     constexpr int kInputBroken = 3, kRunEndedEarly = 4;

@@ -15,7 +15,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-/** What a disk has surely got of a process, by its calls. */
+/** The data of a process that a disk surely holds, by its calls. */
 class Disk
 {
  public:

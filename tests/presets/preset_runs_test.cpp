@@ -9,8 +9,8 @@
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/scenario.h>
 #include <fastlio/survey/lidar_models.h>
 
 #include <gtest/gtest.h>

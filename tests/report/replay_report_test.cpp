@@ -39,7 +39,7 @@ class ReplayReport : public ::testing::Test
 
   static std::string in(const std::string& name) { return folder_->file("in/" + name); }
 
-  /** What the program writes for these arguments; it has to end with 0. */
+  /** The output of the program for these arguments; it has to end with 0. */
   static std::string reportOfReplay(const std::vector<std::string>& further)
   {
     std::vector<std::string> command = {

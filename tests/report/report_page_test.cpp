@@ -66,7 +66,7 @@ std::string chromium()
   return {};
 }
 
-/** What the check prints of the page in a window so wide. */
+/** The output of the check for the page in a window so wide. */
 std::string checked(std::string html, int width, const std::string& scheme)
 {
   const TemporaryFolder folder;

@@ -17,7 +17,7 @@ namespace fastlio::testing
 {
 namespace
 {
-// What counts as motion in the truth.
+// Motion in the truth, above these limits.
 constexpr double kMovingSpeed = 0.05;  // [m/s]
 constexpr double kTurningRate = 0.05;  // [rad/s]
 

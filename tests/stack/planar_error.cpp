@@ -4,7 +4,7 @@
 #include "planar_error.h"
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
@@ -30,7 +30,7 @@ PlanarError planarError(const mrpt::maps::CSimpleMap& map, const Simulation& sim
 {
   PlanarError error;
   double squares = 0.0;
-  std::optional<CPose2D> est_from_true;  // the first key frame brings the two together
+  std::optional<CPose2D> est_from_true;  // the first keyframe brings the two together
   for (std::size_t i = 0; i < map.size(); ++i)
   {
     const KeyFrameView view = keyFrame(map, i);

@@ -10,8 +10,8 @@
 
 namespace fastlio::testing
 {
-/** Where the points of the key frames' planar scans are, against where they are with the true
- * poses, both seen from the first key frame. */
+/** Where the points of the keyframes' planar scans are, against where they are with the true
+ * poses, both seen from the first keyframe. */
 struct PlanarError
 {
   double rms = 0.0;      //!< over all points [m]

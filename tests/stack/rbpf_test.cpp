@@ -65,7 +65,7 @@ PlanarError errorOf(const std::string& simplemap, const std::string& what)
   const PlanarError error = planarError(map, StackRun::get().simulation());
   std::cout << "[  FIGURE  ] rbpf-slam " << what << ": map error " << 100.0 * error.rms
             << " cm rms, " << 100.0 * error.largest << " cm at most, " << error.points
-            << " points of " << error.key_frames << " key frames\n";
+            << " points of " << error.key_frames << " keyframes\n";
   return error;
 }
 
@@ -87,7 +87,7 @@ TEST_F(RbpfSlam, MapsWithTheOdometryOnly)
       {write("rbpf-without.ini", configuration(file("no-motion.rawlog"), file("rbpf-without")))});
   ASSERT_EQ(result.exit_status, 0) << result.output;
   const auto without = errorOf(file("rbpf-without/_finalmap_.simplemap"), "without odometry");
-  // It takes scans into the map when the motions tell that there is something new to see.
+  // It takes scans into the map when the motions show that there is something new to see.
   EXPECT_LT(without.key_frames, 3U);
 }
 

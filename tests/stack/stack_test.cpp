@@ -47,11 +47,11 @@ PlanarError errorOf(const std::string& simplemap, const Simulation& simulation)
   return planarError(map, simulation);
 }
 
-void tell(const std::string& what, const PlanarError& error)
+void report(const std::string& what, const PlanarError& error)
 {
   std::cout << "[  FIGURE  ] " << what << ": map error " << 100.0 * error.rms << " cm rms, "
             << 100.0 * error.largest << " cm at most, " << error.points << " points of "
-            << error.key_frames << " key frames\n";
+            << error.key_frames << " keyframes\n";
 }
 
 TEST_F(RawlogEdit, ListsTheOdometryOfEveryScan)
@@ -86,7 +86,7 @@ TEST_F(IcpSlam, MapsOnThePlanarScans)
     const auto result = run("icp-slam", {config});
     ASSERT_EQ(result.exit_status, 0) << result.output;
     errors[name] = errorOf(file("icp-" + name + "/_finalmap_.simplemap"), stack().simulation());
-    tell("icp-slam " + name + " odometry", errors[name]);
+    report("icp-slam " + name + " odometry", errors[name]);
   }
   EXPECT_GT(errors["with"].key_frames, 10U);
   EXPECT_LT(errors["with"].rms, 0.25);
@@ -127,7 +127,7 @@ TEST_F(ObservationsToMap, BuildsTheRoomsFromTheKeyFrames)
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   std::cout << "[  FIGURE  ] observations2map: " << built.size() << " points of " << map.size()
-            << " key frames, median distance to the true surfaces " << 100.0 * *middle << " cm\n";
+            << " keyframes, median distance to the true surfaces " << 100.0 * *middle << " cm\n";
   EXPECT_LT(*middle, 0.05);
 }
 

@@ -24,7 +24,7 @@ constexpr double kDuration = 14.0;   // [s]
 constexpr std::uint64_t kRuns = 3;
 constexpr double kNees999 = 16.3;  // 99.9 % of three components
 
-/** What a start in motion must keep. First poses are aligned. */
+/** The limits of a start in motion. First poses are aligned. */
 struct StartGate
 {
   const char* scenario;
@@ -55,7 +55,7 @@ std::ostream& operator<<(std::ostream& out, const StartGate& gate)
 //   rest       0.002    0.002      0
 //   rest_crowd 0.003    0.003      0
 //
-// Of the whole run the first scans, whose map is young, have the largest errors. The uav's narrow
+// Of the whole run the first scans, whose map is sparse, have the largest errors. The uav's narrow
 // view at 7 m/s is at the limit of what can be started: 0.02 to 0.3 m, where it is not refused.
 constexpr StartGate kGates[] = {
     {"campus", 0.05, 0.03, 15}, {"office", 0.02, 0.03, 0},     {"uav", 0.4, 0.1, 40, true},
@@ -94,7 +94,7 @@ double positionError(const SimulatedRun& run)
   return evaluate(estimateOf(run), truthOf(run), options).ape.translation.rmse;
 }
 
-/** What several runs came to. */
+/** The outcomes of several runs. */
 struct Outcomes
 {
   std::vector<double> position_errors;  // RMSE [m]
@@ -107,7 +107,7 @@ double middle(std::vector<double> values)
   return values.at(values.size() / 2);
 }
 
-/** What every run must keep; the rest is for the outcomes. */
+/** The limits of every run; the rest is for the outcomes. */
 void expectGood(const SimulatedRun& run, const StartGate& gate, Outcomes& outcomes)
 {
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
@@ -121,7 +121,7 @@ void expectGood(const SimulatedRun& run, const StartGate& gate, Outcomes& outcom
   outcomes.position_errors.push_back(positionError(run));
   outcomes.position_nees.push_back(nees(error, P, kPosition));
   outcomes.attitude_nees.push_back(nees(error, P, kAttitude));
-  // What is at the limit of what can be started is judged by its middle run; one run in a million
+  // A start at the limit of the possible is assessed by its middle run; one run in a million
   // exceeds the bound, if its covariance is true.
   const double bound = gate.may_be_refused ? 30.7 : kNees999;
   EXPECT_LT(outcomes.position_nees.back(), bound);
@@ -133,7 +133,7 @@ class StartInMotion : public ::testing::TestWithParam<StartGate>
 {
 };
 
-// With a fast platform and a young map the outcome of one run hangs on the last bit of its sums:
+// With a fast platform and a sparse map the outcome of one run hangs on the last bit of its sums:
 // which points meet a plane decides. The middle one of several runs does not. A start that is
 // refused, with the reason, is no error where the sensor sees little of what it flies past.
 TEST_P(StartInMotion, TracksFromTheFirstScans)
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return std::string(parameter.param.scenario); });
 
 // To the inertial sensor, a car at constant speed is at rest.
-TEST(StartAutomatically, TellsSteadyMotionFromRest)
+TEST(StartAutomatically, DistinguishesSteadyMotionFromRest)
 {
   const SimulationSettings settings = settingsOf("car");
   const SimulatedRun fooled = runInMode(settings, InitializationMode::Rest);
@@ -220,7 +220,8 @@ INSTANTIATE_TEST_SUITE_P(
     Scenario, StartInMotionWithTheClocksApart, ::testing::Values("spin", "shake"),
     [](const auto& parameter) { return std::string(parameter.param); });
 
-// Nothing tells the speed along a tunnel without features: no start is better than a wrong one.
+// Nothing constrains the speed along a tunnel without features: no start is better than a wrong
+// one.
 TEST(StartInMotionWhereTheScansAreBlind, IsRefusedWithTheDirection)
 {
   const SimulatedRun run = runInMode(settingsOf("tunnel"), InitializationMode::Motion);

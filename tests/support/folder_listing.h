@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file folder_listing.h What is in a folder, as one text to compare. */
+/** \file folder_listing.h The content of a folder, as one text to compare. */
 #pragma once
 
 #include "temporary_folder.h"

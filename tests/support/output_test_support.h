@@ -5,9 +5,9 @@
 #pragma once
 
 #include "temporary_folder.h"
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/run_summary.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/run_summary.h>
 
 #include <gtest/gtest.h>
 

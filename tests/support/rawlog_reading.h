@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file rawlog_reading.h What tests of the rawlog source share. */
+/** \file rawlog_reading.h Common parts of the tests of the rawlog source. */
 #pragma once
 
 #include "test_files.h"

@@ -3,7 +3,7 @@
 
 /** \file repeats.h How often, or for how long, the long tests do the same.
  *
- * What a hundred runs tell of a mean needs all of them; a sanitizer sees in the first what it sees
+ * The mean of a hundred runs needs all of them; a sanitizer sees in the first what it sees
  * in the last. Grids of faults and hours of driving are sampled, unless `make faults` asks for all.
  */
 #pragma once

@@ -50,7 +50,7 @@ class Noise
   std::normal_distribution<double> normal_;
 };
 
-/** What an ideal IMU measures, by central differences of the true pose. */
+/** The measurements of an ideal IMU, by central differences of the true pose. */
 ImuSample idealSample(std::int64_t stamp_ns, double rest)
 {
   constexpr double kStep = 5e-4;

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <fastlio/filter/imu.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/odometry_options.h>
 
 #include <cstdint>
 #include <vector>

@@ -37,7 +37,7 @@ std::shared_ptr<Scan> rangeScan()
   return scan;
 }
 
-/** What stands before the images: the same in both layouts. */
+/** The bytes before the images: the same in both layouts. */
 std::string properties(const Scan& scan)
 {
   const std::string native = serialize({std::make_shared<Scan>(scan)});

@@ -4,8 +4,8 @@
 #include "simulated_run.h"
 
 #include <fastlio/imu/imu_buffer.h>
+#include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/static_initializer.h>
 
 #include <algorithm>
 #include <stdexcept>

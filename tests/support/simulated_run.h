@@ -43,7 +43,7 @@ struct SimulatedRun
     const Simulation& simulation, const OdometryOptions& parameters,
     const std::function<bool(LidarScan&)>& filter);
 
-/** What an odometry is fed with: a simulated recording with something wrong. */
+/** The input of an odometry: a simulated recording with something wrong. */
 struct AlteredInputs
 {
   /** May change a sample or a scan; false: it does not arrive. */

@@ -78,7 +78,7 @@ struct TopicMessage
   std::string data;
 };
 
-/** How a cloud tells the times of its points. */
+/** How a cloud holds the times of its points. */
 struct TimeField
 {
   std::string name = "t";  //!< empty: no times

@@ -5,8 +5,8 @@
 
 #include "process.h"
 #include "temporary_folder.h"
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 

@@ -172,12 +172,12 @@ TEST_F(ImportProgram, ATruncatedInputIsWrittenAsFarAsItGoesWithStatusThree)
   EXPECT_GT(readAll({out()}).seconds.size(), messages().size() / 4);
 }
 
-TEST_F(ImportProgram, UnitAndReferenceCanBeTold)
+TEST_F(ImportProgram, UnitAndReferenceCanBeGiven)
 {
   const std::string bag = file("in.bag", bagOf(messages({"t", 6, 1e-9})));
-  const auto told =
+  const auto given =
       import({bag, "-o", out(), "--point-time-unit", "ns", "--point-time-reference", "end"});
-  EXPECT_EQ(told.exit_status, 0) << told.output;
+  EXPECT_EQ(given.exit_status, 0) << given.output;
   EXPECT_NEAR(timesOf(out())[0], -0.1, 1e-8);
 }
 

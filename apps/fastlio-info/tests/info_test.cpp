@@ -6,8 +6,8 @@
 #include "process.h"
 #include "temporary_folder.h"
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,7 @@ class Info : public ::testing::Test
 };
 }  // namespace
 
-TEST_F(Info, TellsSensorsAndImuOfAVelodyneRecording)
+TEST_F(Info, ReportsSensorsAndImuOfAVelodyneRecording)
 {
   const Json all = jsonOf(record("office"));
   ASSERT_EQ(all["sensors"].size(), 2U);
@@ -108,10 +108,10 @@ TEST_F(Info, FindsTheTimeOffsetAndTheMounting)
     const Json all = jsonOf(walk({{"lidar.time_offset", offset}}));
     const Json& motion = all["motion"];
     ASSERT_TRUE(motion["conclusive"]) << table_;
-    // What the LiDAR's clock is ahead has to be taken off its stamps.
+    // The lead of the LiDAR's clock has to be taken off its stamps.
     EXPECT_NEAR(motion["time_offset_s"], -std::stod(offset), kRough) << table_;
     EXPECT_NEAR(motion["imu_rate_over_lidar_rate"], 1.0, 0.1);
-    // A walk turns about the vertical mostly, which does not tell the whole mounting.
+    // A walk turns about the vertical mostly, which does not determine the whole mounting.
     EXPECT_LT(motion.value("mounting_error_deg", 0.0), 5.0);
     const bool warned = all["warnings"].dump().find("lidar.time_offset") != std::string::npos;
     EXPECT_EQ(warned, std::string(offset) != "0") << all["warnings"];
@@ -136,7 +136,7 @@ TEST_F(Info, SeesStampsAtTheEndOfScansWhoseTimesStartAtZero)
   expectInTable("input.point_time_reference");
 }
 
-TEST_F(Info, TellsWhatPointTimesMean)
+TEST_F(Info, ReportsTheMeaningOfPointTimes)
 {
   const Json all = jsonOf(record(
       "shake", {{"lidar.cloud", "generic"},

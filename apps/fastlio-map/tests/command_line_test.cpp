@@ -6,8 +6,8 @@
 
 #include "process.h"
 #include "temporary_folder.h"
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 
@@ -208,14 +208,14 @@ TEST_F(Map, WheelsTellTheWayThroughATunnel)
   const std::string rawlog = record("tunnel", settings);
   const ProcessResult result =
       run({rawlog, "-o", folder_.file("with"), "--export", "trajectory,report"});
-  EXPECT_NE(result.output.find("wheel odometry tells"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("wheel odometry determines"), std::string::npos) << result.output;
   const auto summary = summaryOf("with");
   EXPECT_TRUE(summary["wheels"]["used"].get<bool>());
   EXPECT_TRUE(summary["corrected"].get<bool>());
   EXPECT_NEAR(summary["wheels"]["scale"].get<double>(), 1.0, 0.05);
   EXPECT_NE(summary["result"].get<std::string>().find("wheel odometry"), std::string::npos);
   EXPECT_NE(
-      textOf(folder_.file("with") + "/report.html").find("wheel odometry tells"),
+      textOf(folder_.file("with") + "/report.html").find("wheel odometry determines"),
       std::string::npos);
   run({rawlog, "-o", folder_.file("without"), "--export", "trajectory", "--no-wheels"});
   EXPECT_EQ(summaryOf("without")["wheels"]["readings"].get<int>(), 0);

@@ -9,7 +9,7 @@
 
 namespace fastlio::testing
 {
-/** What is in the recording. */
+/** The content of the recording. */
 struct BoxRecording
 {
   double seconds = 4.0;

@@ -81,7 +81,7 @@ TEST_F(Configuration, UnknownKeyNamesTheNearest)
   EXPECT_FALSE(std::filesystem::exists(file("out/summary.json")));
 }
 
-TEST_F(Configuration, WrongTypeIsTold)
+TEST_F(Configuration, WrongTypeIsReported)
 {
   const std::string config = write("c.yaml", "lidar:\n  max_range: far\n");
   expectEnd(replayFile(record("a.rawlog", {}), {"-c", config}), 1, "far");

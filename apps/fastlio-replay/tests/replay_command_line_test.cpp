@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What people type: recordings by themselves, parameters on the command line, several at once.
+// Usual command lines: recordings by themselves, parameters on the command line, several at once.
 
 #include "replay_test_support.h"
 
@@ -143,8 +143,9 @@ TEST_F(Typed, TheDefaultsAreThoseOfTheSensorThatTheRecordingNames)
   expectEnd(alone, 0, "measurement.range_noise: 0.03");
   expectEnd(alone, 0, "(input.factory_T_imu_lidar)");
   const std::string yaml = FASTLIO_PARAMS_DIR "/ouster_os2.yaml";
-  expectEnd(typed({"walk.rawlog", "-o", "told", "-c", yaml}), 0, "they are the defaults, or given");
-  EXPECT_EQ(contentOf(file("alone/covariance.csv")), contentOf(file("told/covariance.csv")));
+  expectEnd(
+      typed({"walk.rawlog", "-o", "given", "-c", yaml}), 0, "they are the defaults, or given");
+  EXPECT_EQ(contentOf(file("alone/covariance.csv")), contentOf(file("given/covariance.csv")));
   const std::string set = "measurement.range_noise=0.025";
   expectEnd(
       typed({"walk.rawlog", "--set", set, "--dump-config", "main"}), 0,

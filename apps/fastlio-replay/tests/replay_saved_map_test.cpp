@@ -37,9 +37,9 @@ TEST_F(SavedMaps, StartWhereTheEarlierRunDid)
     expectEnd(result, 0, "exit status 0");
     EXPECT_EQ(result.output.find("first scan"), std::string::npos) << result.output;
     const auto seen = firstPosition(contentOf(file("again/trajectory.tum")));
-    // Points alone, of sixteen lines in a box, hardly tell the planes of floor and ceiling.
-    const std::size_t told = std::string_view(map) == "map.planes" ? 3 : 2;
-    for (std::size_t i = 0; i < told; ++i)
+    // Points alone, of sixteen lines in a box, hardly determine the planes of floor and ceiling.
+    const std::size_t axes = std::string_view(map) == "map.planes" ? 3 : 2;
+    for (std::size_t i = 0; i < axes; ++i)
       EXPECT_NEAR(seen.at(i), expected.at(i), 0.05) << map;
   }
 }

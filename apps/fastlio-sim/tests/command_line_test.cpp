@@ -53,7 +53,7 @@ bool mentions(const ProcessResult& result, const std::string& text)
   return result.output.find(text) != std::string::npos;
 }
 
-TEST_F(FastlioSim, TellsWhatItCanDo)
+TEST_F(FastlioSim, ListsWhatItCanDo)
 {
   const ProcessResult help = run({"--help"});
   EXPECT_EQ(help.exit_status, 0);
@@ -113,11 +113,11 @@ TEST_F(FastlioSim, RealisticSensorsHaveErrorsThatOnlyTheScenarioTells)
   EXPECT_EQ(scenario["settings"]["lidar.false_returns"], 0.0);
   EXPECT_EQ(truth["lidar_clock_minus_imu_clock_s"], 0.004);
   EXPECT_NE(truth["imu_errors"]["gyro_matrix"][0][0], 1.0);
-  // What is told is lidar.pose, what is true is not.
+  // lidar.pose is given, the truth is not.
   EXPECT_NE(truth["T_imu_lidar"]["position_m"][0], scenario["settings"]["lidar.pose"][0]);
 }
 
-TEST_F(FastlioSim, ReceiversOfGnssAreTold)
+TEST_F(FastlioSim, ReceiversOfGnssAreReported)
 {
   const ProcessResult result = run(
       {"town", "--duration", "3", "--stride", "100", "--set", "gnss.rate=2", "--set",

@@ -47,7 +47,7 @@ END
 # A bad file becomes a better one, which fastlio-replay reads, and which is better by fastlio-eval's account.
 expect 0 'Better parameters: tuned.yaml' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 \
   --method cmaes -o tuned.yaml --json tuned.json
-grep -q '^#.*time_offset: 0.04 -> ' tuned.yaml || fail 'tuned.yaml does not tell the change'
+grep -q '^#.*time_offset: 0.04 -> ' tuned.yaml || fail 'tuned.yaml does not contain the change'
 grep -q '"conclusion": "better"' tuned.json || fail 'tuned.json has another conclusion'
 grep -q '<h1>Better parameters: tuned.yaml</h1>' tuned.html || fail 'tuned.html has another headline'
 [ "$(grep -c '<tr><td>[abc].rawlog</td>' tuned.html)" -eq 3 ] || fail 'tuned.html lacks a recording'
@@ -101,7 +101,7 @@ wait "$process" || status=$?
 [ "$status" -eq 130 ] || fail "status $status after SIGTERM"
 [ "$(counts stopped.yaml.sqlite | cut -d' ' -f2)" -eq 0 ] || fail 'jobs are still claimed after SIGTERM'
 
-# Workers do the jobs of a printed list; the tuner then only tells the result.
+# Workers do the jobs of a printed list; the tuner then only prints the result.
 search() {
   "$tune" space.yaml a.rawlog b.rawlog -c bad.yaml --method grid --budget 9 -o shared.yaml --store shared.sqlite "$@"
 }

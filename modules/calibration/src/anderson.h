@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file anderson.h Anderson acceleration (D. G. Anderson, "Iterative procedures for nonlinear
- * integral equations", Journal of the ACM, 1965), and what its steps tell about uncertainty. */
+ * integral equations", Journal of the ACM, 1965), and the uncertainty that its steps imply. */
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ namespace fastlio
  * A step is that of least squares with unknowns in blocks, each as if it knew the others: s = -M H
  * (x - solution), with the covariance M of the blocks and the information H of all together. Where
  * blocks explain the same data, the steps are small though x is far off. The differences between
- * steps tell H in these directions: they shorten the way, and they tell how uncertain x is. */
+ * steps give H in these directions: they shorten the way, and they give the uncertainty of x. */
 class AndersonIteration
 {
  public:

@@ -16,7 +16,7 @@ namespace fastlio
 namespace
 {
 constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
-constexpr double kTold = 0.5;  // of what was known before
+constexpr double kDetermined = 0.5;  // of what was known before
 constexpr double kMillimetres = 1e3, kPercent = 100.0;
 
 using Combination = Eigen::Matrix<double, 1, kCalibrationErrorDim>;
@@ -59,7 +59,7 @@ class RowMaker
     row.found = row.given + sign * per_unit * (c * estimate_.correction).value();
     row.std = per_unit * stdOf(c, estimate_.covariance);
     row.prior_std = per_unit * stdOf(c, estimate_.prior_std);
-    if (!row.told()) row.advice = advice;
+    if (!row.determined()) row.advice = advice;
     return row;
   }
 
@@ -101,9 +101,9 @@ std::string commented(const std::string& text)
 }
 }  // namespace
 
-bool CalibrationRow::told() const
+bool CalibrationRow::determined() const
 {
-  return prior_std == 0.0 || std < kTold * prior_std;
+  return prior_std == 0.0 || std < kDetermined * prior_std;
 }
 
 std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate& estimate)
@@ -147,7 +147,8 @@ std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
         row.prior_std > 0.0 ? mrpt::format("%9.3f", row.prior_std) : "        -";
     text += mrpt::format(
         "%-36s %10.3f %10.3f %9.3f %s  %s%s\n", row.name.c_str(), row.given, row.found, row.std,
-        before.c_str(), row.unit.c_str(), row.told() ? "" : ("  not told: " + row.advice).c_str());
+        before.c_str(), row.unit.c_str(),
+        row.determined() ? "" : ("  not determined: " + row.advice).c_str());
   }
   text += mrpt::format(
       "\n%-36s %10s %10s %10s %10s\n", "beams by elevation [deg]", "range [mm]", "std",

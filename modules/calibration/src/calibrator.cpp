@@ -27,7 +27,7 @@ Rig rigIn(const CalibrationRecording& recording, const Config& config)
   return rigOf(config, selection, planInput(selection, config.sensors, config.odometry.lidar));
 }
 
-/** The covariance with what no data tell; nothing gets more uncertain than it was before. */
+/** The covariance with what no data determine; nothing gets more uncertain than it was before. */
 CalibrationErrorMatrix widened(
     const CalibrationErrorMatrix& formal, const CalibrationErrorVector& prior_std,
     const Mat3& R_imu_lidar, double stretch_std)
@@ -78,7 +78,7 @@ Config Calibrator::configWith(const Rig& rig) const
   return config;
 }
 
-void Calibrator::tell(const std::string& what) const
+void Calibrator::report(const std::string& what) const
 {
   if (progress_) progress_(what);
 }
@@ -97,14 +97,15 @@ RigEstimate Calibrator::calibrate(
     PassFindings pass;
     for (const CalibrationRecording& recording : recordings)
     {
-      tell(
+      report(
           what + "pass " + std::to_string(number) + " of " + std::to_string(passes_) + ", " +
           recording.name);
       pass.add(calibrationRun(recording, configWith(rig), range));
     }
     if (pass.tracked == 0)
       throw std::runtime_error(
-          "no scan was tracked in " + recordings.front().name + ": fastlio-replay tells why");
+          "no scan was tracked in " + recordings.front().name +
+          ": fastlio-replay reports the reason");
     return pass;
   };
   const PassFindings pass = runAll(given_, 1);

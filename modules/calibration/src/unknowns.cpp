@@ -15,11 +15,11 @@ namespace
 // The formal covariance takes surfaces for planes and beams for lines. Over simulated rigs with
 // realistic sensors the errors are 2.5 times as large (docs/calibration.md).
 constexpr double kSystematic = 2.5 * 2.5;
-// What data sheets admit of a laser. The prior decides where beams and inertial sensor explain the
-// same: elevations that are stretched look like a gyro with another scale.
+// Errors of a laser that data sheets admit. The prior decides where beams and inertial sensor
+// explain the same: elevations that are stretched look like a gyro with another scale.
 constexpr double kRangeStd = 0.01;        // [m]
 constexpr double kElevationStd = 0.001;   // [rad]; 0.06 deg
-constexpr double kKnown = 0.3;            // of the prior: a beam that the data tell
+constexpr double kKnown = 0.3;            // of the prior: a beam that the data determine
 constexpr std::size_t kFewestBeams = 3;   // of which constant and stretch are parts
 constexpr double kUnknownTimeStd = 0.01;  // of an offset that no run estimated [s]
 
@@ -146,8 +146,9 @@ CalibrationUnknowns::ElevationLever CalibrationUnknowns::leverOf(
   return lever;
 }
 
-/** What all beams have in common, and what grows with the elevation, stays zero: of independent
- * lasers it is a fraction of one's error, and no data tell it from the extrinsic and the gyro. */
+/** The mean over all beams, and the part that grows with the elevation, stay zero: of independent
+ * lasers it is a fraction of one's error, and no data distinguish it from the extrinsic and the
+ * gyro. */
 void CalibrationUnknowns::removeCommonPart(
     const std::vector<std::size_t>& known, const Eigen::VectorXd& x, Eigen::VectorXd& step) const
 {

@@ -13,7 +13,7 @@
 
 namespace fastlio
 {
-/** What all runs of a pass tell together. */
+/** The evidence of all runs of a pass. */
 struct PassFindings
 {
   CalibrationSums sums;
@@ -42,11 +42,11 @@ class CalibrationUnknowns
   CalibrationUnknowns(const CalibrationOptions& prior, const PassFindings& pass);
 
   [[nodiscard]] Eigen::Index size() const;
-  /** What was known of the errors that are left at \a x. */
+  /** The prior of the errors that are left at \a x. */
   [[nodiscard]] CalibrationPrior prior(const Eigen::VectorXd& x) const;
   /** The rig that \a x makes of the given one. */
   [[nodiscard]] Rig rigAt(const Rig& given, const Eigen::VectorXd& x) const;
-  /** From what a pass with rigAt(x) told. */
+  /** From the evidence of a pass with rigAt(x). */
   [[nodiscard]] CalibrationStep step(const PassFindings& pass, const Eigen::VectorXd& x) const;
   /** How far the elevations may be stretched without anybody noticing: as a fraction, a standard
    * deviation. A gyro whose scale is as wrong about the horizontal axes of the LiDAR fits them. */

@@ -38,7 +38,7 @@ TEST(Anderson, FindsInFewStepsWhatPlainRepetitionDoesNot)
   EXPECT_GT((plain - problem.solution).norm(), 1.0);
 }
 
-TEST(Anderson, TellsHowUncertainCompetingBlocksAre)
+TEST(Anderson, GivesTheUncertaintyOfCompetingBlocks)
 {
   const Competing problem;
   AndersonIteration iteration(4);

@@ -1,13 +1,13 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibrator_test.cpp Recordings of simulated rigs whose calibration is told wrong. */
+/** \file calibrator_test.cpp Recordings of simulated rigs whose calibration is given wrong. */
 
 #include "temporary_folder.h"
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 
@@ -34,8 +34,8 @@ class CalibratorTest : public ::testing::Test
     return {name, {files.rawlog}};
   }
 
-  /** As a user tells it who measured with a ruler. */
-  [[nodiscard]] Config wronglyTold() const
+  /** As a user gives it who measured with a ruler. */
+  [[nodiscard]] Config wronglyGiven() const
   {
     Config config = config_;
     const Pose error{expSO3({0.005, -0.004, 0.003}), {0.01, -0.008, 0.006}};
@@ -58,25 +58,26 @@ double valueOf(const std::vector<CalibrationRow>& rows, const std::string& name)
   return row == rows.end() ? std::nan("") : row->found;
 }
 
-TEST_F(CalibratorTest, FindsWhatWasToldWrong)
+TEST_F(CalibratorTest, FindsTheErrorsOfTheGivenCalibration)
 {
   const CalibrationRecording recording = record("walk", 25.0, 3);
-  const Calibrator calibrator({recording}, wronglyTold(), 6);
+  const Calibrator calibrator({recording}, wronglyGiven(), 6);
   const RigEstimate estimate = calibrator.calibrate();
   const Rig& rig = estimate.rig;
-  // No data tell the axes of the housing: gyro and LiDAR may turn together.
+  // No data determine the axes of the housing: gyro and LiDAR may turn together.
   const std::vector<CalibrationRow> rows = calibrationRows(calibrator.given(), estimate);
   const Pose error = rig.T_imu_lidar * truth_.inverse();
   EXPECT_LT(error.p.head<2>().norm(), 0.004) << "m; it was 0.013";
   EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about x"), -0.286, 0.08) << "deg";
   EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about y"), 0.229, 0.08) << "deg";
   EXPECT_NEAR(valueOf(rows, "LiDAR against gyro, turn about z"), -0.172, 0.08) << "deg";
-  EXPECT_NEAR(rig.gyro_matrix(2, 2), 1.0, 0.0015) << "it was told 1.006";
-  EXPECT_NEAR(rig.time_offset, 0.0, 0.0002) << "s; it was told 0.004";
+  EXPECT_NEAR(rig.gyro_matrix(2, 2), 1.0, 0.0015) << "it was given as 1.006";
+  EXPECT_NEAR(rig.time_offset, 0.0, 0.0002) << "s; it was given as 0.004";
   for (const BeamRow& beam : rig.beams)
     if (std::abs(beam.elevation) < 0.2)
     {
-      EXPECT_LT(std::abs(beam.range), 0.006) << beam.elevation << " rad; they were told 0.02 m off";
+      EXPECT_LT(std::abs(beam.range), 0.006)
+          << beam.elevation << " rad; they were given 0.02 m off";
       EXPECT_LT(std::abs(beam.elevation_offset), 0.0006) << beam.elevation;
     }
 }
@@ -84,7 +85,7 @@ TEST_F(CalibratorTest, FindsWhatWasToldWrong)
 TEST_F(CalibratorTest, StandardDeviationsCoverTheErrors)
 {
   const CalibrationRecording recording = record("walk", 20.0, 5);
-  const Calibrator calibrator({recording}, wronglyTold(), 5);
+  const Calibrator calibrator({recording}, wronglyGiven(), 5);
   const RigEstimate estimate = calibrator.calibrate();
   const Vec3 error = (estimate.rig.T_imu_lidar.p - truth_.p);
   for (int axis = 0; axis < 3; ++axis)
@@ -99,11 +100,11 @@ TEST_F(CalibratorTest, StandardDeviationsCoverTheErrors)
 TEST_F(CalibratorTest, IsTriedOutOnOtherData)
 {
   const CalibrationRecording a = record("a", 14.0, 1), b = record("b", 14.0, 2);
-  const CalibrationTrial wrong = Calibrator({a, b}, wronglyTold(), 3).tryOut();
+  const CalibrationTrial wrong = Calibrator({a, b}, wronglyGiven(), 3).tryOut();
   EXPECT_TRUE(wrong.better()) << describe(wrong);
   EXPECT_GT(wrong.seconds, 15.0);
   EXPECT_NE(describe(wrong).find("use it"), std::string::npos);
-  const CalibrationTrial single = Calibrator({a}, wronglyTold(), 3).tryOut();
+  const CalibrationTrial single = Calibrator({a}, wronglyGiven(), 3).tryOut();
   EXPECT_TRUE(single.better()) << describe(single);
   const CalibrationTrial right = Calibrator({a, b}, config_, 3).tryOut();
   EXPECT_FALSE(right.better()) << "there is nothing to gain: " << describe(right);
@@ -111,7 +112,7 @@ TEST_F(CalibratorTest, IsTriedOutOnOtherData)
 
 TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 {
-  const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyTold(), 2);
+  const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyGiven(), 2);
   const RigEstimate estimate = calibrator.calibrate();
   const Config calibrated = calibrator.configWith(estimate.rig);
   const std::string file = folder_.file("rig.yaml");
@@ -135,11 +136,11 @@ TEST_F(CalibratorTest, WhatTheMotionDoesNotTellIsAdvice)
   for (const CalibrationRow& row : calibrationRows(calibrator.given(), estimate))
     if (row.prior_std > 0.0)
     {
-      EXPECT_FALSE(row.told()) << row.name;
+      EXPECT_FALSE(row.determined()) << row.name;
       EXPECT_FALSE(row.advice.empty()) << row.name;
     }
   EXPECT_NE(
-      calibrationTable(calibrator.given(), estimate).find("not told: turn about"),
+      calibrationTable(calibrator.given(), estimate).find("not determined: turn about"),
       std::string::npos);
 }
 

@@ -3,7 +3,7 @@
 
 #include <fastlio/config/config.h>
 #include <fastlio/exporters/export_option_table.h>
-#include <fastlio/odometry/odometry_option_table.h>
+#include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/sensors/sensor_option_table.h>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "yaml_text.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_yaml.h>
-#include <fastlio/odometry/odometry_option_table.h>
+#include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace
 {
 using mrpt::containers::yaml;
 
-/** What is wrong in a document, and where. */
+/** An error in a document, and its place. */
 struct Problem
 {
   int line = 0;  //!< counted from 1; 0: unknown, as for values that were set in code

@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::size_t kColumns = 100;
 
-/** What a preset sets. */
+/** The keys that a preset sets. */
 constexpr std::array<std::string_view, 4> kPresetKeys = {
     "input.factory_T_imu_lidar", "lidar.min_range", "lidar.max_range", "measurement.range_noise"};
 

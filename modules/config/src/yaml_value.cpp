@@ -20,7 +20,7 @@ std::optional<std::string> scalarText(const yaml::node_t& node)
   return node.as<std::string>();
 }
 
-/** What was seen, for messages. */
+/** The value as text, for messages. */
 std::string seenText(const yaml::node_t& node)
 {
   if (node.isNullNode()) return "nothing";

@@ -87,7 +87,8 @@ class ControlPointFile
         fail("more than " + std::to_string(kMostControlPoints) + " control points; give fewer");
       points.push_back(point());
       if (!names.insert(points.back().name).second)
-        fail("the name " + quoted(points.back().name) + " is there twice; names tell points apart");
+        fail(
+            "the name " + quoted(points.back().name) + " is there twice; names distinguish points");
     }
     return points;
   }

@@ -222,7 +222,7 @@ void requireHeading(double yaw_std_rad, const EarthFit& fit, const EarthFitOptio
       "; give points that lie further apart");
 }
 
-/** What is left at each point, and sums of it. */
+/** The residual at each point, and their sums. */
 void addResiduals(
     const std::vector<Correspondence>& points, const Problem& problem,
     const std::vector<double>& used, EarthFit& fit)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/earth/gps_time.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <array>
@@ -51,7 +52,7 @@ double adjustedGpsTime(std::int64_t stamp_ns)
   const std::int64_t seconds = stamp_ns / kNanoseconds;
   const std::int64_t rest = stamp_ns % kNanoseconds;
   return static_cast<double>(seconds - kGpsEpoch - kAdjustment + leapSecondsAt(stamp_ns)) +
-         static_cast<double>(rest) * 1e-9;
+         toSeconds(rest);
 }
 
 }  // namespace fastlio

@@ -62,7 +62,7 @@ class LasBytes
   std::string& bytes_;
 };
 
-/** What differs from file to file. */
+/** The values that differ from file to file. */
 struct LasHeader
 {
   std::string software;

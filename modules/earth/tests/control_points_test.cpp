@@ -24,7 +24,7 @@ std::string fileOf(const TemporaryFolder& folder, const std::string& content)
   return folder.file("c.csv");
 }
 
-/** What is said about a file, without its name. */
+/** The message about a file, without its name. */
 std::string refusalOf(const std::string& content, const ReferenceSystem* system = nullptr)
 {
   const TemporaryFolder folder;
@@ -159,7 +159,7 @@ TEST(ControlPoints, WrongRowsAreNamed)
   EXPECT_EQ(row(" ,1,2,3,48,11,500\n"), "2: the point has no name; give it one for the report");
   EXPECT_EQ(
       row("A,1,2,3,48,11,500\nA,1,2,3,48,11,500\n"),
-      "3: the name 'A' is there twice; names tell points apart");
+      "3: the name 'A' is there twice; names distinguish points");
   EXPECT_EQ(
       refusalOf("name,map_x,map_y,map_z,latitude,longitude,height,std\nA,1,2,3,48,11,500,0\n"),
       "2: a standard deviation of 0 m; it is above 0");

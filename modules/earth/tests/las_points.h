@@ -29,7 +29,7 @@ inline std::string written(
   return contentOf(folder.file("map.las"));
 }
 
-/** What a call says when it fails. */
+/** The message of a call that fails. */
 template <typename Call>
 std::string failureOf(const Call& call)
 {

@@ -40,7 +40,7 @@ class LasReadBack : public ::testing::Test
   {
     return testing::Process(command, folder_.file("log")).wait();
   }
-  /** What read_las.cjs prints of a point. */
+  /** The fields of a point that read_las.cjs prints. */
   static std::string row(const LasPoint& p)
   {
     return fixedText(p.position.x(), 4) + " " + fixedText(p.position.y(), 4) + " " +

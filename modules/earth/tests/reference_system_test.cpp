@@ -237,7 +237,7 @@ TEST(ReferenceSystem, SaysWhatIsWrongAndWhatToDo)
       refusalOfSystem(std::string(70'000, 'x')).find("of 70000 characters"), std::string::npos);
 }
 
-TEST(ReferenceSystem, TellsWhetherItIsMeantForAPlace)
+TEST(ReferenceSystem, KnowsWhetherItIsMeantForAPlace)
 {
   const ReferenceSystem system("EPSG:32632");
   EXPECT_TRUE(system.covers(kMunichCity));

@@ -13,7 +13,7 @@ namespace fastlio
 {
 namespace
 {
-/** What is wrong with pose i; empty when nothing. */
+/** The error in pose i; empty: none. */
 std::string complaint(const Trajectory& t, std::size_t i)
 {
   const Pose& pose = t.poses[i].T_world_body;

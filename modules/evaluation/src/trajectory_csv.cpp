@@ -68,7 +68,7 @@ Matrix6 parseUpperTriangle(const std::vector<std::string_view>& columns, const T
   return P;
 }
 
-/** What to read of each row; covariance stays empty for a trajectory without. */
+/** The columns to read of each row; covariance stays empty for a trajectory without. */
 struct Layout
 {
   std::size_t width = 0;

@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
+using testing::expectThrows;
 
 AssociatedTrajectories associated(const Trajectory& estimate, const Trajectory& reference)
 {
@@ -35,11 +35,11 @@ void expectNear(const Similarity& S, const Pose& T, double scale)
 TEST(AlignmentTest, RigidTransformationsAreRecovered)
 {
   std::mt19937 random(1);
-  const Trajectory truth = samples::curve();
+  const Trajectory truth = testing::curve();
   for (int run = 0; run < 50; ++run)
   {
-    const Pose T_ref_est = samples::randomPose(random);
-    const auto t = associated(samples::moved(T_ref_est.inverse(), truth), truth);
+    const Pose T_ref_est = testing::randomPose(random);
+    const auto t = associated(testing::moved(T_ref_est.inverse(), truth), truth);
     for (const Alignment kind : {Alignment::First, Alignment::Se3, Alignment::Sim3})
       expectNear(align(t, kind), T_ref_est, 1.0);
   }
@@ -48,11 +48,11 @@ TEST(AlignmentTest, RigidTransformationsAreRecovered)
 TEST(AlignmentTest, ScaleIsRecovered)
 {
   std::mt19937 random(2);
-  const Trajectory truth = samples::curve();
+  const Trajectory truth = testing::curve();
   for (const double scale : {0.2, 0.99, 3.0})
   {
-    const Pose T_ref_est = samples::randomPose(random);
-    Trajectory estimate = samples::moved(T_ref_est.inverse(), truth);
+    const Pose T_ref_est = testing::randomPose(random);
+    Trajectory estimate = testing::moved(T_ref_est.inverse(), truth);
     for (StampedPose& pose : estimate.poses)
       pose.T_world_body.p /= scale;
     const Similarity S = align(associated(estimate, truth), Alignment::Sim3);
@@ -62,26 +62,26 @@ TEST(AlignmentTest, ScaleIsRecovered)
 
 TEST(AlignmentTest, YawAndPositionAreRecovered)
 {
-  const Trajectory truth = samples::curve();
+  const Trajectory truth = testing::curve();
   for (const double yaw : {-3.1, -1.0, 0.0, 0.4, 2.9})
   {
     const Pose T_ref_est{expSO3({0.0, 0.0, yaw}), Vec3(5, -6, 7)};
-    const auto t = associated(samples::moved(T_ref_est.inverse(), truth), truth);
+    const auto t = associated(testing::moved(T_ref_est.inverse(), truth), truth);
     expectNear(align(t, Alignment::Yaw), T_ref_est, 1.0);
   }
 }
 
 TEST(AlignmentTest, YawLeavesTiltAlone)
 {
-  const Trajectory truth = samples::curve();
+  const Trajectory truth = testing::curve();
   const Pose tilt{expSO3({0.05, -0.03, 0.0}), Vec3::Zero()};
-  const Similarity S = align(associated(samples::moved(tilt, truth), truth), Alignment::Yaw);
+  const Similarity S = align(associated(testing::moved(tilt, truth), truth), Alignment::Yaw);
   EXPECT_TRUE((S.T_ref_est.R * Vec3::UnitZ()).isApprox(Vec3::UnitZ(), 1e-15));
 }
 
 TEST(AlignmentTest, NoneIsTheIdentity)
 {
-  const auto t = associated(samples::shifted(samples::curve(), {1, 2, 3}), samples::curve());
+  const auto t = associated(testing::shifted(testing::curve(), {1, 2, 3}), testing::curve());
   expectNear(align(t, Alignment::None), Pose{}, 1.0);
 }
 
@@ -89,10 +89,10 @@ TEST(AlignmentTest, NoneIsTheIdentity)
 TEST(AlignmentTest, TheMinimumIsAMinimum)
 {
   std::mt19937 random(3);
-  const Trajectory truth = samples::curve();
-  Trajectory estimate = samples::moved(samples::randomPose(random), truth);
+  const Trajectory truth = testing::curve();
+  Trajectory estimate = testing::moved(testing::randomPose(random), truth);
   for (StampedPose& pose : estimate.poses)
-    pose.T_world_body.p += samples::gaussian(random, 0.3);
+    pose.T_world_body.p += testing::gaussian(random, 0.3);
   const auto t = associated(estimate, truth);
   for (const Alignment kind : {Alignment::Yaw, Alignment::Se3, Alignment::Sim3})
   {
@@ -101,10 +101,10 @@ TEST(AlignmentTest, TheMinimumIsAMinimum)
     {
       const double yaw_only = kind == Alignment::Yaw ? 0.0 : 1.0;
       Similarity other = best;
-      const Vec3 turn = samples::gaussian(random, 1e-3).cwiseProduct(Vec3(yaw_only, yaw_only, 1.0));
+      const Vec3 turn = testing::gaussian(random, 1e-3).cwiseProduct(Vec3(yaw_only, yaw_only, 1.0));
       other.T_ref_est.R = expSO3(turn) * best.T_ref_est.R;
-      other.T_ref_est.p += samples::gaussian(random, 1e-2);
-      if (kind == Alignment::Sim3) other.scale += samples::gaussian(random, 1e-3).x();
+      other.T_ref_est.p += testing::gaussian(random, 1e-2);
+      if (kind == Alignment::Sim3) other.scale += testing::gaussian(random, 1e-3).x();
       EXPECT_GE(sumOfSquares(t, other), sumOfSquares(t, best));
     }
   }
@@ -112,21 +112,21 @@ TEST(AlignmentTest, TheMinimumIsAMinimum)
 
 TEST(AlignmentTest, MirroredPositionsGiveARotation)
 {
-  Trajectory mirrored = samples::curve();
+  Trajectory mirrored = testing::curve();
   for (StampedPose& pose : mirrored.poses)
     pose.T_world_body.p.z() *= -1.0;
-  const Similarity S = align(associated(mirrored, samples::curve()), Alignment::Se3);
+  const Similarity S = align(associated(mirrored, testing::curve()), Alignment::Se3);
   EXPECT_NEAR(S.T_ref_est.R.determinant(), 1.0, 1e-12);
 }
 
 TEST(AlignmentTest, PlanarMotionIsEnough)
 {
   std::mt19937 random(4);
-  Trajectory flat = samples::curve();
+  Trajectory flat = testing::curve();
   for (StampedPose& pose : flat.poses)
     pose.T_world_body.p.z() = 0.0;
-  const Pose T_ref_est = samples::randomPose(random);
-  const auto t = associated(samples::moved(T_ref_est.inverse(), flat), flat);
+  const Pose T_ref_est = testing::randomPose(random);
+  const auto t = associated(testing::moved(T_ref_est.inverse(), flat), flat);
   expectNear(align(t, Alignment::Se3), T_ref_est, 1.0);
 }
 
@@ -134,20 +134,20 @@ TEST(AlignmentTest, WhatPositionsLeaveOpenIsAnError)
 {
   const auto aligning = [](const Trajectory& t, Alignment kind)
   { return [t, kind] { (void)align(associated(t, t), kind); }; };
-  Trajectory resting = samples::curve();
+  Trajectory resting = testing::curve();
   for (StampedPose& pose : resting.poses)
     pose.T_world_body.p = Vec3(1, 2, 3);
-  Trajectory climbing = samples::line();
+  Trajectory climbing = testing::line();
   for (StampedPose& pose : climbing.poses)
     pose.T_world_body.p = pose.T_world_body.p.reverse().eval();
   for (const Alignment kind : {Alignment::Se3, Alignment::Sim3})
   {
     expectThrows<std::invalid_argument>(aligning(resting, kind), {"one line", "first"});
-    expectThrows<std::invalid_argument>(aligning(samples::line(), kind), {"one line", "yaw"});
+    expectThrows<std::invalid_argument>(aligning(testing::line(), kind), {"one line", "yaw"});
   }
   expectThrows<std::invalid_argument>(aligning(resting, Alignment::Yaw), {"first"});
   expectThrows<std::invalid_argument>(aligning(climbing, Alignment::Yaw), {"horizontally"});
-  EXPECT_NO_THROW(aligning(samples::line(), Alignment::Yaw)());
+  EXPECT_NO_THROW(aligning(testing::line(), Alignment::Yaw)());
   EXPECT_NO_THROW(aligning(resting, Alignment::First)());
 }
 

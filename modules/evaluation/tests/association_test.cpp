@@ -11,8 +11,8 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
-using samples::kStart;
+using testing::expectThrows;
+using testing::kStart;
 
 TEST(Association, InterpolationFollowsAScrewExactly)
 {
@@ -32,8 +32,8 @@ TEST(Association, InterpolationFollowsAScrewExactly)
 
 TEST(Association, SamplesTheReferenceBetweenItsPoses)
 {
-  const Trajectory reference = samples::line(101);  // 10 m/s
-  Trajectory estimate = samples::line(10);
+  const Trajectory reference = testing::line(101);  // 10 m/s
+  Trajectory estimate = testing::line(10);
   for (StampedPose& pose : estimate.poses)
     pose.stamp_ns += 25'000'000;
   const AssociatedTrajectories t = associate(estimate, reference, {});
@@ -48,7 +48,7 @@ TEST(Association, SamplesTheReferenceBetweenItsPoses)
 
 TEST(Association, NeverExtrapolates)
 {
-  const Trajectory estimate = samples::curve(100);
+  const Trajectory estimate = testing::curve(100);
   Trajectory reference = estimate;
   reference.poses.erase(reference.poses.begin(), reference.poses.begin() + 7);
   reference.poses.erase(reference.poses.end() - 5, reference.poses.end());
@@ -63,7 +63,7 @@ TEST(Association, NeverExtrapolates)
 
 TEST(Association, DoesNotBridgeGaps)
 {
-  const Trajectory estimate = samples::curve(100);
+  const Trajectory estimate = testing::curve(100);
   Trajectory reference = estimate;
   reference.poses.erase(reference.poses.begin() + 40, reference.poses.begin() + 50);
   const AssociationCounts strict = associate(estimate, reference, {}).counts;
@@ -76,10 +76,10 @@ TEST(Association, DoesNotBridgeGaps)
 
 TEST(Association, CovariancesStayWithTheirPoses)
 {
-  Trajectory estimate = samples::curve(20);
+  Trajectory estimate = testing::curve(20);
   for (int i = 0; i < 20; ++i)
     estimate.covariances.emplace_back((i + 1) * Matrix6::Identity());
-  Trajectory reference = samples::curve(20);
+  Trajectory reference = testing::curve(20);
   reference.poses.erase(reference.poses.begin(), reference.poses.begin() + 5);
   const AssociatedTrajectories t = associate(estimate, reference, {});
   ASSERT_EQ(t.covariances.size(), t.estimate.size());
@@ -88,28 +88,28 @@ TEST(Association, CovariancesStayWithTheirPoses)
 
 TEST(Association, TimeOffsetMovesTheEstimate)
 {
-  Trajectory estimate = samples::curve(50);
+  Trajectory estimate = testing::curve(50);
   for (StampedPose& pose : estimate.poses)
     pose.stamp_ns -= 3'600'000'000'000;
-  const AssociatedTrajectories t = associate(estimate, samples::curve(50), {0.1, 3600.0});
+  const AssociatedTrajectories t = associate(estimate, testing::curve(50), {0.1, 3600.0});
   EXPECT_EQ(t.counts.used, 50U);
   EXPECT_EQ(t.estimate.front().stamp_ns, kStart);
 }
 
-TEST(Association, WithoutOverlapBothRangesAreTold)
+TEST(Association, WithoutOverlapBothRangesAreNamed)
 {
-  Trajectory estimate = samples::curve(50);
+  Trajectory estimate = testing::curve(50);
   for (StampedPose& pose : estimate.poses)
     pose.stamp_ns -= kStart;
   expectThrows<std::invalid_argument>(
-      [&] { (void)associate(estimate, samples::curve(50), {}); },
+      [&] { (void)associate(estimate, testing::curve(50), {}); },
       {"0.000000000 to 4.900000000 s", "1700000000.000000000 to 1700000004.900000000 s",
        "50 are before", "clock"});
 }
 
 TEST(Association, BadOptionsAndTrajectories)
 {
-  const Trajectory t = samples::curve(5);
+  const Trajectory t = testing::curve(5);
   const auto with = [&](AssociationOptions options)
   { return [&t, options] { (void)associate(t, t, options); }; };
   expectThrows<std::invalid_argument>(with({0.0, 0.0}), {"gap"});

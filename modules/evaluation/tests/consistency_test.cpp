@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
+using testing::expectThrows;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
@@ -35,7 +35,7 @@ Trajectory drawn(const Trajectory& truth, const Matrix6d& P, double claimed, uns
   for (StampedPose& pose : estimate.poses)
   {
     Vector6d unit;
-    unit << samples::gaussian(random), samples::gaussian(random);
+    unit << testing::gaussian(random), testing::gaussian(random);
     const Vector6d e = L * unit;  // truth minus estimate
     pose.T_world_body.R = pose.T_world_body.R * expSO3(-Vec3(e.head<3>()));
     pose.T_world_body.p -= e.tail<3>();
@@ -90,7 +90,7 @@ TEST(ChiSquare, OutsideOfItsRangesIsAnError)
 
 TEST(Nees, OfOneKnownError)
 {
-  const Trajectory truth = samples::curve(2);
+  const Trajectory truth = testing::curve(2);
   Trajectory estimate = truth;
   for (StampedPose& pose : estimate.poses)
   {
@@ -109,7 +109,7 @@ TEST(Nees, OfOneKnownError)
 
 TEST(Nees, HonestCovariancesAreConsistent)
 {
-  const Trajectory truth = samples::curve(2000);
+  const Trajectory truth = testing::curve(2000);
   const Consistency c =
       consistencyOf(drawn(truth, someCovariance(), 1.0, 7), truth, NeesAlignment::None);
   for (const NeesSummary& s : {c.pose, c.position, c.rotation})
@@ -126,7 +126,7 @@ TEST(Nees, HonestCovariancesAreConsistent)
 
 TEST(Nees, WrongCovariancesAreNot)
 {
-  const Trajectory truth = samples::curve(500);
+  const Trajectory truth = testing::curve(500);
   for (const double claimed : {0.5, 2.0})
   {
     const Consistency c =
@@ -142,7 +142,7 @@ TEST(Nees, WrongCovariancesAreNot)
 /** Swapping the blocks of the covariance must not go unnoticed. */
 TEST(Nees, TheOrderOfTheBlocksMatters)
 {
-  const Trajectory truth = samples::curve(500);
+  const Trajectory truth = testing::curve(500);
   Trajectory estimate = drawn(truth, someCovariance(), 1.0, 9);
   for (Matrix6& P : estimate.covariances)
   {
@@ -157,12 +157,12 @@ TEST(Nees, TheOrderOfTheBlocksMatters)
 TEST(Nees, FirstAlignmentIsIndependentOfTheWorldFrame)
 {
   std::mt19937 random(10);
-  const Trajectory truth = samples::curve(300);
+  const Trajectory truth = testing::curve(300);
   Trajectory estimate = drawn(truth, someCovariance(), 1.0, 11);
   estimate.poses.front() = truth.poses.front();  // the filter knows its start
   const Consistency in_one_world = consistencyOf(estimate, truth, NeesAlignment::First);
   const Consistency in_another = consistencyOf(
-      estimate, samples::moved(samples::randomPose(random), truth), NeesAlignment::First);
+      estimate, testing::moved(testing::randomPose(random), truth), NeesAlignment::First);
   ASSERT_EQ(in_one_world.samples.size(), 299U);
   ASSERT_EQ(in_another.samples.size(), 299U);
   for (std::size_t i = 0; i < 299; ++i)
@@ -175,7 +175,7 @@ TEST(Nees, FirstAlignmentIsIndependentOfTheWorldFrame)
 
 TEST(Nees, SingularCovariancesAreCountedAndLeftOut)
 {
-  const Trajectory truth = samples::curve(50);
+  const Trajectory truth = testing::curve(50);
   Trajectory estimate = drawn(truth, someCovariance(), 1.0, 12);
   estimate.covariances[3] = Matrix6::Zero();
   estimate.covariances[4] *= -1.0;
@@ -189,7 +189,7 @@ TEST(Nees, SingularCovariancesAreCountedAndLeftOut)
 
 TEST(Nees, DeviationsAreTheErrorsWithTheirStandardDeviations)
 {
-  const Trajectory truth = samples::curve(20, 100'000'000);
+  const Trajectory truth = testing::curve(20, 100'000'000);
   Trajectory estimate = truth;
   estimate.poses[7].T_world_body.p.z() -= 0.5;
   const auto without = deviations(associate(estimate, truth, {}), NeesAlignment::First);

@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
+using testing::expectThrows;
 
 EvaluationReport evaluateAs(
     const Trajectory& estimate, const Trajectory& reference, Alignment alignment)
@@ -39,7 +39,7 @@ TEST(Errors, NoneForTheTruthItself)
   for (const Alignment kind :
        {Alignment::None, Alignment::First, Alignment::Yaw, Alignment::Se3, Alignment::Sim3})
   {
-    const EvaluationReport r = evaluateAs(samples::curve(), samples::curve(), kind);
+    const EvaluationReport r = evaluateAs(testing::curve(), testing::curve(), kind);
     EXPECT_NEAR(r.ape.translation.max, 0.0, 1e-9);
     EXPECT_NEAR(r.ape.rotation.max, 0.0, 1e-7);
     EXPECT_NEAR(r.rpe_second.translation.max, 0.0, 1e-9);
@@ -51,38 +51,38 @@ TEST(Errors, NoneForTheTruthItself)
 TEST(Errors, AConstantOffsetIsAbsoluteButNotRelative)
 {
   const Vec3 offset(0.3, 0.0, -0.4);
-  const Trajectory estimate = samples::shifted(samples::curve(), offset);
-  const EvaluationReport r = evaluateAs(estimate, samples::curve(), Alignment::None);
+  const Trajectory estimate = testing::shifted(testing::curve(), offset);
+  const EvaluationReport r = evaluateAs(estimate, testing::curve(), Alignment::None);
   EXPECT_NEAR(r.ape.translation.rmse, 0.5, 1e-12);
   EXPECT_NEAR(r.ape.translation.std, 0.0, 1e-12);
   EXPECT_NEAR(r.ape.rotation.max, 0.0, 1e-7);
   EXPECT_NEAR(r.rpe_second.translation.max, 0.0, 1e-9);
   EXPECT_NEAR(r.drift.error.translation, 0.0, 1e-9);
   EXPECT_NEAR(
-      evaluateAs(estimate, samples::curve(), Alignment::Se3).ape.translation.max, 0.0, 1e-9);
+      evaluateAs(estimate, testing::curve(), Alignment::Se3).ape.translation.max, 0.0, 1e-9);
 }
 
 TEST(Errors, ARotationAboutZ)
 {
   const double yaw = 0.2;
   const Trajectory estimate =
-      samples::moved({expSO3({0.0, 0.0, yaw}), Vec3::Zero()}, samples::line());
-  const EvaluationReport r = evaluateAs(estimate, samples::line(), Alignment::None);
+      testing::moved({expSO3({0.0, 0.0, yaw}), Vec3::Zero()}, testing::line());
+  const EvaluationReport r = evaluateAs(estimate, testing::line(), Alignment::None);
   // A point at distance i moves along the chord of the angle.
   EXPECT_NEAR(r.ape.translation.max, 100.0 * 2.0 * std::sin(yaw / 2.0), 1e-9);
   EXPECT_NEAR(r.ape.rotation.rmse, yaw, 1e-12);
   EXPECT_NEAR(r.ape.rotation.max, yaw, 1e-12);
   EXPECT_NEAR(r.rpe_metre.translation.max, 0.0, 1e-9);
-  EXPECT_NEAR(evaluateAs(estimate, samples::line(), Alignment::Yaw).ape.rotation.max, 0.0, 1e-7);
+  EXPECT_NEAR(evaluateAs(estimate, testing::line(), Alignment::Yaw).ape.rotation.max, 0.0, 1e-7);
 }
 
 /** 1 m per pose at 10 Hz, estimated 1 % too long. */
 TEST(Errors, AScaleErrorIsADriftOfOnePerCent)
 {
-  Trajectory estimate = samples::line();
+  Trajectory estimate = testing::line();
   for (StampedPose& pose : estimate.poses)
     pose.T_world_body.p *= 1.01;
-  const EvaluationReport r = evaluateAs(estimate, samples::line(), Alignment::First);
+  const EvaluationReport r = evaluateAs(estimate, testing::line(), Alignment::First);
   EXPECT_NEAR(r.drift.error.translation, 1.0, 1e-9);
   EXPECT_NEAR(r.drift.path_length, 100.0, 1e-9);
   EXPECT_NEAR(r.drift.ratio().value(), 0.01, 1e-12);
@@ -96,10 +96,10 @@ TEST(Errors, AScaleErrorIsADriftOfOnePerCent)
 
 TEST(Errors, SegmentsOfAScaleError)
 {
-  Trajectory estimate = samples::line();
+  Trajectory estimate = testing::line();
   for (StampedPose& pose : estimate.poses)
     pose.T_world_body.p *= 1.01;
-  const EvaluationReport r = evaluateAs(estimate, samples::line(), Alignment::None);
+  const EvaluationReport r = evaluateAs(estimate, testing::line(), Alignment::None);
   ASSERT_EQ(r.segments.size(), 5U);  // 5, 10, 25, 50 and 100 m fit
   const std::vector<std::size_t> counts{96, 91, 76, 51, 1};
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -116,10 +116,10 @@ TEST(Errors, SegmentsOfAScaleError)
 TEST(Errors, AHeadingDriftPerMetre)
 {
   const double rate = 0.001;
-  Trajectory estimate = samples::line();
+  Trajectory estimate = testing::line();
   for (StampedPose& pose : estimate.poses)
     pose.T_world_body.R = expSO3({0.0, 0.0, rate * pose.T_world_body.p.x()});
-  const EvaluationReport r = evaluateAs(estimate, samples::line(), Alignment::None);
+  const EvaluationReport r = evaluateAs(estimate, testing::line(), Alignment::None);
   EXPECT_NEAR(r.rpe_metre.rotation.mean, rate, 1e-9);
   EXPECT_NEAR(r.rpe_second.rotation.mean, 10.0 * rate, 1e-9);
   EXPECT_NEAR(r.segment_average->rotation, rate, 1e-9);
@@ -144,7 +144,7 @@ TEST(Errors, SpansAreSelectable)
   options.rpe_seconds = 2.0;
   options.rpe_metres = 50.0;
   options.segment_lengths = {30.0, 1000.0};
-  const EvaluationReport r = evaluate(samples::line(), samples::line(), options);
+  const EvaluationReport r = evaluate(testing::line(), testing::line(), options);
   EXPECT_EQ(r.rpe_second.translation.count, 81U);
   EXPECT_EQ(r.rpe_metre.translation.count, 51U);
   ASSERT_EQ(r.segments.size(), 1U);
@@ -154,12 +154,12 @@ TEST(Errors, SpansAreSelectable)
 TEST(Errors, RelativeErrorsDoNotDependOnTheWorldFrames)
 {
   std::mt19937 random(5);
-  Trajectory estimate = samples::curve();
+  Trajectory estimate = testing::curve();
   for (StampedPose& pose : estimate.poses)
-    pose.T_world_body.p += samples::gaussian(random, 0.1);
-  const EvaluationReport a = evaluateAs(estimate, samples::curve(), Alignment::None);
+    pose.T_world_body.p += testing::gaussian(random, 0.1);
+  const EvaluationReport a = evaluateAs(estimate, testing::curve(), Alignment::None);
   const EvaluationReport b = evaluateAs(
-      samples::moved(samples::randomPose(random), estimate), samples::curve(), Alignment::Se3);
+      testing::moved(testing::randomPose(random), estimate), testing::curve(), Alignment::Se3);
   EXPECT_NEAR(a.rpe_second.translation.rmse, b.rpe_second.translation.rmse, 1e-9);
   EXPECT_NEAR(a.rpe_metre.rotation.max, b.rpe_metre.rotation.max, 1e-7);
   EXPECT_NEAR(a.segment_average->translation, b.segment_average->translation, 1e-9);
@@ -169,7 +169,7 @@ TEST(Errors, RelativeErrorsDoNotDependOnTheWorldFrames)
 
 TEST(Errors, ARestingPlatformHasNoPath)
 {
-  Trajectory resting = samples::curve();
+  Trajectory resting = testing::curve();
   for (StampedPose& pose : resting.poses)
     pose.T_world_body.p = Vec3(1, 2, 3);
   const EvaluationReport r = evaluateAs(resting, resting, Alignment::First);
@@ -187,7 +187,7 @@ TEST(Errors, BadOptionsAreNamed)
     options.rpe_seconds = seconds;
     options.rpe_metres = metres;
     options.segment_lengths = std::move(lengths);
-    return [options] { (void)evaluate(samples::curve(), samples::curve(), options); };
+    return [options] { (void)evaluate(testing::curve(), testing::curve(), options); };
   };
   expectThrows<std::invalid_argument>(with(0.0, 1.0, {}), {"per second", "above 0"});
   expectThrows<std::invalid_argument>(with(1.0, std::nan(""), {}), {"per metre"});

@@ -10,12 +10,12 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
+using testing::expectThrows;
 
 /** 100 m along x at 10 m/s, estimated 1 % too long, with covariances. */
 EvaluationReport scaleErrorReport()
 {
-  Trajectory estimate = samples::line();
+  Trajectory estimate = testing::line();
   estimate.source = "a \"quoted\" <name>";
   for (StampedPose& pose : estimate.poses)
   {
@@ -24,7 +24,7 @@ EvaluationReport scaleErrorReport()
   }
   EvaluationOptions options;
   options.alignment = Alignment::First;
-  return evaluate(estimate, samples::line(), options);
+  return evaluate(estimate, testing::line(), options);
 }
 
 TEST(Gates, EachLimitIsComparedWithItsMeasure)
@@ -119,7 +119,7 @@ TEST(Report, JsonHoldsTheFigures)
 
 TEST(Report, AbsentMeasuresAreNull)
 {
-  Trajectory two = samples::line(2);
+  Trajectory two = testing::line(2);
   two.source = "bytes \xff that are not UTF-8";
   EvaluationOptions options;
   options.alignment = Alignment::First;
@@ -163,7 +163,7 @@ TEST(Report, SvgDrawsBothPathsTheHeightAndTheErrors)
 
 TEST(Report, SvgOfALongRunKeepsThePeakAndStaysSmall)
 {
-  const Trajectory truth = samples::curve(10'000, 5'000'000);
+  const Trajectory truth = testing::curve(10'000, 5'000'000);
   Trajectory estimate = truth;
   estimate.poses[2'345].T_world_body.p.z() += 5.0;
   EvaluationOptions options;

@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace fastlio::samples
+namespace fastlio::testing
 {
 constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
 constexpr std::int64_t kTenHz = 100'000'000;
@@ -94,4 +94,4 @@ void expectThrows(F f, std::initializer_list<const char*> parts)
   }
 }
 
-}  // namespace fastlio::samples
+}  // namespace fastlio::testing

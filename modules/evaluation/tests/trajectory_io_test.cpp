@@ -11,7 +11,7 @@ namespace fastlio
 {
 namespace
 {
-using samples::expectThrows;
+using testing::expectThrows;
 
 class TrajectoryIo : public ::testing::Test
 {
@@ -178,20 +178,20 @@ TEST(TrajectoryTest, WhatIsNotATrajectoryIsRefused)
 {
   const auto checking = [](const Trajectory& t) { return [&t] { requireValid(t); }; };
   expectThrows<std::invalid_argument>(checking(Trajectory{}), {"no pose"});
-  Trajectory t = samples::curve(3);
+  Trajectory t = testing::curve(3);
   EXPECT_NO_THROW(requireValid(t));
   t.covariances.resize(2, Matrix6::Identity());
   expectThrows<std::invalid_argument>(checking(t), {"3 poses", "2 covariances"});
   t.covariances.resize(3, Matrix6::Identity());
   t.covariances[2](0, 0) = std::numeric_limits<double>::quiet_NaN();
   expectThrows<std::invalid_argument>(checking(t), {"pose 2", "covariance"});
-  t = samples::curve(3);
+  t = testing::curve(3);
   t.poses[1].stamp_ns = t.poses[0].stamp_ns;
   expectThrows<std::invalid_argument>(checking(t), {"curve", "pose 1", "not newer"});
-  t = samples::curve(3);
+  t = testing::curve(3);
   t.poses[1].T_world_body.p.x() = std::numeric_limits<double>::infinity();
   expectThrows<std::invalid_argument>(checking(t), {"pose 1", "not finite"});
-  t = samples::curve(3);
+  t = testing::curve(3);
   t.poses[2].T_world_body.R *= 2.0;
   expectThrows<std::invalid_argument>(checking(t), {"pose 2", "not a rotation"});
 }

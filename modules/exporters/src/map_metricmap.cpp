@@ -17,7 +17,7 @@ namespace
 {
 constexpr unsigned char kLengthBits = 0x7F;
 
-/** What an archive holds of a map without points, around its number of points. */
+/** The bytes of a map without points in an archive, around its number of points. */
 struct EmptyMap
 {
   std::string before;  //!< class and version

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/exporters/graph_files.h>
-#include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <Eigen/Cholesky>

@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
-#include <fastlio/exporters/scan_in_world.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/run/mrpt_poses.h>
+#include <fastlio/run/scan_in_world.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "report_page.h"
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/report/report_page.h>
 
 namespace fastlio
 {

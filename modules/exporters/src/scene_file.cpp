@@ -1,12 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "bounded_path.h"
 #include "scene_objects.h"
 #include <fastlio/compat/mrpt_scene.h>
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
+#include <fastlio/run/bounded_path.h>
+#include <fastlio/run/pose_track.h>
 
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/serialization/CArchive.h>

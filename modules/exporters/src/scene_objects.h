@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file scene_objects.h What a 3D scene of a run shows (internal). */
+/** \file scene_objects.h The objects in the 3D scene of a run. */
 #pragma once
 
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/pose_output.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/pose_output.h>
 
 #include <mrpt/opengl/CSetOfObjects.h>
 

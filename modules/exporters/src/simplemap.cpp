@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservationComment.h>

@@ -108,14 +108,14 @@ const std::vector<ExporterKind>& exporterKinds()
        [](const Options& o) { return makeMetricMapExporter(o.path("map.metricmap")); }},
       {"planes", "map.planes", "map of planes that scans were matched with, for --map-in", false,
        [](const Options& o) { return makePlanesExporter(o.path("map.planes")); }},
-      {"simplemap", "keyframes.simplemap", "key frames with their raw scans", false,
+      {"simplemap", "keyframes.simplemap", "keyframes with their raw scans", false,
        makeSimpleMapExporter},
       {"rawlog", "odometry.rawlog", "odometry for other SLAM programs", false, makeRawlogExporter},
       {"graph", "poses.graph", "pose graph for MRPT", false, makeGraphExporter},
       {"g2o", "poses.g2o", "pose graph for g2o", false, makeG2oExporter},
       {"scene", "scene.3Dscene", "map, path and uncertainty for SceneViewer3D", false,
        makeSceneExporter},
-      // After the files whose problems it tells.
+      // After the files whose problems it lists.
       {"report", "report.html", "page that shows and explains the run", true, makeReportExporter},
       // The last: it lists the files before it.
       {kSummary, "summary.json", "the run: inputs, parameters, losses, speed, problems", true,

@@ -145,7 +145,7 @@ Json calibrationJson(const RunSummary& run)
   {
     json["time_offset_s"] = run.odometry.lidar.time_offset + last->x.time_offset;
     const double variance = last->P(kTimeOffset, kTimeOffset);
-    // Not a part of the state before the map can tell it: as uncertain as given.
+    // Not a part of the state before the map makes it observable: as uncertain as given.
     json["time_offset_sigma_s"] = variance > 0.0 ? std::sqrt(variance) : p.time_offset_std;
   }
   return json;

@@ -92,7 +92,7 @@ Json writtenSummary(const RunSummary& run)
   return Json::parse(contentOf(folder.file("summary.json")));
 }
 
-TEST(SummaryJson, TellsTheRun)
+TEST(SummaryJson, DescribesTheRun)
 {
   RunSummary run = goodRun();
   run.program = "fastlio-replay";
@@ -133,7 +133,7 @@ TEST(SummaryJson, HoldsEveryParameterWithItsType)
   EXPECT_EQ(parameters["input"]["lidar_sensor_label"], "[1]");
 }
 
-TEST(SummaryJson, TellsTheFirstBadSecondAndWhy)
+TEST(SummaryJson, GivesTheFirstBadSecondAndItsCause)
 {
   RunSummary run;
   ScanResult starting = resultAt(0, ScanStatus::Initializing, 0, 1);
@@ -190,7 +190,7 @@ TEST(Summary, HasTheCalibrationThatWasAskedFor)
   EXPECT_TRUE(calibration.contains("rotation_sigma_deg"));
 }
 
-TEST(Summary, TellsTheTimeOffsetAsGivenBeforeTheMapCanTellIt)
+TEST(Summary, GivesTheTimeOffsetOfTheOptionsUntilItIsObservable)
 {
   RunSummary run;
   ScanResult result = resultAt(0, ScanStatus::Tracking, 0, 1);

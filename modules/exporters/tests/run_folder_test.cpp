@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "folder_listing.h"
-#include <fastlio/exporters/run_folder.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/run/run_folder.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,7 +31,7 @@ class RunFolderTest : public ::testing::Test
     std::ofstream(folder_.file(name), std::ios::binary) << content;
   }
 
-  /** What an earlier run into this folder left, where it had another name. */
+  /** The files that an earlier run left in this folder under another name. */
   void writeEarlierRun() const
   {
     write("a.csv", "old");

@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "bounded_path.h"
 #include "output_test_support.h"
 #include <fastlio/compat/mrpt_scene.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/run/bounded_path.h>
 
 #include <mrpt/opengl/CEllipsoid3D.h>
 #include <mrpt/opengl/CPointCloudColoured.h>

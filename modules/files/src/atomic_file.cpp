@@ -85,7 +85,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path))
   else
     openTemporary(withLinksFollowed(path_));
   if (!file_.isOpen()) failWriting(path_);
-  // What was private stays private.
+  // A private file stays private.
   if (exists && !temporary_.empty()) (void)fchmod(file_.get(), existing.st_mode & kPermissions);
 }
 

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file write_failure.h What is said when a file cannot be written. */
+/** \file write_failure.h The message when a file cannot be written. */
 #pragma once
 
 #include <string>

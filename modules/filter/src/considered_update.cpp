@@ -19,7 +19,7 @@ void takeOut(Square& projection, StateBlock block, const Vec3& axis)
 }
 
 /** Moves the body where the full step moves the scan, and leaves the calibration as it is: a scan
- * that cannot tell where the body is cannot tell where the LiDAR is on it, nor when it was there.
+ * that does not constrain the body does not constrain the LiDAR on it, nor its clock.
  */
 Square withoutCalibration(const ScanPoseJacobian& by_state)
 {
@@ -30,7 +30,7 @@ Square withoutCalibration(const ScanPoseJacobian& by_state)
   return projection;
 }
 
-/** What of the full step is taken. */
+/** The part of the full step that is taken. */
 Square estimatedPart(
     const std::vector<MotionDirection>& directions, const ScanPoseJacobian& by_state, const Mat3& R)
 {

@@ -86,7 +86,7 @@ NavState exactMotion(const Vec3& w, const Vec3& a, double t)
   return x;
 }
 
-TEST(BackwardPropagation, knotsMeetTheForwardStates)
+TEST(BackwardPropagation, KnotsMeetTheForwardStates)
 {
   testing::Random random(21);
   for (const double rate : {0.0, 0.1, 3.0, 20.0})
@@ -108,7 +108,7 @@ TEST(BackwardPropagation, knotsMeetTheForwardStates)
   }
 }
 
-TEST(BackwardPropagation, knotsCarryStampsAndInputs)
+TEST(BackwardPropagation, KnotsCarryStampsAndInputs)
 {
   testing::Random random(22);
   const Scan scan = randomScan(random, 20, 1.0);
@@ -168,7 +168,7 @@ double distanceFromEquation9(int n)
   return distance;
 }
 
-TEST(BackwardPropagation, agreesWithEquation9ToFirstOrder)
+TEST(BackwardPropagation, AgreesWithEquation9ToFirstOrder)
 {
   const double coarse = distanceFromEquation9(20);
   const double fine = distanceFromEquation9(200);
@@ -198,7 +198,7 @@ double errorAgainstExactMotion(int n)
   return error;
 }
 
-TEST(BackwardPropagation, convergesToTheExactMotionWithTheSampleRate)
+TEST(BackwardPropagation, ConvergesToTheExactMotionWithTheSampleRate)
 {
   const double at_200_hz = errorAgainstExactMotion(20);
   const double at_2_khz = errorAgainstExactMotion(200);
@@ -206,7 +206,7 @@ TEST(BackwardPropagation, convergesToTheExactMotionWithTheSampleRate)
   EXPECT_NEAR(at_200_hz / at_2_khz, 100.0, 5.0);  // of second order
 }
 
-TEST(BodyPoseAt, isExactForConstantVelocityAndRate)
+TEST(BodyPoseAt, IsExactForConstantVelocityAndRate)
 {
   // Without acceleration the zero-order hold is no approximation: every instant is exact.
   testing::Random random(23);
@@ -234,7 +234,7 @@ TEST(BodyPoseAt, isExactForConstantVelocityAndRate)
   }
 }
 
-TEST(BodyPoseAt, isContinuousAtTheKnots)
+TEST(BodyPoseAt, IsContinuousAtTheKnots)
 {
   testing::Random random(24);
   const Scan scan = randomScan(random, 20, 5.0);
@@ -250,7 +250,7 @@ TEST(BodyPoseAt, isContinuousAtTheKnots)
   }
 }
 
-TEST(BackwardPropagation, withoutSamplesTheVelocityCarriesOn)
+TEST(BackwardPropagation, WithoutSamplesTheVelocityCarriesOn)
 {
   testing::Random random(25);
   const NavState end = random.state();
@@ -262,7 +262,7 @@ TEST(BackwardPropagation, withoutSamplesTheVelocityCarriesOn)
   EXPECT_LT((pose.p + 0.05 * end.R.transpose() * end.v).norm(), 1e-14);
 }
 
-TEST(BackwardPropagation, samplesAtOrAfterTheEndTakeNoPart)
+TEST(BackwardPropagation, SamplesAtOrAfterTheEndTakeNoPart)
 {
   testing::Random random(26);
   const Scan scan = randomScan(random, 10, 1.0);
@@ -276,7 +276,7 @@ TEST(BackwardPropagation, samplesAtOrAfterTheEndTakeNoPart)
     EXPECT_EQ(knots[i].p, expected[i].p);
 }
 
-TEST(BackwardPropagation, badInputIsRefusedByName)
+TEST(BackwardPropagation, BadInputIsRefusedByName)
 {
   std::vector<MotionKnot> knots;
   std::vector<ImuSample> jump(2);

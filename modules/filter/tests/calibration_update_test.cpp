@@ -23,7 +23,7 @@ ScanPoseJacobian randomJacobian(Random& random)
   return scanPoseJacobian(x, c);
 }
 
-TEST(CalibrationUpdate, bothGainsAgreeOnAllColumns)
+TEST(CalibrationUpdate, BothGainsAgreeOnAllColumns)
 {
   Random random(51);
   for (const int count : {1, 6, 40})
@@ -40,7 +40,7 @@ TEST(CalibrationUpdate, bothGainsAgreeOnAllColumns)
   }
 }
 
-TEST(CalibrationUpdate, aKnownCalibrationStaysAsItIs)
+TEST(CalibrationUpdate, AKnownCalibrationStaysAsItIs)
 {
   Random random(52);
   FilterState prior{random.state(), random.covariance(0.1, 10.0)};
@@ -85,7 +85,7 @@ MiscalibratedScan scanOf(Random& random, const NavState& truth, const NavState& 
   return scan;
 }
 
-TEST(CalibrationUpdate, motionRevealsExtrinsicAndTimeOffset)
+TEST(CalibrationUpdate, MotionRevealsExtrinsicAndTimeOffset)
 {
   // The body's pose and motion are known well, and differ from scan to scan.
   Random random(53);
@@ -118,7 +118,7 @@ TEST(CalibrationUpdate, motionRevealsExtrinsicAndTimeOffset)
   EXPECT_LT(std::sqrt(estimate.P(kTimeOffset, kTimeOffset)), 5e-4);
 }
 
-TEST(CalibrationUpdate, whatMotionDoesNotShowKeepsItsPrior)
+TEST(CalibrationUpdate, WhatMotionDoesNotShowKeepsItsPrior)
 {
   // At rest the time offset does nothing to the points.
   Random random(54);

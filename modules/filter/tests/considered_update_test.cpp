@@ -19,7 +19,7 @@ MeasurementEvaluation evaluationOf(const StackedMeasurements& m)
   return e;
 }
 
-TEST(ConsideringStep, isTheFullStepWhenAllDirectionsAreConstrained)
+TEST(ConsideringStep, IsTheFullStepWhenAllDirectionsAreConstrained)
 {
   Random random(71);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
@@ -31,7 +31,7 @@ TEST(ConsideringStep, isTheFullStepWhenAllDirectionsAreConstrained)
   EXPECT_LT((same.P - full.P).norm(), 1e-9 * full.P.norm());
 }
 
-TEST(ConsideringStep, leavesTheDirectionAloneInAllBlocks)
+TEST(ConsideringStep, LeavesTheDirectionAloneInAllBlocks)
 {
   Random random(72);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
@@ -57,7 +57,7 @@ TEST(ConsideringStep, leavesTheDirectionAloneInAllBlocks)
 
 // The scan pose is known well, the calibration hardly: the gain of body pose and calibration each
 // is large, with opposite signs. Taking one without the other would throw the scan off.
-TEST(ConsideringStep, leavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
+TEST(ConsideringStep, LeavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
 {
   Random random(75);
   FilterState prior{random.state(), random.covariance(1e-3, 1e-2)};
@@ -83,7 +83,7 @@ TEST(ConsideringStep, leavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
   EXPECT_LT(variance(step.P), variance(prior.P));
 }
 
-TEST(ConsideringStep, leavesARotationAlone)
+TEST(ConsideringStep, LeavesARotationAlone)
 {
   Random random(73);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
@@ -96,7 +96,7 @@ TEST(ConsideringStep, leavesARotationAlone)
   EXPECT_GT(std::abs(step.dx[kAttitude]), 1e-6);
 }
 
-TEST(ConsideringStep, noisyDirectionsDoNotPileUpKnowledge)
+TEST(ConsideringStep, NoisyDirectionsDoNotPileUpKnowledge)
 {
   // One direction is never measured, but each scan takes a slightly tilted one for it.
   Random random(74);

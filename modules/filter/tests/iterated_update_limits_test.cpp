@@ -36,7 +36,7 @@ MeasurementModel pull(double amount)
   };
 }
 
-TEST(IteratedUpdateLimits, stopsAtTheIterationLimit)
+TEST(IteratedUpdateLimits, StopsAtTheIterationLimit)
 {
   FilterState prior;
   prior.P = StateMatrix::Identity();
@@ -61,7 +61,7 @@ TEST(IteratedUpdateLimits, stopsAtTheIterationLimit)
   }
 }
 
-TEST(IteratedUpdateLimits, eachComponentHasItsOwnThreshold)
+TEST(IteratedUpdateLimits, EachComponentHasItsOwnThreshold)
 {
   // Every component is fully correlated with the position, so that one pull moves all of them by
   // the same amount; tightening the limit of any one of them must keep the filter iterating.
@@ -92,7 +92,7 @@ void expectUntouched(const UpdateResult& r, const FilterState& prior)
   EXPECT_EQ(r.posterior.x.g, prior.x.g);
 }
 
-TEST(IteratedUpdateLimits, withoutMeasurementsThePriorStays)
+TEST(IteratedUpdateLimits, WithoutMeasurementsThePriorStays)
 {
   Random random(49);
   const Problem p = problemOff(random, 0.1);
@@ -105,7 +105,7 @@ TEST(IteratedUpdateLimits, withoutMeasurementsThePriorStays)
   }
 }
 
-TEST(IteratedUpdateLimits, matchesLostOnTheWayLeaveThePrior)
+TEST(IteratedUpdateLimits, MatchesLostOnTheWayLeaveThePrior)
 {
   Random random(50);
   const Problem p = problemOff(random, 0.2);
@@ -118,7 +118,7 @@ TEST(IteratedUpdateLimits, matchesLostOnTheWayLeaveThePrior)
   EXPECT_EQ(r.iterations, 2);
 }
 
-TEST(IteratedUpdateLimits, nonFiniteNumbersNeverEnterTheState)
+TEST(IteratedUpdateLimits, NonFiniteNumbersNeverEnterTheState)
 {
   Random random(51);
   const Problem p = problemOff(random, 0.2);
@@ -147,7 +147,7 @@ TEST(IteratedUpdateLimits, nonFiniteNumbersNeverEnterTheState)
   }
 }
 
-TEST(IteratedUpdateLimits, aNonFiniteStepFromFiniteSumsIsNotTaken)
+TEST(IteratedUpdateLimits, ANonFiniteStepFromFiniteSumsIsNotTaken)
 {
   Random random(52);
   Problem p = problemOff(random, 0.1);
@@ -160,7 +160,7 @@ TEST(IteratedUpdateLimits, aNonFiniteStepFromFiniteSumsIsNotTaken)
   }
 }
 
-TEST(IteratedUpdateLimits, wrongUseIsRefused)
+TEST(IteratedUpdateLimits, WrongUseIsRefused)
 {
   FilterState prior;
   prior.P = StateMatrix::Identity();

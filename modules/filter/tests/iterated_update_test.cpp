@@ -19,7 +19,7 @@ using testing::problemOff;
 using testing::Random;
 using testing::tightLimits;
 
-TEST(IteratedUpdate, exactPlanesRecoverThePose)
+TEST(IteratedUpdate, ExactPlanesRecoverThePose)
 {
   Random random(41);
   for (int i = 0; i < 20; ++i)
@@ -37,7 +37,7 @@ TEST(IteratedUpdate, exactPlanesRecoverThePose)
   }
 }
 
-TEST(IteratedUpdate, iteratingIsWhatRemovesTheNonlinearity)
+TEST(IteratedUpdate, IteratingIsWhatRemovesTheNonlinearity)
 {
   Random random(42);
   Problem p = problemOff(random, 0.2);
@@ -55,7 +55,7 @@ TEST(IteratedUpdate, iteratingIsWhatRemovesTheNonlinearity)
   EXPECT_LT(error(5), 1e-6);
 }
 
-TEST(IteratedUpdate, bothGainsEndAtTheSamePosterior)
+TEST(IteratedUpdate, BothGainsEndAtTheSamePosterior)
 {
   Random random(43);
   for (const int count : {4, 20, 150})
@@ -80,7 +80,7 @@ double mapCost(
          testing::sumsOf(testing::residualsOf(m, x, kSigma)).weighted_squares;
 }
 
-TEST(IteratedUpdate, endsAtTheMaximumAPosteriori)
+TEST(IteratedUpdate, EndsAtTheMaximumAPosteriori)
 {
   constexpr double kStep = 1e-5;
   Random random(44);
@@ -104,7 +104,7 @@ TEST(IteratedUpdate, endsAtTheMaximumAPosteriori)
   }
 }
 
-TEST(IteratedUpdate, posteriorCovarianceIsThatOfTheErrors)
+TEST(IteratedUpdate, PosteriorCovarianceIsThatOfTheErrors)
 {
   // Draw truths from the prior and noise from R: e^T P_bar^-1 e averages to the dimension.
   Random random(45);
@@ -125,7 +125,7 @@ TEST(IteratedUpdate, posteriorCovarianceIsThatOfTheErrors)
   EXPECT_NEAR(nees, kStateDim, 1.0);
 }
 
-TEST(IteratedUpdate, posteriorCovarianceIsSymmetricPositiveAndSmaller)
+TEST(IteratedUpdate, PosteriorCovarianceIsSymmetricPositiveAndSmaller)
 {
   Random random(46);
   for (int i = 0; i < 20; ++i)
@@ -141,7 +141,7 @@ TEST(IteratedUpdate, posteriorCovarianceIsSymmetricPositiveAndSmaller)
   }
 }
 
-TEST(IteratedUpdate, covarianceRefersToThePosteriorsTangentSpace)
+TEST(IteratedUpdate, CovarianceRefersToThePosteriorsTangentSpace)
 {
   // One large step: the covariance of the step is at the prior, the posterior's a rotation away.
   Random random(47);
@@ -155,7 +155,7 @@ TEST(IteratedUpdate, covarianceRefersToThePosteriorsTangentSpace)
   EXPECT_LT((r.posterior.P - J_inv * step.P * J_inv.transpose()).norm(), 1e-13 * step.P.norm());
 }
 
-TEST(IteratedUpdate, aCorridorLeavesItsAxisToThePrior)
+TEST(IteratedUpdate, ACorridorLeavesItsAxisToThePrior)
 {
   // Walls, floor and ceiling fix all but the position along x, which must neither move nor shrink.
   Random random(48);

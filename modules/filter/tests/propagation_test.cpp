@@ -60,7 +60,7 @@ NoiseVector discreteVariances(const ImuNoise& noise, double dt)
   return q;
 }
 
-TEST(Propagation, meanFollowsTheProcessModel)
+TEST(Propagation, MeanFollowsTheProcessModel)
 {
   NavState x;
   x.v = Vec3(1.0, 2.0, 3.0);
@@ -78,7 +78,7 @@ TEST(Propagation, meanFollowsTheProcessModel)
   EXPECT_EQ(y.g, x.g);
 }
 
-TEST(Propagation, restingSensorStaysAtRest)
+TEST(Propagation, RestingSensorStaysAtRest)
 {
   testing::Random random(11);
   NavState x = random.state();
@@ -107,7 +107,7 @@ std::pair<double, double> errorsAfterOneSecond(const Vec3& w, const Vec3& a, int
 }
 
 // A scheme of first order lags half a step behind, as if the clocks differed by so much.
-TEST(Propagation, isOfSecondOrder)
+TEST(Propagation, IsOfSecondOrder)
 {
   const Vec3 w(0.5, -1.0, 2.0), a(1.0, 5.0, 9.8);
   const auto [p_50, v_50] = errorsAfterOneSecond(w, a, 50);
@@ -156,7 +156,7 @@ TEST(Propagation, FwIsTheDerivativeByTheNoise)
   }
 }
 
-TEST(Propagation, covarianceIsEquation8)
+TEST(Propagation, CovarianceIsEquation8)
 {
   testing::Random random(14);
   const ImuNoise noise{0.3, 0.7, 0.05, 0.09};
@@ -173,7 +173,7 @@ TEST(Propagation, covarianceIsEquation8)
   }
 }
 
-TEST(Propagation, noiseGrowsWithTimeWhateverTheSampleRate)
+TEST(Propagation, NoiseGrowsWithTimeWhateverTheSampleRate)
 {
   // A random walk of density s has the variance s^2 T after T seconds, at 100 Hz as at 1 kHz.
   const ImuNoise noise{1e-3, 1e-2, 1e-4, 1e-3};
@@ -195,7 +195,7 @@ TEST(Propagation, noiseGrowsWithTimeWhateverTheSampleRate)
   }
 }
 
-TEST(Propagation, covarianceStaysSymmetricAndPositiveWithoutUpdates)
+TEST(Propagation, CovarianceStaysSymmetricAndPositiveWithoutUpdates)
 {
   testing::Random random(16);
   FilterState s{NavState{}, StateMatrix::Zero()};
@@ -210,7 +210,7 @@ TEST(Propagation, covarianceStaysSymmetricAndPositiveWithoutUpdates)
   EXPECT_GT(testing::eigenvaluesOf(s.P).minCoeff(), -1e-12 * s.P.norm());
 }
 
-TEST(Propagation, aStepOfNoLengthChangesNothing)
+TEST(Propagation, AStepOfNoLengthChangesNothing)
 {
   testing::Random random(17);
   const FilterState s{random.state(), random.covariance(1.0, 10.0)};
@@ -220,7 +220,7 @@ TEST(Propagation, aStepOfNoLengthChangesNothing)
   EXPECT_EQ(out.x.p, s.x.p);
 }
 
-TEST(Propagation, aStepBackInTimeIsRefused)
+TEST(Propagation, AStepBackInTimeIsRefused)
 {
   const FilterState s;
   for (const double dt : {-0.005, std::numeric_limits<double>::quiet_NaN()})
@@ -230,7 +230,7 @@ TEST(Propagation, aStepBackInTimeIsRefused)
   }
 }
 
-TEST(Propagation, transitionIsTheProductOfTheJacobians)
+TEST(Propagation, TransitionIsTheProductOfTheJacobians)
 {
   testing::Random random(19);
   StateMatrix Phi = StateMatrix::Identity();
@@ -261,7 +261,7 @@ NavState motionWith(
   return x;
 }
 
-TEST(Propagation, sensitivityIsTheDerivativeByTheMatricesOfTheSensor)
+TEST(Propagation, SensitivityIsTheDerivativeByTheMatricesOfTheSensor)
 {
   constexpr double kStep = 1e-5;
   const std::vector<Case> all = cases(18);

@@ -14,7 +14,7 @@ namespace
 {
 using testing::Random;
 
-/** What the points of a scan were compensated with, at some distance from \a x. */
+/** The compensation of a scan's points, at some distance from \a x. */
 CompensatedWith compensationNear(Random& random, const NavState& x, double distance)
 {
   CompensatedWith c;
@@ -33,7 +33,7 @@ Vector6 difference(const Pose& b, const Pose& a)
   return d;
 }
 
-TEST(ScanPose, isTheBodyPoseWithTheCalibrationOfTheCompensation)
+TEST(ScanPose, IsTheBodyPoseWithTheCalibrationOfTheCompensation)
 {
   Random random(41);
   const NavState x = random.state();
@@ -45,7 +45,7 @@ TEST(ScanPose, isTheBodyPoseWithTheCalibrationOfTheCompensation)
       (J.leftCols<kNavigationDim>() - bodyPoseJacobian().leftCols<kNavigationDim>()).norm(), 1e-12);
 }
 
-TEST(ScanPose, ofABodyAtRestDoesNotDependOnTheTimeOffset)
+TEST(ScanPose, OfABodyAtRestDoesNotDependOnTheTimeOffset)
 {
   Random random(43);
   NavState x = random.state();
@@ -58,7 +58,7 @@ TEST(ScanPose, ofABodyAtRestDoesNotDependOnTheTimeOffset)
   EXPECT_EQ(difference(scanPose(x, c), before).norm(), 0.0);
 }
 
-TEST(ScanPose, jacobianIsTheDerivative)
+TEST(ScanPose, JacobianIsTheDerivative)
 {
   constexpr double kStep = 1e-6;
   Random random(42);
@@ -80,7 +80,7 @@ TEST(ScanPose, jacobianIsTheDerivative)
   }
 }
 
-TEST(ScanPose, movesPointsAsANewCompensationWould)
+TEST(ScanPose, MovesPointsAsANewCompensationWould)
 {
   // A point at the scan's end, measured with the extrinsic T: the correction moves it as C T does.
   Random random(43);
@@ -94,7 +94,7 @@ TEST(ScanPose, movesPointsAsANewCompensationWould)
   EXPECT_LT((scanPose(x, c) * p_body - expected).norm(), 1e-12);
 }
 
-TEST(ScanPose, aLaterStampFindsTheBodyFurtherOnItsWay)
+TEST(ScanPose, ALaterStampFindsTheBodyFurtherOnItsWay)
 {
   NavState x;
   x.v = Vec3(2.0, 0.0, 0.0);

@@ -24,7 +24,7 @@ StateVector randomStep(testing::Random& random)
   return dx;
 }
 
-TEST(State, boxplusOfZeroIsTheSameState)
+TEST(State, BoxplusOfZeroIsTheSameState)
 {
   testing::Random random(1);
   const NavState x = random.state();
@@ -32,7 +32,7 @@ TEST(State, boxplusOfZeroIsTheSameState)
   EXPECT_LT(boxminus(x, x).norm(), 1e-15);
 }
 
-TEST(State, boxminusInvertsBoxplus)
+TEST(State, BoxminusInvertsBoxplus)
 {
   testing::Random random(2);
   for (int i = 0; i < 500; ++i)
@@ -43,7 +43,7 @@ TEST(State, boxminusInvertsBoxplus)
   }
 }
 
-TEST(State, boxplusInvertsBoxminus)
+TEST(State, BoxplusInvertsBoxminus)
 {
   testing::Random random(3);
   for (int i = 0; i < 500; ++i)
@@ -56,7 +56,7 @@ TEST(State, boxplusInvertsBoxminus)
   }
 }
 
-TEST(State, boxminusIsADistance)
+TEST(State, BoxminusIsADistance)
 {
   // |a [-] b| is symmetric and obeys the triangle inequality, as the axioms of [+] demand.
   testing::Random random(4);
@@ -70,7 +70,7 @@ TEST(State, boxminusIsADistance)
   }
 }
 
-TEST(State, attitudeErrorIsInTheBodyFrame)
+TEST(State, AttitudeErrorIsInTheBodyFrame)
 {
   testing::Random random(5);
   const NavState x = random.state();
@@ -79,7 +79,7 @@ TEST(State, attitudeErrorIsInTheBodyFrame)
   EXPECT_LT((boxplus(x, dx).R - x.R * expSO3(Vec3(0.1, -0.2, 0.3))).norm(), 1e-15);
 }
 
-TEST(State, blocksAreWhereTheErrorStateSaysTheyAre)
+TEST(State, BlocksAreWhereTheErrorStateSaysTheyAre)
 {
   StateVector dx;
   for (int i = 0; i < kStateDim; ++i)
@@ -97,7 +97,7 @@ TEST(State, blocksAreWhereTheErrorStateSaysTheyAre)
   EXPECT_EQ(x.time_offset, dx[24]);
 }
 
-TEST(State, nonFiniteNumbersAreSeenInEveryComponent)
+TEST(State, NonFiniteNumbersAreSeenInEveryComponent)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
@@ -123,7 +123,7 @@ TEST(State, nonFiniteNumbersAreSeenInEveryComponent)
   }
 }
 
-TEST(State, poseTransformsCompose)
+TEST(State, PoseTransformsCompose)
 {
   testing::Random random(6);
   const Pose a = random.state().pose();
@@ -140,7 +140,7 @@ constexpr bool hasPlainLayout(std::size_t doubles)
   return alignof(T) <= alignof(double) && sizeof(T) == doubles * sizeof(double);
 }
 
-TEST(State, layoutOfPublicTypesDoesNotDependOnCompilerFlags)
+TEST(State, LayoutOfPublicTypesDoesNotDependOnCompilerFlags)
 {
   EXPECT_TRUE(hasPlainLayout<Pose>(12));
   EXPECT_TRUE(hasPlainLayout<NavState>(24 + 13));

@@ -36,7 +36,7 @@ void expectCovariance(const StateMatrix& P)
   EXPECT_GT(testing::eigenvaluesOf(P).minCoeff(), 0.0);
 }
 
-TEST(PriorJacobian, isTheDerivativeOfEquation15)
+TEST(PriorJacobian, IsTheDerivativeOfEquation15)
 {
   // x_kappa [+] dx [-] x_hat = x_kappa [-] x_hat + J dx.
   constexpr double kStep = 1e-5;
@@ -58,7 +58,7 @@ TEST(PriorJacobian, isTheDerivativeOfEquation15)
   }
 }
 
-TEST(UpdateStep, bothGainsGiveTheSameStepAndCovariance)
+TEST(UpdateStep, BothGainsGiveTheSameStepAndCovariance)
 {
   Random random(32);
   for (const int count : {1, 2, 5, 6, 7, 30, 200})
@@ -108,7 +108,7 @@ UpdateStep equation20(
   return step;
 }
 
-TEST(UpdateStep, informationStepIsEquation20ToTheLetter)
+TEST(UpdateStep, InformationStepIsEquation20ToTheLetter)
 {
   Random random(33);
   for (const int count : {3, 10, 100})
@@ -125,7 +125,7 @@ TEST(UpdateStep, informationStepIsEquation20ToTheLetter)
   }
 }
 
-TEST(UpdateStep, whatIsKnownExactlyStaysAsItIs)
+TEST(UpdateStep, WhatIsKnownExactlyStaysAsItIs)
 {
   // Zero variance of attitude, gyro bias and gravity: P is singular, eq. 20 as printed fails.
   Random random(34);
@@ -146,7 +146,7 @@ TEST(UpdateStep, whatIsKnownExactlyStaysAsItIs)
   EXPECT_GT(step.dx.segment<3>(kPosition).norm(), 1e-6);
 }
 
-TEST(UpdateStep, withoutAnyUncertaintyNothingMoves)
+TEST(UpdateStep, WithoutAnyUncertaintyNothingMoves)
 {
   Random random(35);
   const FilterState prior{random.state(), StateMatrix::Zero()};
@@ -156,7 +156,7 @@ TEST(UpdateStep, withoutAnyUncertaintyNothingMoves)
   EXPECT_EQ(step.P.norm(), 0.0);
 }
 
-TEST(UpdateStep, aVeryWeakPriorLeavesWhatTheMeasurementsSay)
+TEST(UpdateStep, AVeryWeakPriorLeavesWhatTheMeasurementsSay)
 {
   // Twelve orders of magnitude between prior and posterior: the pose's posterior is S^-1.
   Random random(36);
@@ -169,7 +169,7 @@ TEST(UpdateStep, aVeryWeakPriorLeavesWhatTheMeasurementsSay)
   EXPECT_LT((step.dx.head<6>() - dx).norm(), 1e-7 * dx.norm());
 }
 
-TEST(UpdateStep, withoutMeasurementsTheIterateReturnsToThePrior)
+TEST(UpdateStep, WithoutMeasurementsTheIterateReturnsToThePrior)
 {
   Random random(37);
   const FilterState prior{random.state(), random.covariance(0.1, 10.0)};
@@ -184,7 +184,7 @@ TEST(UpdateStep, withoutMeasurementsTheIterateReturnsToThePrior)
   }
 }
 
-TEST(UpdateStep, correlationsCarryTheCorrectionToVelocityAndBiases)
+TEST(UpdateStep, CorrelationsCarryTheCorrectionToVelocityAndBiases)
 {
   // One scalar measurement of x with variance r; velocity correlated with it: the textbook gain.
   FilterState prior;
@@ -204,7 +204,7 @@ TEST(UpdateStep, correlationsCarryTheCorrectionToVelocityAndBiases)
   EXPECT_NEAR(step.P(kPosition, kVelocity), 3.0 / 5.0, 1e-14);
 }
 
-TEST(UpdateStep, unevenColumnsAreRefused)
+TEST(UpdateStep, UnevenColumnsAreRefused)
 {
   StackedMeasurements m;
   m.h.push_back(Vector6::Unit(0));

@@ -15,7 +15,7 @@ namespace fastlio
 {
 namespace
 {
-// The first samples tell the unit.
+// The first samples determine the unit.
 constexpr std::int64_t kUnitTimeNs = 200'000'000;
 constexpr std::size_t kUnitFewest = 10, kUnitMost = 200;
 // Below these, a value that repeats is no end of a range.
@@ -206,14 +206,14 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
     report_.longest_gap = std::max(report_.longest_gap, interval);
   }
   if (!gap && !spike) return inflation;
-  // What the motion does in between grows with the time it has.
+  // The effect of the motion in between grows with the time.
   const double fraction = std::min(1.0, interval / parameters_.max_gap);
   return NoiseInflation{
       *last_ns_, sample.stamp_ns, fraction * kGapGyroStd, fraction * kGapAccelStd,
       gap ? InertialFault::Gap : InertialFault::Spike};
 }
 
-/** An input between two samples is in doubt when one of them is. */
+/** The noise of an input between two samples is inflated when that of one of them is. */
 std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample& sample)
 {
   const double gyro = gyro_clipping_.add(sample.gyro), accel = accel_clipping_.add(sample.accel);

@@ -26,7 +26,7 @@ constexpr std::int64_t kWindowNs = 250'000'000;
 constexpr std::int64_t kLongestPauseNs = 50'000'000;  // within a window
 constexpr std::size_t kFewestSamples = 8;             // in a window
 constexpr std::size_t kAveraged = 3;                  // at each end of a window
-constexpr double kTellingTurn = 0.5;                  // readings that differ by more tell [rad]
+constexpr double kDistinctTurn = 0.5;                 // readings that differ by more decide [rad]
 constexpr std::size_t kTellingWindows = 4;
 constexpr double kClearRatio = 3.0;                       // of the errors
 constexpr double kLargestMeanError = 0.35;                // of the better reading [rad]
@@ -148,7 +148,7 @@ void GyroUnitTest::closeWindow()
     const Vec3 last = meanAccel(window_, window_.size() - kAveraged);
     const Vec3 as_radians = rotationOver(window_, 1.0).transpose() * first;
     const Vec3 as_degrees = rotationOver(window_, kRadPerDeg).transpose() * first;
-    if (angleBetween(as_radians, as_degrees) > kTellingTurn)
+    if (angleBetween(as_radians, as_degrees) > kDistinctTurn)
     {
       ++windows_;
       error_as_radians_ += angleBetween(as_radians, last);

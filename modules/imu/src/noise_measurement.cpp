@@ -10,9 +10,9 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kShare = 1.0 / 3.0;  // of the measured density that counts
-constexpr double kMemory = 50.0;      // samples that an estimate averages over
-constexpr double kLeast = 20.0;       // fewer tell nothing
+constexpr double kCountedFraction = 1.0 / 3.0;  // of the measured density that counts
+constexpr double kMemory = 50.0;                // samples that an estimate averages over
+constexpr double kLeast = 20.0;                 // fewer say nothing
 // Third differences of three axes: their mean square over the variance of one axis.
 constexpr double kGain = 3.0 * 20.0;
 constexpr double kMostUnevenSpacing = 1.8;  // beyond it, a sample is missing
@@ -61,8 +61,10 @@ ImuNoise NoiseMeasurement::atLeast(const ImuNoise& noise) const
 {
   ImuNoise grown = noise;
   if (count_ < kLeast) return grown;
-  grown.gyro_noise_density = std::max(noise.gyro_noise_density, kShare * std::sqrt(mean_.gyro));
-  grown.accel_noise_density = std::max(noise.accel_noise_density, kShare * std::sqrt(mean_.accel));
+  grown.gyro_noise_density =
+      std::max(noise.gyro_noise_density, kCountedFraction * std::sqrt(mean_.gyro));
+  grown.accel_noise_density =
+      std::max(noise.accel_noise_density, kCountedFraction * std::sqrt(mean_.accel));
   return grown;
 }
 

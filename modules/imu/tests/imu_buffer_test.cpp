@@ -199,7 +199,7 @@ TEST(ImuBuffer, FindsTheLongestGapThatAnIntervalTouches)
   EXPECT_EQ(buffer.longestGap(kFirstStamp, kFirstStamp + 6 * kMs), 40 * kMs);
   EXPECT_EQ(buffer.longestGap(kFirstStamp + 20 * kMs, kFirstStamp + 30 * kMs), 40 * kMs);
   EXPECT_EQ(buffer.longestGap(kFirstStamp + 45 * kMs, kFirstStamp + 50 * kMs), 5 * kMs);
-  // What is missing at the ends counts too.
+  // Samples missing at the ends count too.
   EXPECT_EQ(buffer.longestGap(kFirstStamp + 46 * kMs, kFirstStamp + 150 * kMs), 100 * kMs);
   EXPECT_EQ(buffer.longestGap(kFirstStamp - 70 * kMs, kFirstStamp + 4 * kMs), 70 * kMs);
 }

@@ -105,7 +105,7 @@ TEST_P(AccelUnits, AreFoundFromTheMagnitude)
 INSTANTIATE_TEST_SUITE_P(
     Unit, AccelUnits, ::testing::Values(AccelUnit::Si, AccelUnit::G, AccelUnit::MilliG));
 
-TEST(ImuConditioner, AnUnknownUnitIsToldAndLeftAlone)
+TEST(ImuConditioner, AnUnknownUnitIsReportedAndLeftAlone)
 {
   auto raw = tilting(100);
   for (ImuSample& s : raw)

@@ -115,7 +115,7 @@ TEST(RestDetector, CreepingAwayEndsRestBeforeItShows)
 {
   Feed feed;
   ASSERT_TRUE(feed.run(5.0));
-  feed.velocity = {0.02, 0.0, 0.0};  // without any acceleration that would tell
+  feed.velocity = {0.02, 0.0, 0.0};  // without any acceleration that would show it
   EXPECT_FALSE(feed.run(2.0));
 }
 

@@ -71,7 +71,7 @@ std::string PointTimeFacts::periodText() const
   return "usual scan period of " + durationText(kUsualPeriod) + " (there is one scan only)";
 }
 
-double PointTimeFacts::shareOfAdvances(double unit, double tolerance) const
+double PointTimeFacts::fractionOfAdvances(double unit, double tolerance) const
 {
   if (scans < 2) return 0.0;
   std::size_t agreeing = 0;

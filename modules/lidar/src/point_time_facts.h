@@ -28,8 +28,8 @@ struct PointTimeFacts
   [[nodiscard]] double period() const;
   [[nodiscard]] std::string periodText() const;
 
-  /** Share of the intervals between scans in which the times advance as the stamps do. */
-  [[nodiscard]] double shareOfAdvances(double unit, double tolerance) const;
+  /** Fraction of the intervals between scans in which the times advance as the stamps do. */
+  [[nodiscard]] double fractionOfAdvances(double unit, double tolerance) const;
 
   /** Median of the earliest time minus the stamp [s]. */
   [[nodiscard]] double clockOffset(double unit) const;

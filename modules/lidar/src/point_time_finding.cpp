@@ -116,7 +116,7 @@ std::optional<PointTimeUnit> unitOfClock(const Question& question)
   for (const PointTimeUnit unit : kUnits)
   {
     if (!question.mayBe(unit)) continue;
-    const double fraction = question.facts.shareOfAdvances(secondsPer(unit), kClockTolerance);
+    const double fraction = question.facts.fractionOfAdvances(secondsPer(unit), kClockTolerance);
     if (fraction >= kClockAgreement) return unit;
   }
   return std::nullopt;
@@ -160,7 +160,7 @@ PointTimeFinding readRelative(const Question& question)
     if (certain) break;
     if (fraction >= kPossibleLeast && fraction <= kPossibleMost) possible.push_back(unit);
   }
-  // What is configured is done as long as it can be done at all.
+  // The configuration decides as long as the data permit it.
   if (possible.empty() && question.given.unit != PointTimeUnit::Auto)
     possible = {question.given.unit};
   if (possible.empty())

@@ -3,6 +3,7 @@
 
 #include <fastlio/lidar/sweep_time.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <array>
@@ -138,7 +139,7 @@ void assignSweepTimes(
     if (fraction > 1.0 - kSeam && place < kSeam) fraction -= 1.0;
     if (fraction < kSeam && place > 1.0 - kSeam) fraction += 1.0;
     points.time_offset_ns[i] =
-        static_cast<std::int32_t>(std::lround((fraction - at_stamp) * period * 1e9));
+        static_cast<std::int32_t>(toNanoseconds((fraction - at_stamp) * period));
   }
 }
 

@@ -71,7 +71,7 @@ TEST(Downsampler, CountsEachPointOfALongScanOnce)
 
 TEST(Downsampler, ThinsTheSameHoweverManyPointsAreLeftOut)
 {
-  // What is dropped counts neither for the target nor for the density.
+  // A dropped point counts neither for the target nor for the density.
   const PointColumns all = randomScan(
       20000, [](std::mt19937& rng) { return std::uniform_real_distribution<>(2.0, 40.0)(rng); });
   PointColumns with_gaps;

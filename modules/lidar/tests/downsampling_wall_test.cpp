@@ -143,7 +143,7 @@ TEST(Downsampler, DoesNotShiftNoisyWalls)
 
 TEST(Downsampler, AVoxelGridWouldShiftThem)
 {
-  // The reason for this kind of downsampling, and that the test above can tell.
+  // The reason for this kind of downsampling, and proof that the test above detects its absence.
   std::mt19937 rng(12);
   const double distance = 25 * kVoxel + kNoise;  // just behind the face of a voxel
   const PointColumns points = noisyWall(distance, 60000, rng);

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the numbers of time fields are taken for, and what is refused.
+// The interpretation of time fields, and refusals.
 
 #include <fastlio/lidar/point_time.h>
 #include <fastlio/math/time.h>
@@ -134,10 +134,10 @@ TEST_P(EveryUnit, ForeignClockIsAmbiguousUntilTheReferenceIsGiven)
   EXPECT_EQ(finding.candidates[1].reference, Reference::End);
   expectText(finding, "input.point_time_reference");
   expectText(finding, "-1.7e+09 s ahead");
-  const PointTimeFinding told = findPointTimes(driver.samples(), {Unit::Auto, Reference::End});
-  expectFound(told, GetParam(), Reference::End);
-  EXPECT_NEAR(told.end, 0.0, 1e-9);
-  EXPECT_NEAR(told.begin, -0.0999, 1e-5);
+  const PointTimeFinding given = findPointTimes(driver.samples(), {Unit::Auto, Reference::End});
+  expectFound(given, GetParam(), Reference::End);
+  EXPECT_NEAR(given.end, 0.0, 1e-9);
+  EXPECT_NEAR(given.begin, -0.0999, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(

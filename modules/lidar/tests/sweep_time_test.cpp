@@ -68,7 +68,7 @@ TEST_P(Revolution, TimesComeBack)
     int wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (std::abs(points.time_offset_ns[i] - shift - truth.time_offset_ns[i]) > 1'200'000) ++wrong;
-    // Line by line, the order does not tell to which side of the seam a staggered point belongs.
+    // Line by line, the order does not show to which side of the seam a staggered point belongs.
     EXPECT_LT(wrong, c.line_by_line ? 0.02 * kLines * kColumns : 1) << describe(shape);
   }
 }

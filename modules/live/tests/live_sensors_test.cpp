@@ -5,9 +5,9 @@
 
 #include <fastlio/live/live_sensors.h>
 #include <fastlio/live/udp_receiver.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
-#include <fastlio/simulation/scenario.h>
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationIMU.h>

@@ -12,15 +12,15 @@ namespace fastlio
 namespace
 {
 constexpr const char* kEdgeMapName = "EdgeMap";
+constexpr std::size_t kNeighbors = 5;         // that make a line
+constexpr double kMaxNeighborDistance = 2.0;  // the farthest neighbour [m]
+constexpr double kMaxLineDistance = 0.15;     // a neighbour farther away makes it no line [m]
+// The neighbours' standard deviation along the line over that across it, at least.
+constexpr double kMinElongation = 3.0;
 
 EdgeMapOptions checked(const EdgeMapOptions& o)
 {
   requireCommonOptions(kEdgeMapName, o);
-  requireOption(
-      o.max_line_distance > 0.0, kEdgeMapName, "max_line_distance", "above zero",
-      o.max_line_distance);
-  requireOption(
-      o.min_elongation >= 1.0, kEdgeMapName, "min_elongation", "1 or more", o.min_elongation);
   return o;
 }
 
@@ -36,7 +36,7 @@ double predictionVariance(const LineFit& fit, const EdgeMapOptions& o)
 {
   const auto n = static_cast<double>(fit.count);
   const double squared_residuals = n * (fit.eigenvalues[0] + fit.eigenvalues[1]);
-  const double point_variance = pointVariance(squared_residuals, 2.0 * (n - 2.0), o);
+  const double point_variance = pointVariance(squared_residuals, 2.0 * (n - 2.0), o.point_noise);
   const double along = fit.direction.dot(fit.centroid);
   return point_variance * (1.0 + 1.0 / n + along * along / (n * fit.eigenvalues[2]));
 }
@@ -49,14 +49,12 @@ EdgeMap::EdgeMap(const EdgeMapOptions& options)
 
 LineMatch EdgeMap::matchPoint(float x, float y, float z) const
 {
-  const NeighborSet neighbors =
-      map_.nearest(x, y, z, options_.neighbors, options_.max_neighbor_distance);
-  if (neighbors.size() < options_.neighbors) return {};
+  const NeighborSet neighbors = map_.nearest(x, y, z, kNeighbors, kMaxNeighborDistance);
+  if (neighbors.size() < kNeighbors) return {};
   const LocalPoints points = localPoints(neighbors, x, y, z);
-  const auto fit = fitLine(
-      momentsOf(points.items.data(), points.count),
-      options_.min_elongation * options_.min_elongation);
-  if (!fit || !isStraight(*fit, points, options_.max_line_distance)) return {};
+  const auto fit =
+      fitLine(momentsOf(points.items.data(), points.count), kMinElongation * kMinElongation);
+  if (!fit || !isStraight(*fit, points, kMaxLineDistance)) return {};
   const Eigen::Vector3d foot =
       fit->centroid - fit->direction.dot(fit->centroid) * fit->direction + Vec3(x, y, z);
   return {

@@ -17,9 +17,6 @@ constexpr const char* kKnnMapName = "KnnSurfaceMap";
 KnnSurfaceMapOptions checked(const KnnSurfaceMapOptions& o)
 {
   requireCommonOptions(kKnnMapName, o);
-  requireOption(
-      o.max_plane_distance > 0.0, kKnnMapName, "max_plane_distance", "above zero",
-      o.max_plane_distance);
   return o;
 }
 
@@ -40,15 +37,15 @@ KnnSurfaceMap::KnnSurfaceMap(const KnnSurfaceMapOptions& options)
 
 PlaneMatch KnnSurfaceMap::matchPoint(float x, float y, float z) const
 {
-  const NeighborSet neighbors =
-      map_.nearest(x, y, z, options_.neighbors, options_.max_neighbor_distance);
-  if (neighbors.size() < options_.neighbors) return {};
+  const NeighborSet neighbors = map_.nearest(x, y, z, kNeighbors, kMaxNeighborDistance);
+  if (neighbors.size() < kNeighbors) return {};
   const LocalPoints points = localPoints(neighbors, x, y, z);
   const auto fit = fitPlane(momentsOf(points.items.data(), points.count));
-  if (!fit || !isFlat(*fit, points, options_.max_plane_distance)) return {};
+  if (!fit || !isFlat(*fit, points, kMaxPlaneDistance)) return {};
 
   const auto n = static_cast<double>(fit->count);
-  const double point_variance = pointVariance(n * fit->eigenvalues[0], n - 3.0, options_);
+  const double point_variance =
+      pointVariance(n * fit->eigenvalues[0], n - 3.0, options_.point_noise);
   const double variance = planeOffsetVariance(*fit, Vec3::Zero(), point_variance);
   const double d = -fit->normal.dot(Eigen::Vector3d(x, y, z) + fit->centroid);
   return {

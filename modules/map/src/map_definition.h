@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file map_definition.h What the map definitions of both map classes have in common. */
+/** \file map_definition.h Common parts of the definitions of both map classes. */
 #pragma once
 
 #include <fastlio/compat/mrpt_compat.h>

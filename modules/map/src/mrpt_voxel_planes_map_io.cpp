@@ -63,8 +63,8 @@ void CVoxelPlanesMap::serializeFrom(CArchive& in, std::uint8_t version)
 
 void CVoxelPlanesMap::saveToFile(const std::string& path) const
 {
-  // MRPT's gzip file stream does not tell a full disk, and its compression in memory goes through a
-  // temporary file whose name two programs may share.
+  // MRPT's gzip file stream does not report a full disk, and its compression in memory goes through
+  // a temporary file whose name two programs may share.
   GzipFile file(path);
   mrpt::serialization::archiveFrom(file) << *this;
   file.commit();

@@ -22,7 +22,7 @@ using Rectangle = std::array<TPoint3Df, 4>;
 /** Points that are evenly spread over a width w have the standard deviation w / sqrt(12). */
 const float kHalfWidthPerDeviation = std::sqrt(3.0F);
 
-/** What the points of a plane cover, by their spread along its two axes. */
+/** The area that the points of a plane cover, by their spread along its two axes. */
 Rectangle rectangleOf(const VoxelPlane& plane)
 {
   const auto& m = plane.leverage;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file neighbor_fit.h What the maps that fit planes and lines to nearest points have in common.
+/** \file neighbor_fit.h Common parts of the maps that fit planes and lines to nearest points.
  */
 #pragma once
 
@@ -29,17 +29,8 @@ inline void requireOption(
 template <typename Options>
 void requireCommonOptions(const std::string& map, const Options& o)
 {
-  static_assert(kMaxNeighbors == 16, "as the message says");
-  requireOption(
-      o.neighbors >= 3 && o.neighbors <= kMaxNeighbors, map, "neighbors", "from 3 to 16",
-      static_cast<double>(o.neighbors));
-  requireOption(
-      o.max_neighbor_distance > 0.0, map, "max_neighbor_distance", "above zero",
-      o.max_neighbor_distance);
   requireOption(o.min_spacing >= 0.0, map, "min_spacing", "zero or more", o.min_spacing);
   requireOption(o.point_noise > 0.0, map, "point_noise", "above zero", o.point_noise);
-  requireOption(
-      o.point_noise_weight > 0.0, map, "point_noise_weight", "above zero", o.point_noise_weight);
 }
 
 /** \exception std::invalid_argument points [first, last) or their matches do not exist */
@@ -74,12 +65,14 @@ inline LocalPoints localPoints(const NeighborSet& neighbors, float x, float y, f
 }
 
 /** Weighted mean of the prior variance of a point and of the squared residuals of a fit. */
-template <typename Options>
-[[nodiscard]] double pointVariance(
-    double squared_residuals, double degrees_of_freedom, const Options& o)
+[[nodiscard]] inline double pointVariance(
+    double squared_residuals, double degrees_of_freedom, double point_noise)
 {
-  return (o.point_noise_weight * o.point_noise * o.point_noise + squared_residuals) /
-         (o.point_noise_weight + degrees_of_freedom);
+  // Observations that the prior counts for: without it, five neighbours now and then agree
+  // perfectly.
+  constexpr double kPriorWeight = 4.0;
+  return (kPriorWeight * point_noise * point_noise + squared_residuals) /
+         (kPriorWeight + degrees_of_freedom);
 }
 
 /** Removes what is outside of the radius [m], unless the centre has hardly moved since the last

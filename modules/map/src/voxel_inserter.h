@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What all points of an insertion have in common. */
+/** Values that are the same for all points of an insertion. */
 struct InsertionContext
 {
   const VoxelGrid& grid;
@@ -49,7 +49,7 @@ class VoxelInserter
     std::uint64_t block_key = 0;
   };
 
-  /** What one thread works with. */
+  /** The storage of one thread. */
   struct Bench
   {
     std::vector<Arrival> arrivals;

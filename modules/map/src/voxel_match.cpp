@@ -94,7 +94,7 @@ PlaneMatch bestPlane(const Query& query, float x, float y, float z)
   {
     const VoxelPlane& plane = *query.planes[s];
     if (!plane.valid()) continue;
-    // What the surface departs from the plane stays where it is: like the plane's offset it is one
+    // The surface's deviation from the plane stays where it is: like the plane's offset it is one
     // error for all points that meet it, in this scan and in the next.
     const float variance = plane.offsetVariance(x, y, z) + plane.roughness;
     if (variance >= least) continue;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file voxel_plane_map_impl.h What a VoxelPlaneMap owns. */
+/** \file voxel_plane_map_impl.h The data of a VoxelPlaneMap. */
 #pragma once
 
 #include "voxel_inserter.h"

@@ -147,10 +147,7 @@ TEST(EdgeMap, KeepsTheSpacingAndForgetsWhatIsFar)
 TEST(EdgeMap, RefusesOptionsAndRangesOutOfBounds)
 {
   EdgeMapOptions options;
-  options.neighbors = 2;
-  EXPECT_THROW(EdgeMap{options}, std::invalid_argument);
-  options = {};
-  options.min_elongation = 0.5;
+  options.min_spacing = -0.1;
   EXPECT_THROW(EdgeMap{options}, std::invalid_argument);
   options = {};
   options.point_noise = std::numeric_limits<double>::quiet_NaN();

@@ -211,7 +211,7 @@ TEST_F(VoxelPlanesMapFile, RepresentationIsPointsAndArchive)
   expectSameMap(map, loaded);
 }
 
-TEST_F(VoxelPlanesMapFile, TroubleIsToldWithTheFilesName)
+TEST_F(VoxelPlanesMapFile, TroubleIsReportedWithTheNameOfTheFile)
 {
   const CVoxelPlanesMap map = unusualPlanes();
   EXPECT_NE(

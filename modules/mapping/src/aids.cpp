@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/exporters/recording_access.h>
 #include <fastlio/mapping/aids.h>
+#include <fastlio/run/recording_access.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservationGPS.h>
@@ -76,14 +76,14 @@ class AidsReader
     const auto is_earlier = [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; };
     std::stable_sort(aids_.fixes.begin(), aids_.fixes.end(), is_earlier);
     std::stable_sort(aids_.wheels.begin(), aids_.wheels.end(), is_earlier);
-    const auto tell = [&](std::size_t count, const std::string& what)
+    const auto report = [&](std::size_t count, const std::string& what)
     {
       if (count > 0) problems.push_back(name_ + ": " + std::to_string(count) + what);
     };
-    tell(without_fix_, " positions of GNSS have no fix");
-    tell(nowhere_, " positions of GNSS are no place on the earth");
-    tell(not_finite_, " readings of wheel odometry are no numbers");
-    tell(
+    report(without_fix_, " positions of GNSS have no fix");
+    report(nowhere_, " positions of GNSS are no place on the earth");
+    report(not_finite_, " readings of wheel odometry are no numbers");
+    report(
         of_other_wheels_, " readings of wheel odometry are not '" + label_.value_or("") +
                               "', whose readings come first: they are not used");
     return std::move(aids_);

@@ -44,7 +44,7 @@ class CellMoments
  private:
   static constexpr double kThickest = 0.04;      // thickest surface that counts as flat [m]
   static constexpr double kThinness = 0.1;       // of the smaller variances
-  static constexpr double kPointsOfSurface = 6;  // that tell its direction
+  static constexpr double kPointsOfSurface = 6;  // that determine its direction
 
   double n_ = 0.0;
   Vec3 sum_ = Vec3::Zero();

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "mapper_parts.h"
-#include <fastlio/exporters/pose_output.h>
 #include <fastlio/mapping/corrected_trajectory.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/pose_output.h>
 
 #include <algorithm>
 

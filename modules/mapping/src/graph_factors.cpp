@@ -32,7 +32,7 @@ EdgeError errorOf(const RelativePose& measured, const Pose& a, const Pose& b)
 TiltError errorOf(const TiltFactor& factor, const Pose& node)
 {
   // The heading that both have in common is taken out: R = Rz(heading) R_measured Exp(...) would
-  // leave the same tilt. Gravity's direction in the body frame tells the tilt alone.
+  // leave the same tilt. Gravity's direction in the body frame determines the tilt alone.
   const Vec3 up = Vec3::UnitZ();
   const Vec3 measured = factor.R_world_body.transpose() * up;
   const Vec3 seen = node.R * measured;  // where the node has what was up

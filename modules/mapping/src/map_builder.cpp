@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "mapper_parts.h"
-#include <fastlio/exporters/pose_output.h>
 #include <fastlio/mapping/aids.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/run/pose_output.h>
 
 #include <utility>
 

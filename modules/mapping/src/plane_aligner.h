@@ -162,7 +162,7 @@ class PlaneAligner
     return T;
   }
 
-  /** Share of the source's upright planes that agree with the target's. */
+  /** Fraction of the source's upright planes that agree with the target's. */
   [[nodiscard]] double uprightScore(
       const std::vector<Patch>& source, const Pose& T, const Vec3& up) const
   {
@@ -182,7 +182,7 @@ class PlaneAligner
     return align(source, T, kFine.back()).cost(source.size());
   }
 
-  /** What the noise of the normals adds to the information: nothing that is known. */
+  /** Information that only the noise of the normals adds: it is not known. */
   [[nodiscard]] Aligned6 noiseOf(const std::vector<Patch>& source, const Pose& T) const
   {
     Aligned6 noise = Aligned6::Zero();
@@ -221,7 +221,7 @@ class PlaneAligner
     const Eigensystem6 system = symmetricEigensystem(
         Matrix6((sums.information - noiseOf(source, T)) / (kPlanesPerMeasurement * excess)));
     evidence.information_eigenvalues = system.values;
-    // Directions that nothing tells get a large covariance, not an infinite one.
+    // Directions that nothing constrains get a large covariance, not an infinite one.
     const Aligned6 V = system.vectors;
     const AlignedVector6 variances = system.values.cwiseMax(kLeastInformation).cwiseInverse();
     result.motion.covariance = V * variances.asDiagonal() * V.transpose() + floorOf();
@@ -268,7 +268,7 @@ class PlaneAligner
 
   static AlignedVector6 stepOf(const Alignment& sums)
   {
-    // Keeps the guess where nothing tells.
+    // Keeps the guess where nothing constrains it.
     const Aligned6 H =
         sums.information + 1e-4 * sums.information.trace() / 6.0 * Aligned6::Identity();
     return -H.ldlt().solve(sums.gradient);

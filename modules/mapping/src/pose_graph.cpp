@@ -99,7 +99,7 @@ class Optimizer
     equations.add(
         earthAt(), tilt.value, tilt.by_attitude,
         (Eigen::Matrix2d::Identity() / (kEarthTilt * kEarthTilt)).eval());
-    // Keeps the system solvable where positions do not tell the heading.
+    // Keeps the system solvable where positions do not determine the heading.
     equations.addBlock(earthAt(), earthAt(), (1e-9 * Aligned6::Identity()).eval());
   }
 

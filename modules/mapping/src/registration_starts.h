@@ -4,7 +4,7 @@
 /** \file registration_starts.h Where to begin a registration (internal). */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
+#include <fastlio/run/pose_track.h>
 
 #include <vector>
 

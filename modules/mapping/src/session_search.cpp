@@ -19,7 +19,7 @@ constexpr double kGuessCells = 0.6;      // position [cells]
 constexpr double kSamePlace = 1.0;       // poses nearer than this are one place [m]
 constexpr double kLargestMargin = 40.0;  // beyond it, what nobody thought of is likelier
 
-/** Cells of views in which submaps of this length can be told apart. */
+/** Cells of views in which submaps of this length can be distinguished. */
 double cellOf(const std::vector<Submap>& submaps)
 {
   constexpr double kLeast = 0.5, kMost = 2.0, kOverLength = 1.0 / 6.0;
@@ -57,18 +57,18 @@ void Mapper::searchAnchor()
   if (!found) return;
   hypotheses_.push_back({found->T_world_session, found->margin, floating_.size() - 1});
   const Hypothesis& latest = hypotheses_.back();
-  double doubt = std::exp(-latest.margin);
+  double alternatives = std::exp(-latest.margin);
   std::size_t support = 1;
   for (const Hypothesis& other : hypotheses_)
   {
     if (other.submap == latest.submap ||
         !agree(other.T_world_session, latest.T_world_session, query))
       continue;
-    doubt *= std::exp(-other.margin);
+    alternatives *= std::exp(-other.margin);
     ++support;
   }
   if (support < 2) return;
-  anchor = {true, latest.T_world_session, 1.0 / (1.0 + doubt), anchor.tried, support};
+  anchor = {true, latest.T_world_session, 1.0 / (1.0 + alternatives), anchor.tried, support};
 }
 
 /** The place of a submap among all, when nothing else is nearly as likely. */

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "mapper_parts.h"
-#include <fastlio/exporters/pose_output.h>
 #include <fastlio/map/voxel_plane_map.h>
 #include <fastlio/mapping/submap.h>
 #include <fastlio/math/statistics.h>
+#include <fastlio/run/pose_output.h>
 
 #include <algorithm>
 #include <cmath>

@@ -16,8 +16,8 @@ namespace fastlio
 namespace
 {
 constexpr double kMostGap = 0.5;     // between readings, and between poses [s]
-constexpr double kMoving = 0.01;     // way of a step that tells noise [m]
-constexpr std::size_t kAround = 20;  // steps on both sides that tell the odometry's slow error
+constexpr double kMoving = 0.01;     // way of a step that shows noise [m]
+constexpr std::size_t kAround = 20;  // steps on both sides that give the odometry's slow error
 constexpr double kSlip = 8.0;        // standard deviations of a step
 constexpr double kLeastSlip = 0.01;  // [m]
 constexpr double kWheelGaussian = 1.4826;  // standard deviation over median absolute deviation

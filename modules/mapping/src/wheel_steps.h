@@ -4,8 +4,8 @@
 /** \file wheel_steps.h The way from scan to scan by the wheels and by the odometry (internal). */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/mapping/wheels.h>
+#include <fastlio/run/pose_track.h>
 
 #include <vector>
 

@@ -14,14 +14,14 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kScaleStd = 0.02;   // of wheels that nothing tells more about: worn, loaded tyres
+constexpr double kScaleStd = 0.02;   // of wheels that are not known better: worn, loaded tyres
 constexpr double kWellKnown = 0.03;  // standard deviation over way of what wheels are compared with
 constexpr double kAgreement = 4.0;   // standard deviations
 constexpr double kMostContradicted = 0.34;  // of the comparisons
 constexpr double kLeastChecks = 3;          // before contradictions count
 constexpr double kNeed = 2.0;        // wheels take part where the odometry is so much less certain
 constexpr double kLeastWay = 0.5;    // of a motion [m]
-constexpr double kOpen = 100.0;      // standard deviation of what wheels do not tell [m], [rad]
+constexpr double kOpen = 100.0;      // standard deviation of what wheels do not measure [m], [rad]
 constexpr double kLeastStd = 0.002;  // [m]
 constexpr int kScaleRounds = 3;
 }  // namespace
@@ -38,12 +38,12 @@ struct WheelFactors::Comparison
 
 std::string wheelSentence(const WheelOutcome& outcome)
 {
-  std::string text = outcome.used
-                         ? mrpt::format(
-                               "wheel odometry tells %zu of %zu motions between submaps, which the "
-                               "LiDAR leaves open",
-                               outcome.taking_part, outcome.motions)
-                         : "wheel odometry is not used: " + outcome.reason;
+  std::string text =
+      outcome.used ? mrpt::format(
+                         "wheel odometry determines %zu of %zu motions between submaps, which the "
+                         "LiDAR leaves open",
+                         outcome.taking_part, outcome.motions)
+                   : "wheel odometry is not used: " + outcome.reason;
   text += mrpt::format(
       "; its way counts %.4f (to %.4f), noise %.3f m after 1 m; it agrees with %zu of %zu motions "
       "that the LiDAR knows",

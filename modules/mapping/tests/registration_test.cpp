@@ -141,7 +141,7 @@ TEST(SubmapRegistration, OfNothingDoesNotConverge)
 }
 
 /** A floor leaves heading and place on it open: the covariance says so. */
-TEST(SubmapRegistration, TellsWhatTheSurfacesLeaveOpen)
+TEST(SubmapRegistration, ReportsTheDirectionsThatTheSurfacesLeaveOpen)
 {
   std::vector<VoxelPlane> floor = yard({}, 1);
   floor.erase(

@@ -63,7 +63,7 @@ class Ride
     return std::sqrt(squares / static_cast<double>(result.submaps.size()));
   }
 
-  /** What ideal wheels of a vehicle would tell that the IMU is mounted on. */
+  /** The readings of ideal wheels of a vehicle that the IMU is mounted on. */
   [[nodiscard]] std::vector<WheelPose> idealReadings(const Pose& T_vehicle_imu) const
   {
     std::vector<WheelPose> readings = readings_;
@@ -125,7 +125,7 @@ std::vector<WheelPose> spinning(std::vector<WheelPose> readings, double part, do
   return readings;
 }
 
-TEST(Wheels, TellTheWayThroughATunnel)
+TEST(Wheels, MeasureTheWayThroughATunnel)
 {
   Ride ride("tunnel", 34.0);
   const WheelFactors good = ride.factors(ride.readings());
@@ -145,10 +145,10 @@ TEST(Wheels, TellTheWayThroughATunnel)
 
   // What slips is left out; the motions before and after stay.
   MappingResult slipped = alone;
-  const WheelOutcome told = slipping.applyTo(slipped);
-  EXPECT_GE(told.slipped, 1U);
-  EXPECT_LE(told.slipped, 2U);
-  EXPECT_NE(wheelSentence(told).find("wheels slipped"), std::string::npos);
+  const WheelOutcome slip = slipping.applyTo(slipped);
+  EXPECT_GE(slip.slipped, 1U);
+  EXPECT_LE(slip.slipped, 2U);
+  EXPECT_NE(wheelSentence(slip).find("wheels slipped"), std::string::npos);
   EXPECT_LT(ride.errorOf(slipped), 0.5 * error_alone)
       << ride.errorOf(slipped) << " m instead of " << error_alone << " m";
   std::printf(

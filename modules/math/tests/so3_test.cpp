@@ -43,7 +43,7 @@ double distanceFromRotation(const Mat3& R)
   return (R * R.transpose() - Mat3::Identity()).norm() + std::abs(R.determinant() - 1.0);
 }
 
-TEST_F(So3, skewIsTheCrossProduct)
+TEST_F(So3, SkewIsTheCrossProduct)
 {
   for (int i = 0; i < 100; ++i)
   {
@@ -56,7 +56,7 @@ TEST_F(So3, skewIsTheCrossProduct)
   }
 }
 
-TEST_F(So3, expIsTheRotationAboutTheAxis)
+TEST_F(So3, ExpIsTheRotationAboutTheAxis)
 {
   for (const double angle : angles())
   {
@@ -69,7 +69,7 @@ TEST_F(So3, expIsTheRotationAboutTheAxis)
   EXPECT_EQ(expSO3(Vec3::Zero()), Mat3::Identity());
 }
 
-TEST_F(So3, expOfManyTurnsIsStillARotation)
+TEST_F(So3, ExpOfManyTurnsIsStillARotation)
 {
   for (const double angle : {4.0, 7.0, 100.0})
   {
@@ -79,7 +79,7 @@ TEST_F(So3, expOfManyTurnsIsStillARotation)
   }
 }
 
-TEST_F(So3, logInvertsExpAtEveryAngle)
+TEST_F(So3, LogInvertsExpAtEveryAngle)
 {
   for (const double angle : angles())
   {
@@ -91,7 +91,7 @@ TEST_F(So3, logInvertsExpAtEveryAngle)
   }
 }
 
-TEST_F(So3, logKeepsTheRelativePrecisionOfTinyAngles)
+TEST_F(So3, LogKeepsTheRelativePrecisionOfTinyAngles)
 {
   for (const double angle : {1e-12, 1e-10, 1e-9, 1e-8})
   {
@@ -100,7 +100,7 @@ TEST_F(So3, logKeepsTheRelativePrecisionOfTinyAngles)
   }
 }
 
-TEST_F(So3, logAtExactlyPi)
+TEST_F(So3, LogAtExactlyPi)
 {
   std::vector<Vec3> axes = {
       Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(), Vec3(1, 1, 0).normalized(),
@@ -116,7 +116,7 @@ TEST_F(So3, logAtExactlyPi)
   }
 }
 
-TEST_F(So3, logIsNeverLongerThanPi)
+TEST_F(So3, LogIsNeverLongerThanPi)
 {
   for (int i = 0; i < 1000; ++i)
   {
@@ -127,7 +127,7 @@ TEST_F(So3, logIsNeverLongerThanPi)
   }
 }
 
-TEST_F(So3, leftJacobianTimesTheInverseOfThePaperIsIdentity)
+TEST_F(So3, LeftJacobianTimesTheInverseOfThePaperIsIdentity)
 {
   for (const double m : {0.2, 0.24, 0.26, 1.0, 2.0, 3.0, kPi})
   {
@@ -140,7 +140,7 @@ TEST_F(So3, leftJacobianTimesTheInverseOfThePaperIsIdentity)
   EXPECT_EQ(leftJacobianSO3(Vec3::Zero()), Mat3::Identity());
 }
 
-TEST_F(So3, leftJacobianIsTheDerivativeOfExp)
+TEST_F(So3, LeftJacobianIsTheDerivativeOfExp)
 {
   // Exp(u + e) = Exp(A(u) e) Exp(u) to first order in e; central differences.
   constexpr double kStep = 1e-5;
@@ -160,7 +160,7 @@ TEST_F(So3, leftJacobianIsTheDerivativeOfExp)
   }
 }
 
-TEST_F(So3, jacobianLeavesItsOwnAxis)
+TEST_F(So3, JacobianLeavesItsOwnAxis)
 {
   for (const double angle : angles())
   {
@@ -169,7 +169,7 @@ TEST_F(So3, jacobianLeavesItsOwnAxis)
   }
 }
 
-TEST_F(So3, normalizeRotationRemovesDriftAndKeepsRotations)
+TEST_F(So3, NormalizeRotationRemovesDriftAndKeepsRotations)
 {
   for (int i = 0; i < 100; ++i)
   {
@@ -183,7 +183,7 @@ TEST_F(So3, normalizeRotationRemovesDriftAndKeepsRotations)
   }
 }
 
-TEST_F(So3, normalizeRotationPassesNonFiniteNumbersOn)
+TEST_F(So3, NormalizeRotationPassesNonFiniteNumbersOn)
 {
   Mat3 bad = Mat3::Identity();
   bad(1, 2) = std::numeric_limits<double>::quiet_NaN();

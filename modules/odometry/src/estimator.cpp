@@ -230,8 +230,9 @@ void Estimator::widenAfterFirstScan(ScanStatus status)
 }
 
 // From then on the offset is uncertain. A map that is still sparse could be made to fit a wrong
-// one, and so could one that was created in motion: in a steady rotation nothing tells it from
-// heading. Maps that do not know the errors that neighbouring matches share are too sure of it.
+// one, and so could one that was created in motion: in a steady rotation nothing distinguishes it
+// from heading. Maps that do not know the errors that neighbouring matches share are too sure of
+// it.
 void Estimator::releaseTimeOffset(const ScanResult& result, std::size_t points)
 {
   const CalibrationOptions& p = options_.calibration;

@@ -4,23 +4,23 @@
 /** \file estimator.h The filter with its map: from prediction to insertion, scan by scan. */
 #pragma once
 
-#include "beam_errors.h"
-#include "calibration_evidence.h"
-#include "carried_pose.h"
-#include "classify.h"
 #include "estimator_mode.h"
-#include "local_map.h"
-#include "map_search.h"
-#include "motion_agreement.h"
-#include "scan_matcher.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
+#include <fastlio/errormodel/beam_errors.h>
+#include <fastlio/errormodel/calibration_evidence.h>
+#include <fastlio/health/classify.h>
+#include <fastlio/health/motion_agreement.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/rest_detector.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/saved_map.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/initialization/carried_pose.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/localmap/local_map.h>
+#include <fastlio/localmap/map_search.h>
+#include <fastlio/localmap/saved_map.h>
+#include <fastlio/matching/scan_matcher.h>
 #include <fastlio/parallel/workers.h>
 
 #include <memory>

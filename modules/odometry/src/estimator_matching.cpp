@@ -41,17 +41,17 @@ MapSearchResult Estimator::matchWithMap(
 MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPrediction& predicted)
 {
   auto& tracking = std::get<Tracking>(mode_);
-  const bool map_can_tell = options_.recovery.enabled && !map_.isYoung();
-  if (map_can_tell && needsPoseSearch(predicted.state, predicted.blind_s))
+  const bool map_is_informative = options_.recovery.enabled && !map_.isSparse();
+  if (map_is_informative && needsPoseSearch(predicted.state, predicted.blind_s))
     tracking.searching = true;
   if (!tracking.searching)
   {
     const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
     MatchResult match = matcher_.match(
-        scan, predicted.state, map_,
+        scan, predicted.state, map_.matched(),
         pull_in ? pullInMatching(options_) : ordinaryMatching(options_));
     const bool good = !match.update.updated || isConvincing(match, scan, map_);
-    if (!map_can_tell || good) return {std::move(match), true, std::nullopt};
+    if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
   }
   MapSearchResult search =
       MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted.state);
@@ -67,7 +67,7 @@ void Estimator::beginNewMap(const DeskewedScan& scan)
 }
 
 /** Along a degenerate direction the prediction is not corrected, so it cannot be compared; nor
- * where inertial data are missing or in doubt. */
+ * where inertial data are missing or their noise is inflated. */
 void Estimator::compareMotion(
     const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
     ScanStatistics& statistics)
@@ -75,8 +75,8 @@ void Estimator::compareMotion(
   if (map_.isGiven()) return;
   const MatchResult& match = matched.match;
   const std::int64_t since_ns = state_.stamp_ns - toNanoseconds(work.predicted.blind_s);
-  const bool in_doubt = inflatedRatio(imu.inflations(), since_ns, state_.stamp_ns) > 0.0;
-  if (matched.poses || run().motion_window || in_doubt)
+  const bool inflated = inflatedRatio(imu.inflations(), since_ns, state_.stamp_ns) > 0.0;
+  if (matched.poses || run().motion_window || inflated)
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
     agreement_.add(

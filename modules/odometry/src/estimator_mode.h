@@ -4,7 +4,7 @@
 /** \file estimator_mode.h What the estimator does with the next scan. */
 #pragma once
 
-#include "motion_window.h"
+#include <fastlio/initialization/motion_window.h>
 #include <fastlio/math/pose.h>
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Starts of the estimator, and what it tells between scans.
+// Starts of the estimator, and its state between scans.
 
-#include "calibration_prior.h"
 #include "estimator.h"
-#include "start_in_map.h"
+#include <fastlio/initialization/calibration_prior.h>
+#include <fastlio/initialization/start_in_map.h>
 #include <fastlio/math/time.h>
 
 #include <utility>

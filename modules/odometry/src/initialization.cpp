@@ -196,7 +196,7 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
   return moving;
 }
 
-/** To the inertial sensor, steady motion looks like rest: the scans tell them apart. */
+/** To the inertial sensor, steady motion looks like rest: the scans distinguish them. */
 StartDecision StartFinder::confirmRest(
     StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const
 {

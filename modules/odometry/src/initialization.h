@@ -4,11 +4,11 @@
 /** \file initialization.h When and with what state the filter starts. */
 #pragma once
 
-#include "motion_window.h"
-#include "queued_scan.h"
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/static_initializer.h>
+#include <fastlio/initialization/motion_window.h>
+#include <fastlio/initialization/static_initializer.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/lidar/queued_scan.h>
 
 #include <optional>
 #include <string>

@@ -4,11 +4,11 @@
 #include "motion_initializer.h"
 
 #include "estimator.h"
-#include "motion_fit.h"
-#include "motion_prior.h"
+#include <fastlio/initialization/motion_fit.h>
+#include <fastlio/initialization/motion_prior.h>
+#include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/static_initializer.h>
 
 #include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
@@ -29,8 +29,8 @@ constexpr double kMaxVelocityStd = 0.5;
 // Normals are known to about so much; what leaks over to a direction that no plane faces is no
 // information.
 constexpr double kNormalStd = 0.015;  // [rad]
-// What the prior leaves open narrows from pass to pass, down to several times what a window tells:
-// far-off planes are no match then.
+// What the prior leaves open narrows from pass to pass, down to several times the uncertainty after
+// a window: far-off planes are no match then.
 constexpr double kFirstVelocityStd = 10.0;  // [m/s], of cars and drones, about zero
 constexpr double kSecondVelocityStd = 1.0;  // [m/s]
 constexpr double kLeastVelocityStd = 0.2;   // [m/s]
@@ -46,7 +46,7 @@ constexpr double kAgreedTilt = 0.008;     // [rad]
 /** One run over the window. */
 struct Pass
 {
-  NavState start;                   // that the window's end tells
+  NavState start;                   // that follows from the state at the window's end
   double velocity_std = 0.0;        // at the end, least known direction [m/s]
   Vec3 least_known = Vec3::Zero();  // that direction, in the IMU frame at the start
   bool blind = false;               // the scans do not see motion in that direction
@@ -204,7 +204,7 @@ MotionStart startInMotion(
   const Window window(scans, count, imu, parameters);
   OdometryOptions pass_parameters = parameters;
   pass_parameters.imu_rate = false;
-  // A second of motion does not tell a velocity from an offset of the clocks.
+  // A second of motion does not distinguish a velocity from an offset of the clocks.
   pass_parameters.calibration.estimate_time_offset = false;
   pass_parameters.calibration.estimate_extrinsic = false;
 

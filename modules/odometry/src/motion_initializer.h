@@ -16,11 +16,11 @@
  */
 #pragma once
 
-#include "motion_window.h"
-#include "queued_scan.h"
 #include <fastlio/filter/state.h>
 #include <fastlio/imu/imu_buffer.h>
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/initialization/motion_window.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/lidar/queued_scan.h>
 
 #include <optional>
 #include <string>

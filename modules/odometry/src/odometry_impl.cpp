@@ -3,10 +3,10 @@
 
 #include "odometry_impl.h"
 
+#include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
-#include <fastlio/odometry/odometry_option_table.h>
 #include <fastlio/parallel/stack_anchor.h>
 
 #include <mrpt/core/format.h>

@@ -4,12 +4,12 @@
 /** \file odometry_impl.h Queues, the order of events, and who processes what (internal). */
 #pragma once
 
-#include "classify.h"
 #include "estimator.h"
 #include "initialization.h"
 #include "reinitialization.h"
-#include "run_diagnostics.h"
 #include "scan_intake.h"
+#include <fastlio/health/classify.h>
+#include <fastlio/health/run_diagnostics.h>
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/lidar/beam_corrections.h>

@@ -3,7 +3,8 @@
 
 #include "reinitialization.h"
 
-#include "classify.h"
+#include <fastlio/matching/match_evidence.h>
+#include <fastlio/matching/match_result.h>
 #include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>

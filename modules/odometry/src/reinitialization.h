@@ -4,9 +4,9 @@
 /** \file reinitialization.h When the run is re-initialised, and which pose it goes on with. */
 #pragma once
 
-#include "carried_pose.h"
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/initialization/carried_pose.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
 
 #include <cstdint>
 #include <deque>

@@ -4,7 +4,7 @@
 /** \file scan_intake.h Scans in order of time, whatever order and stamps they come with. */
 #pragma once
 
-#include "queued_scan.h"
+#include <fastlio/lidar/queued_scan.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -7,8 +7,8 @@
 #include "prediction.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/noise_measurement.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/odometry_options.h>
 
 #include <cstdint>
 #include <functional>

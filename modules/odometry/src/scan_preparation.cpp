@@ -9,7 +9,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kSlowest = 0.1;      // [m/s]; slower tells nothing of an offset of milliseconds
+constexpr double kSlowest = 0.1;      // [m/s]; slower says nothing about an offset of milliseconds
 constexpr double kSignificant = 5.0;  // standard deviations of a rate that is more than noise
 
 /** Where a change of the time offset moves the points to. A motion that is hardly more than its own

@@ -4,13 +4,13 @@
 /** \file scan_preparation.h From a raw scan to deskewed points (eq. 9-10). */
 #pragma once
 
-#include "match_result.h"
 #include <fastlio/filter/backward_propagation.h>
 #include <fastlio/imu/rest_detector.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/lidar/point_selector.h>
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/matching/match_result.h>
 
 #include <cstdint>
 #include <memory>

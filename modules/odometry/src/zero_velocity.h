@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file zero_velocity.h What standing still tells the filter: v = 0 and w_m = b_w. */
+/** \file zero_velocity.h The measurements of standing still: v = 0 and w_m = b_w. */
 #pragma once
 
 #include <fastlio/filter/state.h>

@@ -151,11 +151,11 @@ TEST(ImuRate, ThreadsChangeNoBit)
   }
 }
 
-// What a program that follows the sensor gets at each sample is what is told afterwards.
+// A program that follows the sensor gets the same states as a program that reads them afterwards.
 TEST(ImuRate, IsWhatWasKnownAtEachSample)
 {
   Odometry odometry(imuRateParameters());
-  std::vector<ImuRateState> live, told;
+  std::vector<ImuRateState> live, afterwards;
   std::size_t next_sample = 0;
   EXPECT_FALSE(odometry.stateAtNewestSample());
   for (const LidarScan& scan : roomForImuRate().scans)
@@ -170,13 +170,14 @@ TEST(ImuRate, IsWhatWasKnownAtEachSample)
     }
     odometry.addScan(scan);
     while (odometry.flush())  // the scan's end lies a little behind the newest sample
-      told.insert(told.end(), odometry.imuRateStates().begin(), odometry.imuRateStates().end());
+      afterwards.insert(
+          afterwards.end(), odometry.imuRateStates().begin(), odometry.imuRateStates().end());
   }
   ASSERT_GT(live.size(), 500U);
-  ASSERT_GE(told.size(), live.size());
-  told.erase(told.begin(), told.end() - static_cast<std::ptrdiff_t>(live.size()));
+  ASSERT_GE(afterwards.size(), live.size());
+  afterwards.erase(afterwards.begin(), afterwards.end() - static_cast<std::ptrdiff_t>(live.size()));
   for (std::size_t i = 0; i < live.size(); ++i)
-    EXPECT_TRUE(sameBits(live[i], told[i])) << i;
+    EXPECT_TRUE(sameBits(live[i], afterwards[i])) << i;
 }
 
 TEST(ImuRate, StopsWhereThePoseIsNotTrusted)

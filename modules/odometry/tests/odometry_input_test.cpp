@@ -204,7 +204,7 @@ TEST(OdometryInput, AbsurdInertialValuesNeverMakeTheStateInfinite)
   EXPECT_TRUE(allFinite(results));
 }
 
-TEST(OdometryInput, ALongGapOfTheImuIsToldAndSurvived)
+TEST(OdometryInput, ALongGapOfTheImuIsReportedAndSurvived)
 {
   // 0.6 s at rest without samples; imu.max_gap is 0.5 s.
   RoomSettings settings;
@@ -215,11 +215,11 @@ TEST(OdometryInput, ALongGapOfTheImuIsToldAndSurvived)
   Odometry odometry(roomParameters());
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(accountedScans(odometry, results), recording.scans.size());
-  const auto told = std::count_if(
+  const auto reports = std::count_if(
       results.begin(), results.end(),
       [](const ScanResult& r) { return r.message.find("imu.max_gap") != std::string::npos; });
-  EXPECT_GE(told, 1);
-  EXPECT_LE(told, 8);
+  EXPECT_GE(reports, 1);
+  EXPECT_LE(reports, 8);
   EXPECT_EQ(results.back().status, ScanStatus::Tracking);
   EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
 }

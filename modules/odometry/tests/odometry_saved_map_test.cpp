@@ -4,8 +4,8 @@
 // A map of an earlier run used again.
 
 #include "odometry_runs.h"
+#include <fastlio/localmap/saved_map.h>
 #include <fastlio/map/voxel_plane_map.h>
-#include <fastlio/odometry/saved_map.h>
 
 #include <gtest/gtest.h>
 
@@ -150,7 +150,7 @@ TEST(SavedMap, ReadyPlanesAreUsedAsTheyAre)
   EXPECT_EQ(odometry.map().pointCount(), earlierRun().planes->pointCount());
 }
 
-// The inertial data at rest tell where gravity lies in the body; where the map's axes point is
+// The inertial data at rest show where gravity lies in the body; where the map's axes point is
 // another matter, however far the guess is off.
 TEST(SavedMap, WhatIsKnownOfGravityAndBiasesDoesNotDependOnTheGuess)
 {
@@ -197,7 +197,7 @@ TEST(SavedMap, GrowsOnWhenItMay)
   }
 }
 
-TEST(SavedMap, APlaceOutsideOfTheMapIsToldInsteadOfBelieved)
+TEST(SavedMap, APlaceOutsideOfTheMapIsReportedInsteadOfBelieved)
 {
   Odometry odometry(roomParameters());
   SavedMap map;

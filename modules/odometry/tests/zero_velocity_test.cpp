@@ -51,7 +51,7 @@ TEST(ZeroVelocity, IsTheKalmanUpdateInInformationForm)
   EXPECT_LT((boxminus(update->posterior.x, prior.x) - dx).norm(), 1e-6 * dx.norm());
 }
 
-TEST(ZeroVelocity, TellsWhatIsLeftOfAnEarlierError)
+TEST(ZeroVelocity, ReportsTheRestOfAnEarlierError)
 {
   const FilterState prior = someState(2);
   const auto update = zeroVelocityUpdate(prior, kRate, kVelocityStd, kRateStd);

@@ -16,7 +16,7 @@ constexpr std::int64_t kPatternMemory = 1 << 20;  // [bytes]; "(lidar|imu)_[0-9]
 RE2::Options patternOptions()
 {
   RE2::Options options;
-  options.set_log_errors(false);  // they are told by patternProblem()
+  options.set_log_errors(false);  // they are reported by patternProblem()
   options.set_max_mem(kPatternMemory);
   options.set_encoding(RE2::Options::EncodingLatin1);  // a label may be any bytes
   return options;

@@ -30,7 +30,7 @@ std::size_t distanceByRecursion(std::string_view a, std::string_view b)
 }
 }  // namespace
 
-TEST(NearestName, distanceOfKnownPairs)
+TEST(NearestName, DistanceOfKnownPairs)
 {
   EXPECT_EQ(editDistance("", ""), 0U);
   EXPECT_EQ(editDistance("", "map"), 3U);
@@ -40,7 +40,7 @@ TEST(NearestName, distanceOfKnownPairs)
   EXPECT_EQ(editDistance("ca", "abc"), 3U);  // optimal string alignment: no edit inside of a swap
 }
 
-TEST(NearestName, distanceEqualsItsDefinitionOnRandomWords)
+TEST(NearestName, DistanceEqualsItsDefinitionOnRandomWords)
 {
   std::mt19937 random(1);
   const auto word = [&random]
@@ -58,7 +58,7 @@ TEST(NearestName, distanceEqualsItsDefinitionOnRandomWords)
   }
 }
 
-TEST(NearestName, takesTheNearestAndTheFirstOfEqual)
+TEST(NearestName, TakesTheNearestAndTheFirstOfEqual)
 {
   EXPECT_EQ(
       nearestName("map.raduis", {"imu.max_gap", "map.radius", "lidar.max_range"}), "map.radius");

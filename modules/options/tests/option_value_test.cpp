@@ -69,7 +69,7 @@ const OptionTable<Lamp>& lampTable()
   return table;
 }
 
-/** What assign() says; "ok" when it says nothing. */
+/** The message of assign(); "ok" when it returns none. */
 std::string assigned(Lamp& lamp, std::string_view key, std::string_view text)
 {
   const auto* row = findOption(lampTable(), key);

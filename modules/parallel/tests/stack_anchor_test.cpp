@@ -27,7 +27,7 @@ constexpr std::uintptr_t kLine = 64;
   return placeOnStack();
 }
 
-/** What \a place tells so many bytes further down. */
+/** The result of \a place so many bytes further down. */
 [[gnu::noinline]] std::uintptr_t below(std::size_t bytes, std::uintptr_t (*place)())
 {
   auto* gap = static_cast<volatile char*>(__builtin_alloca(bytes));

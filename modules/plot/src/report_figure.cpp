@@ -15,7 +15,7 @@ std::string htmlText(const std::string& text)
 
 std::string figureHtml(
     const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
-    const std::vector<LegendEntry>& legend, const std::string& remark)
+    const std::vector<LegendEntry>& legend, const std::string& note)
 {
   std::string html = "<figure>\n<figcaption><b>" + htmlText(title) + "</b>";
   for (const LegendEntry& entry : legend)
@@ -27,7 +27,7 @@ std::string figureHtml(
       fixedText(place.width, 0) + " " + fixedText(place.height, 0) +
       R"(" role="img" aria-label=")" + htmlText(title) + "\">\n" + drawPanel(panel, place) +
       "</svg>\n";
-  if (!remark.empty()) html += "<p>" + remark + "</p>\n";
+  if (!note.empty()) html += "<p>" + note + "</p>\n";
   return html + "</figure>\n";
 }
 

@@ -26,10 +26,10 @@ TEST(Figure, HasItsTitleLegendAndRemark)
   PlotPanel panel;
   panel.series = {{"s", "red", {{0, 0}, {1, 2}}}};
   const std::string html =
-      figureHtml(panel, {0, 0, 400, 200}, "Speed <v>", {{"truth", "green"}}, "<b>remark</b>");
+      figureHtml(panel, {0, 0, 400, 200}, "Speed <v>", {{"truth", "green"}}, "<b>note</b>");
   for (const char* part :
        {"<b>Speed &lt;v&gt;</b>", "background:green", "truth", "viewBox=\"0 0 400 200\"",
-        "<p><b>remark</b></p>", "</svg>", "</figure>"})
+        "<p><b>note</b></p>", "</svg>", "</figure>"})
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
   EXPECT_EQ(figureHtml(panel, {0, 0, 4, 2}, "t", {}, "").find("<p>"), std::string::npos);
 }

@@ -24,7 +24,7 @@ using mrpt::serialization::CSerializable;
   throw std::runtime_error(why);
 }
 
-/** What stopped the reading. */
+/** The reason why the reading stopped. */
 [[noreturn]] void failReading(const ObjectStream& stream, const std::string& why)
 {
   if (stream.file().end() == FileEnd::Corrupt) failObject("has damaged compressed data");

@@ -82,7 +82,7 @@ void requireBoundedSize(const std::string& path)
     throw std::runtime_error("is larger than " + std::to_string(kLargestObject >> 20U) + " MiB");
 }
 
-/** What is kept in a file, and how to load it. */
+/** Data kept in a file, and the function that loads them. */
 struct External
 {
   std::string file;  // empty: nothing
@@ -122,7 +122,7 @@ mrpt::maps::CPointsMap::Ptr textPoints(const std::string& path)
   return points;
 }
 
-/** MRPT tells whether a cloud is in a file, and not in which format. */
+/** MRPT says whether a cloud is in a file, and not in which format. */
 struct FormatOf : CObservationPointCloud
 {
   static ExternalStorageFormat of(const CObservationPointCloud& cloud)

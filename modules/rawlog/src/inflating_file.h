@@ -16,7 +16,7 @@
 
 namespace fastlio
 {
-/** How a file ended. MRPT's CFileGZInputStream does not tell these apart. */
+/** How a file ended. MRPT's CFileGZInputStream does not distinguish these. */
 enum class FileEnd
 {
   NotYet,

@@ -5,6 +5,7 @@
 #include "object_reader.h"
 #include "time_sorter.h"
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/math/time.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/recordings/recording_reader.h>
 
@@ -22,8 +23,6 @@
 namespace
 {
 using mrpt::obs::CObservation;
-
-constexpr double kNanosecondsPerSecond = 1e9;
 
 // An observation is itself, a frame is what it holds; actions and others are nothing.
 std::vector<CObservation::Ptr> observationsOf(const mrpt::serialization::CSerializable::Ptr& object)
@@ -73,9 +72,7 @@ class RawlogSource::Impl
 {
  public:
   Impl(std::vector<std::string> files, const RawlogSourceOptions& options)
-      : files_(std::move(files)),
-        options_(options),
-        sorter_(std::llround(options.sorting_window * kNanosecondsPerSecond))
+      : files_(std::move(files)), options_(options), sorter_(toNanoseconds(options.sorting_window))
   {
     for (const std::string& file : files_)
       progress_.bytes_total += recordingBytes(file);

@@ -23,7 +23,7 @@ enum class RotatingScanLayout
   Neither
 };
 
-/** Tells by the first four bytes of that part: an image has the size that the properties say. */
+/** Decides by the first four bytes of that part: an image has the size that the properties say. */
 [[nodiscard]] RotatingScanLayout layoutOf(
     const std::array<std::uint8_t, 4>& bytes, std::uint16_t rows, std::uint16_t columns);
 

@@ -9,7 +9,7 @@
 
 namespace fastlio
 {
-/** What the lengths inside a serialised object say. */
+/** The verdict on the lengths inside a serialised object. */
 enum class SizeVerdict
 {
   Plausible,  //!< everything announced is there, as far as the layout of its class is known

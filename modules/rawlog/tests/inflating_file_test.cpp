@@ -156,7 +156,7 @@ TEST_P(InflatingFileWith, ReadsPlainFiles)
   expectWhole("\x1F", "\x1F");  // half of gzip's magic number
 }
 
-TEST_P(InflatingFileWith, TellsAFileThatWasCut)
+TEST_P(InflatingFileWith, ReportsAFileThatWasCut)
 {
   const std::string bytes = sampleBytes(1500), whole = gzip(bytes);
   for (std::size_t length = 2; length < whole.size(); ++length)
@@ -171,7 +171,7 @@ TEST_P(InflatingFileWith, TellsAFileThatWasCut)
   }
 }
 
-TEST_P(InflatingFileWith, TellsAWrongChecksumAndGivesTheData)
+TEST_P(InflatingFileWith, ReportsAWrongChecksumAndGivesTheData)
 {
   const std::string bytes = sampleBytes(1500);
   std::string wrong = gzip(bytes);
@@ -181,7 +181,7 @@ TEST_P(InflatingFileWith, TellsAWrongChecksumAndGivesTheData)
   EXPECT_EQ(contents.bytes, bytes);
 }
 
-TEST_P(InflatingFileWith, TellsDamageAndGivesWhatCameBefore)
+TEST_P(InflatingFileWith, ReportsDamageAndGivesWhatCameBefore)
 {
   const std::string bytes = sampleBytes(300000), whole = gzip(bytes);
   std::mt19937 random(3);
@@ -197,12 +197,12 @@ TEST_P(InflatingFileWith, TellsDamageAndGivesWhatCameBefore)
   }
 }
 
-TEST(InflatingFile, TellsAFileThatIsNotThere)
+TEST(InflatingFile, ReportsAFileThatIsNotThere)
 {
   EXPECT_THROW(InflatingFile("/nowhere/file"), std::runtime_error);
 }
 
-TEST(InflatingFile, TellsAFolder)
+TEST(InflatingFile, ReportsAFolder)
 {
   const TemporaryFolder folder;
   InflatingFile file(folder.path());

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every way in which a rawlog can be broken: what is whole is delivered, what is wrong is told.
+// Every way in which a rawlog can be broken: what is whole is delivered, what is wrong is reported.
 
 #include "rawlog_reading.h"
 #include <fastlio/compat/register_classes.h>
@@ -185,7 +185,7 @@ TEST_F(RawlogDamageTest, OtherFilesAreNotRawlogs)
   }
 }
 
-TEST_F(RawlogDamageTest, DamagedZstandardIsTold)
+TEST_F(RawlogDamageTest, DamagedZstandardIsReported)
 {
   const std::string bytes = zstd(serialize(samples(300)));
   for (const std::size_t at : {std::size_t{5}, bytes.size() / 2})

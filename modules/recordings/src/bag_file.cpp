@@ -49,8 +49,8 @@ BagFile::BagFile(const std::string& path) : path_(path), file_(path)
   file_.seek(kBagVersion.size());
 }
 
-// The index at the end tells the connections, which a damaged chunk may keep to itself. What it
-// tells of places is not used.
+// The index at the end lists the connections, which a damaged chunk may keep to itself. What it
+// holds about places is not used.
 void BagFile::readIndex()
 {
   file_.seek(kBagVersion.size());
@@ -177,7 +177,7 @@ BagFile::Step BagFile::readMessage(
   if (topic.name.empty())
   {
     topic.name = "connection " + std::to_string(*number);
-    topic.trouble = "no record that is left tells its topic and type";
+    topic.trouble = "no remaining record holds its topic and type";
   }
   message_ = {&topic, nullptr, record_};
   if (!wanted(topic)) return source.skip(size) ? Step::Message : Step::End;
@@ -193,7 +193,7 @@ BagFile::Step BagFile::readConnection(ByteSource& source, const BagFields& field
   if (!readBytes(source, size, data_)) return Step::End;
   const auto inner = BagFields::parse(data_.data(), data_.size());
   if (!inner) return Step::Broken;
-  // The index at the end tells them all again.
+  // The index at the end lists them all again.
   if (connections_.count(*number) != 0 || connections_.size() >= kMostConnections)
     return Step::Other;
   const auto topic = fields.text("topic"), type = inner->text("type");

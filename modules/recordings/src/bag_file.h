@@ -22,7 +22,7 @@ class BagFile : public RosMessageSource
   [[nodiscard]] std::vector<const RosTopic*> topics() const override;
 
  private:
-  /** What reading a record has come to. */
+  /** The outcome of reading a record. */
   enum class Step
   {
     Message,  //!< one is in message_

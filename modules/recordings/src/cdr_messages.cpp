@@ -5,6 +5,7 @@
 
 #include "point_grid.h"
 #include "velodyne_scans.h"
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/poses/CPose3DQuat.h>
@@ -53,7 +54,7 @@ std::string pointsOf(const CloudColumns& columns, bool offsets)
     append(data, columns.ring.empty() ? std::uint16_t{0} : columns.ring[i]);
     if (columns.time.empty()) continue;
     if (offsets)
-      append(data, static_cast<std::uint32_t>(std::llround(columns.time[i] * 1e9)));
+      append(data, static_cast<std::uint32_t>(toNanoseconds(columns.time[i])));
     else
       append(data, columns.time[i]);
   }

@@ -65,7 +65,7 @@ bool isMcapChunk(const std::string& window, std::size_t at)
       [&](const std::string& name)
       {
         if (window.compare(at + kNameAt, name.size(), name) != 0) return false;
-        // Its head tells its length twice.
+        // Its head holds its length twice.
         const auto size = numberAt<std::uint64_t>(window, at + 1);
         const auto packed = numberAt<std::uint64_t>(window, at + kNameAt + name.size());
         return size == packed + kNameAt - 9 + name.size() + sizeof packed;

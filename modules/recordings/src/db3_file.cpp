@@ -14,8 +14,8 @@ namespace
 {
 using Statement = std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)>;
 
-// What one row may cost the database's machine: views and generated columns of a hostile file could
-// take for ever.
+// Limit of the steps that one row may cost the database's machine: views and generated columns of a
+// hostile file could take for ever.
 constexpr int kStepsPerCall = 100'000;
 constexpr std::uint64_t kMostCalls = 1000;
 
@@ -58,8 +58,10 @@ bool isDb3(const std::string& path)
 
 Db3File::Db3File(const std::string& path) : Db3File(path, path) {}
 
-Db3File::Db3File(const std::string& path, std::string told)
-    : told_(std::move(told)), database_(nullptr, sqlite3_close), rows_(nullptr, sqlite3_finalize)
+Db3File::Db3File(const std::string& path, std::string shown_name)
+    : shown_name_(std::move(shown_name)),
+      database_(nullptr, sqlite3_close),
+      rows_(nullptr, sqlite3_finalize)
 {
   bytes_ = FileBytes(path).size();
   open(path);
@@ -141,7 +143,7 @@ NextMessage Db3File::messageOfRow(const TopicFilter& wanted)
   const auto known = topics_.find(number);
   RosTopic& topic = known != topics_.end() ? known->second : topics_[0];
   if (topic.name.empty())
-    topic = {"unknown topic", "", WireFormat::Cdr, "no row of the topics tells its name and type"};
+    topic = {"unknown topic", "", WireFormat::Cdr, "no row of the topics has its name and type"};
   message_ = {&topic, nullptr, position()};
   if (!wanted(topic)) return message_;
   const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(rows_.get(), 2));
@@ -157,7 +159,7 @@ NextMessage Db3File::damage(const std::string& why)
   constexpr std::size_t kMostDamages = 1000;
   constexpr std::int64_t kLatestRow = std::int64_t{1} << 40U;
   const std::int64_t from = row_;
-  // The page that tells the last row may be the damaged one.
+  // The page that holds the last row may be the damaged one.
   const std::int64_t last = last_row_ > 0 ? std::min(last_row_, kLatestRow) : kLatestRow;
   bool found = false;
   ++damages_;
@@ -170,12 +172,12 @@ NextMessage Db3File::damage(const std::string& why)
   finished_ = !found;
   const bool cut = isCut();
   return ReadProblem{
-      told_,
+      shown_name_,
       static_cast<std::size_t>(std::max<std::int64_t>(from, 0)),
       0,
       cut ? ReadProblemKind::Truncated : ReadProblemKind::Corrupt,
       "",
-      told_ + ": behind row " + std::to_string(from) + " of " + std::to_string(last_row_) +
+      shown_name_ + ": behind row " + std::to_string(from) + " of " + std::to_string(last_row_) +
           " the database cannot be read (" + printable(why) + "). " +
           (found ? "Reading goes on behind row " + std::to_string(row_) + ". " : "") +
           (cut ? "The recording or a copy of it was cut off."

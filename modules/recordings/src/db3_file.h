@@ -18,8 +18,8 @@ class Db3File : public RosMessageSource
  public:
   /** \exception std::runtime_error it cannot be opened, or has no tables of a bag */
   explicit Db3File(const std::string& path);
-  /** \param told how messages call the file */
-  Db3File(const std::string& path, std::string told);
+  /** \param shown_name the name of the file in messages */
+  Db3File(const std::string& path, std::string shown_name);
   ~Db3File() override;
 
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
@@ -34,7 +34,7 @@ class Db3File : public RosMessageSource
   [[nodiscard]] NextMessage damage(const std::string& why);
   [[nodiscard]] bool isCut() const;
 
-  std::string told_;
+  std::string shown_name_;
   std::uint64_t bytes_ = 0;
   std::unique_ptr<sqlite3, int (*)(sqlite3*)> database_;
   std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> rows_;

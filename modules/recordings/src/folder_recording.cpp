@@ -90,7 +90,7 @@ std::optional<Pose> kittiPose(const std::string& path)
 }
 
 const std::string kWithoutTimes =
-    "LiDAR, clouds without times of their points (docs/inputs.md tells how to make them)";
+    "LiDAR, clouds without times of their points (docs/inputs.md explains how to make them)";
 
 /** Where a folder keeps its clouds. */
 std::string cloudsOf(const std::string& path)

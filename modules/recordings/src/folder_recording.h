@@ -41,7 +41,7 @@ class FolderRecording : public RecordingReader
 [[nodiscard]] bool isKittiSequence(const std::string& path);
 [[nodiscard]] std::unique_ptr<RecordingReader> openKittiSequence(const std::string& path);
 
-/** PCD or BIN files whose names, or a file of times, tell their stamps; imu.csv if there is one. */
+/** PCD or BIN files whose names, or a file of times, give their stamps; imu.csv if there is one. */
 [[nodiscard]] bool isCloudFolder(const std::string& path);
 [[nodiscard]] std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path);
 

@@ -44,10 +44,10 @@ enum class LivoxPoints : std::uint8_t
 struct LivoxLayout
 {
   LivoxPoints kind = LivoxPoints::Imu;
-  std::size_t count = 0;    //!< points, or groups of the returns of one pulse; 0: the head tells
+  std::size_t count = 0;    //!< points, or groups of the returns of one pulse; 0: given by the head
   std::size_t bytes = 0;    //!< of a group
   std::size_t returns = 1;  //!< in a group
-  double interval_ns = 0;   //!< from group to group; 0: the head tells
+  double interval_ns = 0;   //!< from group to group; 0: given by the head
 };
 
 constexpr double kPulseMid40 = 1e4, kPulseAvia = 1e9 / 240'000;
@@ -136,7 +136,7 @@ std::optional<LivoxPacket> livoxPacketOf(const UdpPacket& packet)
 {
   auto result = firstGeneration(packet);
   if (!result) result = secondGeneration(packet);
-  // Clocks that have just begun are fine; what no clock tells is no packet of a Livox.
+  // Clocks that have just begun are fine; a time that no clock gives is in no packet of a Livox.
   const bool sane = result && result->stamp_ns >= 0 && result->stamp_ns < kLatestStamp;
   return sane ? result : std::nullopt;
 }

@@ -205,7 +205,7 @@ McapFile::Step McapFile::readMessage(
   if (topic.name.empty())
     topic = {
         "channel " + std::to_string(*channel), "", WireFormat::Cdr,
-        "no record that is left tells its topic and type"};
+        "no remaining record holds its topic and type"};
   message_ = {&topic, nullptr, record_};
   size -= kMessageHead;
   if (!wanted(topic)) return source.skip(size) ? Step::Message : Step::Ended;
@@ -244,7 +244,7 @@ try
   if (encoding != "ros1" && encoding != "cdr")
     topic.trouble = "the encoding '" + encoding + "' is not known (ros1 and cdr are)";
   if (schema != schemas_.end()) topic.type = schema->second;
-  // A message may point to the first one that was told.
+  // A message may point to the first one that was defined.
   const auto known = channels_.find(id);
   if (known == channels_.end() || known->second.type.empty()) channels_[id] = std::move(topic);
   return Step::Other;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file ouster_metadata.h What an Ouster says about itself, in JSON: without it its packets cannot
+/** \file ouster_metadata.h The metadata of an Ouster, in JSON: without it its packets cannot
  * be read. */
 #pragma once
 
@@ -36,7 +36,7 @@ struct OusterMetadata
   std::vector<double> altitude, azimuth;  //!< of each beam
   Vec3 beam_origin = Vec3::Zero();        //!< in the frame that turns with the beams
   Pose T_sensor_lidar, T_sensor_imu;
-  std::uint16_t lidar_port = 0, imu_port = 0;  //!< 0: not told
+  std::uint16_t lidar_port = 0, imu_port = 0;  //!< 0: not given
 
   [[nodiscard]] bool isLegacy() const { return profile.name == "LEGACY"; }
   /** Of a packet without the heads of the network. */

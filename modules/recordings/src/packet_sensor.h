@@ -23,7 +23,7 @@ class PacketSensor
   /** A packet that the sensor's kind was recognised by, or another one of that size. */
   virtual void take(const UdpPacket& packet, ObservationQueue& out) = 0;
 
-  /** What is left at the end. */
+  /** The observations left at the end. */
   virtual void flush(ObservationQueue& out) = 0;
 };
 

@@ -13,7 +13,8 @@
 
 namespace fastlio
 {
-/** Sensors are told by their packets; each sender is a sensor, whose label is its kind and address.
+/** Sensors are recognised by their packets; each sender is a sensor, whose label is its kind and
+ * address.
  */
 class PcapRecording : public RecordingReader
 {

@@ -56,7 +56,7 @@ RosObservation readLivoxCustom(WireReader& in, const std::string& label)
   constexpr std::int64_t kRounding = 1'000, kOtherClock = 1'000'000'000;  // [ns]
   const RosHeader header = readRosHeader(in);
   const auto base_ns = static_cast<std::int64_t>(in.number<std::uint64_t>());
-  (void)in.number<std::uint32_t>();  // points, which the sequence tells again
+  (void)in.number<std::uint32_t>();  // points, which the sequence holds again
   (void)in.take(4);                  // number of the LiDAR, reserved
   const std::size_t n = in.count(kPointBytes);
   const double ahead = static_cast<double>(base_ns) - static_cast<double>(header.stamp_ns);

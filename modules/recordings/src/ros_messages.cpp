@@ -3,6 +3,7 @@
 
 #include "ros_messages.h"
 
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/math/CQuaternion.h>
@@ -59,7 +60,7 @@ void setImu(
 RosHeader readRosHeader(WireReader& in)
 {
   if (in.isRos1()) (void)in.number<std::uint32_t>();  // the sequence number
-  // Seconds of ROS 1 have no sign, which tells after 2038 only.
+  // Seconds of ROS 1 have no sign, which matters after 2038 only.
   const std::int64_t seconds =
       in.isRos1() ? std::int64_t{in.number<std::uint32_t>()} : in.number<std::int32_t>();
   const auto nanoseconds = in.number<std::uint32_t>();
@@ -108,7 +109,7 @@ RosObservation readNavSatFix(WireReader& in, const std::string& label)
   gps->sensorLabel = label;
   gps->timestamp = toMrptTime(header.stamp_ns);
   gps->originalReceivedTimestamp = gps->timestamp;
-  const auto in_a_day = static_cast<double>(header.stamp_ns % (86'400 * kNsPerRosSecond)) * 1e-9;
+  const auto in_a_day = toSeconds(header.stamp_ns % (86'400 * kNsPerRosSecond));
   gnss::Message_NMEA_GGA gga;
   gga.fields.UTCTime.hour = static_cast<std::uint8_t>(in_a_day / 3600);
   gga.fields.UTCTime.minute = static_cast<std::uint8_t>(std::fmod(in_a_day, 3600) / 60);

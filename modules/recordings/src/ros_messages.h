@@ -24,7 +24,7 @@ struct RosHeader
 };
 [[nodiscard]] RosHeader readRosHeader(WireReader& in);
 
-/** What a message has become: an observation and the frame that it was measured in. */
+/** A converted message: an observation and the frame that it was measured in. */
 struct RosObservation
 {
   mrpt::obs::CObservation::Ptr observation;

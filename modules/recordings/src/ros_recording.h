@@ -20,7 +20,7 @@
 
 namespace fastlio
 {
-/** A topic as the container tells it. */
+/** A topic as the container describes it. */
 struct RosTopic
 {
   std::string name, type;
@@ -53,7 +53,7 @@ class RosMessageSource
   [[nodiscard]] virtual NextMessage next(const TopicFilter& wanted) = 0;
   [[nodiscard]] virtual std::uint64_t position() const = 0;
 
-  /** All topics that the container has told so far, also those without messages. */
+  /** All topics that the container has listed so far, also those without messages. */
   [[nodiscard]] virtual std::vector<const RosTopic*> topics() const = 0;
 };
 
@@ -94,7 +94,7 @@ class RosRecording : public RecordingReader
   std::string vehicle_;                        // the frame that poses refer to; empty: none known
   std::map<std::string, std::string> frames_;  // by label: the frame and what is known of its pose
   std::map<std::string, Counts> counts_;       // by topic
-  std::set<std::string> refused_;              // topics whose trouble has been told
+  std::set<std::string> refused_;              // topics whose trouble has been reported
   std::size_t index_ = 0;                      // of the message at hand
 };
 

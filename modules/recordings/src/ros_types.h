@@ -10,7 +10,7 @@
 
 namespace fastlio
 {
-/** What a message is there for. */
+/** The use of a message. */
 enum class RosRole
 {
   Observation,

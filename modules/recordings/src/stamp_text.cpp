@@ -4,6 +4,7 @@
 #include "stamp_text.h"
 
 #include <fastlio/files/bounded_line.h>
+#include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 
 #include <cmath>
@@ -75,7 +76,7 @@ std::optional<std::int64_t> stampOf(std::string_view text)
   const auto seconds = parsed<double>(text);
   if (!seconds || !(*seconds >= 0.0 && *seconds < static_cast<double>(kLatestTextSecond)))
     return std::nullopt;
-  return std::llround(*seconds * 1e9);
+  return toNanoseconds(*seconds);
 }
 
 std::vector<std::int64_t> stampsOfFile(const std::string& path)

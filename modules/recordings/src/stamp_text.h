@@ -13,7 +13,8 @@
 namespace fastlio
 {
 /** Nanoseconds since 1970 from "2011-09-26 13:02:25.594360375" (read as UTC), seconds with decimals
- * or an exponent, or a whole number whose size tells its unit: s, ms, us or ns. Decimals are exact.
+ * or an exponent, or a whole number whose size determines its unit: s, ms, us or ns. Decimals are
+ * exact.
  */
 [[nodiscard]] std::optional<std::int64_t> stampOf(std::string_view text);
 

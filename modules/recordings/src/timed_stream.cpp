@@ -198,7 +198,7 @@ void ImuTable::advance()
 std::optional<std::int64_t> ImuTable::stamp() const
 {
   if (stamp_ns_) return stamp_ns_;
-  // The problem is told at the end, when it is known how many lines it is about.
+  // The problem is reported at the end, when it is known how many lines it is about.
   return bad_ > 0 && !told_ ? std::optional<std::int64_t>(INT64_MAX) : std::nullopt;
 }
 

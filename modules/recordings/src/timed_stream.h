@@ -47,7 +47,7 @@ struct TimedFile
 class CloudStream : public TimedStream
 {
  public:
-  /** \param pose of the sensor in the vehicle, if the folder tells it */
+  /** \param pose of the sensor in the vehicle, if the folder holds it */
   CloudStream(
       std::string label, std::vector<TimedFile> files, std::string reason,
       const std::optional<Pose>& pose = {});
@@ -66,7 +66,7 @@ class CloudStream : public TimedStream
 };
 
 /** A table of inertial samples: time, angular rate, specific force, one sample a line. A first line
- * with names tells the columns; without one they are time, three rates, three accelerations. */
+ * with names orders the columns; without one they are time, three rates, three accelerations. */
 class ImuTable : public TimedStream
 {
  public:

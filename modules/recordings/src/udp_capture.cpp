@@ -81,7 +81,7 @@ std::optional<UdpPacket> UdpCapture::next()
   }
 }
 
-// What lies behind the head of the link.
+// The bytes behind the head of the link.
 std::optional<UdpCapture::View> UdpCapture::ipOf(View frame) const
 {
   constexpr std::size_t kEthernet = 14, kVlan = 4, kCooked = 16, kCooked2 = 20, kNull = 4;

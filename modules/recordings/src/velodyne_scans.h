@@ -19,7 +19,7 @@ inline constexpr std::size_t kVelodynePacketBytes = 1206;
 /** Points to so many bytes. */
 using VelodynePacketBytes = const std::uint8_t*;
 
-/** The calibration is the default of the model that the packets tell.
+/** The calibration is the default of the model that the packets name.
  * \param stamp_ns of the first packet
  * \exception std::runtime_error no packets */
 [[nodiscard]] mrpt::obs::CObservationVelodyneScan::Ptr makeVelodyneScan(

@@ -17,7 +17,7 @@ namespace fastlio
 enum class WireFormat
 {
   Ros1,  //!< packed, little endian, texts without an end mark
-  Cdr    //!< of DDS: a head that tells the order of bytes, numbers aligned
+  Cdr    //!< of DDS: a head that gives the order of bytes, numbers aligned
 };
 
 /** Reads forward; never beyond the end, whatever lengths the message claims. All functions throw

@@ -165,7 +165,7 @@ TEST_F(Captures, OusterFollowsItsMetadata)
   }
 }
 
-TEST_F(Captures, AnOusterWithoutMetadataIsTold)
+TEST_F(Captures, AnOusterWithoutMetadataIsReported)
 {
   const std::vector<SentPacket> packets(5, {kStart, 7502, ousterPacket(kStart, 0)});
   const std::string file = fileOf(captureOf(packets), "walk.pcap");

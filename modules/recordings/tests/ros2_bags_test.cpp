@@ -76,7 +76,7 @@ TEST_F(RosTwoBags, ACutMcapGivesAllThatIsBeforeTheCut)
     }
 }
 
-TEST_F(RosTwoBags, DamageInAChunkOfMcapIsToldAndCostsThisChunkOnly)
+TEST_F(RosTwoBags, DamageInAChunkOfMcapIsReportedAndCostsThisChunkOnly)
 {
   const auto messages = smallRecording(Wire::Cdr);
   for (const char* compression : {"none", "lz4", "zstd"})
@@ -108,7 +108,7 @@ TEST_F(RosTwoBags, McapGoesOnAtTheNextChunkBehindGarbage)
 
 TEST_F(RosTwoBags, SearchesBehindDamageAreBounded)
 {
-  // Heads of chunks that tell their length right, hold nothing, and are followed by garbage.
+  // Heads of chunks that give their length right, hold nothing, and are followed by garbage.
   const std::string chunk = WireWriter(Wire::Ros1)
                                 .number(std::uint8_t{6})
                                 .number(std::uint64_t{28 + 7 + 8 + 1})

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/sweep_time.h>
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 namespace
 {
 using namespace fastlio;
-
-constexpr double kNanosecondsPerSecond = 1e9;
 
 // Turns the time field into seconds after the stamp. Not-a-number does not decide: single points
 // without a time are dropped later.
@@ -45,7 +44,7 @@ void copyUsablePoints(const CloudColumns& cloud, CloudConversion& result)
     }
     result.points.push_back(
         cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity.empty() ? 0.0F : cloud.intensity[i],
-        static_cast<std::int32_t>(std::lround(time_s * kNanosecondsPerSecond)),
+        static_cast<std::int32_t>(toNanoseconds(time_s)),
         cloud.ring.empty() ? std::uint16_t{0} : cloud.ring[i]);
   }
 }

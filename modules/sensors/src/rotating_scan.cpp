@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "velodyne_models.h"
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/rotating_scan.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
@@ -70,8 +71,11 @@ class Collector
 
   [[nodiscard]] int columns() const { return columns_; }
 
-  /** Share of the sweep that has passed at a column. */
-  [[nodiscard]] double shareAt(int column) const { return static_cast<double>(column) / columns_; }
+  /** Fraction of the sweep that has passed at a column. */
+  [[nodiscard]] double fractionAt(int column) const
+  {
+    return static_cast<double>(column) / columns_;
+  }
 
   void add(const Vec3& p, int row, int column, double seconds_in_column)
   {
@@ -81,12 +85,12 @@ class Collector
       ++result_.out_of_range;
       return;
     }
-    const double time_s = shareAt(column) * scan_.sweepDuration + seconds_in_column;
+    const double time_s = fractionAt(column) * scan_.sweepDuration + seconds_in_column;
     const bool bright = row < scan_.intensityImage.rows() && column < scan_.intensityImage.cols();
     result_.points.push_back(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
         bright ? static_cast<float>(at(scan_.intensityImage, row, column)) : 0.0F,
-        timed_ ? static_cast<std::int32_t>(std::lround(time_s * 1e9)) : 0,
+        timed_ ? static_cast<std::int32_t>(toNanoseconds(time_s)) : 0,
         static_cast<std::uint16_t>(row));
   }
 
@@ -147,7 +151,7 @@ RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
       }
       const auto in_sequence = static_cast<std::size_t>(row) % timing.lasers_per_sequence;
       const double delay = 1e-6 * timing.laser_us * static_cast<double>(in_sequence);
-      const double azimuth = scan.startAzimuth + collector.shareAt(column) * scan.azimuthSpan +
+      const double azimuth = scan.startAzimuth + collector.fractionAt(column) * scan.azimuthSpan +
                              turn_rate * delay - laser.azimuth_correction;
       const double flat = range * laser.cos_elevation + laser.offset_xy;
       collector.add(

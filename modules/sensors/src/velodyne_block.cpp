@@ -52,7 +52,7 @@ void place(
 }
 
 // 1 for each return that is a point of its own within range, 0 for the others, which are counted.
-PerReturn<std::uint8_t> judge(
+PerReturn<std::uint8_t> classify(
     const BlockPoints& points, const VelodyneBlock* first_return, const RangeLimits& limits,
     VelodyneDecodeCounts& counts)
 {
@@ -125,7 +125,7 @@ void PacketPoints::add(
   BlockPoints points;
   readDistances(block, bank, points);
   place(bank, angles, start, points);
-  const PerReturn<std::uint8_t> counts_as_point = judge(points, first_return, limits_, counts);
+  const PerReturn<std::uint8_t> counts_as_point = classify(points, first_return, limits_, counts);
   std::size_t at = size_;
   for (std::size_t i = 0; i < kReturnsPerBlock; ++i)
   {

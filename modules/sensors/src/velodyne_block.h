@@ -22,7 +22,7 @@ constexpr std::size_t kReturnsPerBlock = mrpt::obs::CObservationVelodyneScan::SC
 template <typename T>
 using PerReturn = std::array<T, kReturnsPerBlock>;
 
-/** What stays the same for all blocks of a bank of lasers. */
+/** Values that are the same for all blocks of a bank of lasers. */
 struct VelodyneBank
 {
   PerReturn<double> sin_elevation, cos_elevation;

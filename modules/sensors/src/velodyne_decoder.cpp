@@ -33,7 +33,7 @@ constexpr double kRadiansPerUnit = 1e-4 * 1.7453292519943295;
 constexpr std::int64_t kMicrosecondsPerHour = 3'600'000'000;
 constexpr std::int64_t kMaxSweepMicroseconds = 2'000'000;
 
-// What stays the same for all packets of a sweep.
+// Values that are the same for all packets of a sweep.
 struct Sensor
 {
   VelodyneModel model;

@@ -117,7 +117,7 @@ std::vector<LaserGeometry> defaultLasers(VelodyneModel model)
 }
 
 // Calibration files give angles in degrees (XML) or radians (YAML); the sine next to the angle
-// tells.
+// decides.
 double radiansPerUnit(const std::vector<Correction>& corrections)
 {
   double error_degrees = 0, error_radians = 0;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file velodyne_models.h What the manuals say about each sensor: when each laser fires and where
+/** \file velodyne_models.h Data of each sensor from its manual: when each laser fires and where
  * to. */
 #pragma once
 

@@ -65,7 +65,7 @@ TEST(Imu, ChannelsGoToTheirAxes)
   EXPECT_EQ(conversion.sample->accel, Vec3(0.1, 0.2, 9.81));
 }
 
-TEST(Imu, DefectsAreToldApart)
+TEST(Imu, DefectsAreDistinguished)
 {
   auto imu = imuAt(0);
   imu->dataIsPresent[mrpt::obs::IMU_Z_ACC] = false;
@@ -121,7 +121,7 @@ TEST(PointCloud, InvalidPointsAreDropped)
   EXPECT_EQ(result.times, PointTimes::PerPoint);
 }
 
-TEST(PointCloud, MissingAndUnusableTimesAreTold)
+TEST(PointCloud, MissingAndUnusableTimesAreReported)
 {
   EXPECT_EQ(toTimedPoints({{1}, {2}, {3}, {}, {}, {}}, 0).times, PointTimes::Absent);
   // Absolute seconds, milliseconds.

@@ -19,7 +19,7 @@ using namespace fastlio::testing;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/** One point per millisecond from first to last; its intensity tells which it is. */
+/** One point per millisecond from first to last; its intensity is its number. */
 LidarScan scanOf(std::int64_t stamp_ms, int first_ms, int last_ms, const Pose& T_imu_lidar = {})
 {
   LidarScan scan;

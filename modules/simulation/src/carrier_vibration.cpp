@@ -3,8 +3,8 @@
 
 #include "carrier_vibration.h"
 
-#include "random_stream.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/scenarios/random_stream.h>
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 /** \file carrier_vibration.h Vibration of the platform (internal). */
 #pragma once
 
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
+#include <fastlio/worlds/motion.h>
 
 namespace fastlio
 {

@@ -4,6 +4,7 @@
 #include "cloud_formats.h"
 
 #include <fastlio/compat/CGenericPointsMap.h>
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -49,7 +50,7 @@ mrpt::maps::CPointsMap::Ptr makeGeneric(const PointColumns& points, std::vector<
 
 std::int64_t shiftOf(const LidarSettings& lidar)
 {
-  const double sweep_ns = 1e9 / lidar.rate;
+  const double sweep_ns = kNsPerSecond / lidar.rate;
   switch (lidar.time_reference)
   {
     case CloudTimeReference::Middle:

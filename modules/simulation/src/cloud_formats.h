@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
 
 #include <mrpt/maps/CPointsMap.h>
 

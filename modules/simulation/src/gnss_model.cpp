@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "random_stream.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/gnss_model.h>
 
 #include <algorithm>

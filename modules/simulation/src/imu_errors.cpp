@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "random_stream.h"
+#include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/imu_errors.h>
 
 #include <cmath>

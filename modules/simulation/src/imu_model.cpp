@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "random_stream.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/imu_model.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Reading meanReading(const Motion& motion, double gravity, double t, double perio
   return mean;
 }
 
-/** What a sensor with such errors reads. */
+/** The reading of a sensor with such errors. */
 Reading distorted(const ImuErrors& errors, const Reading& r)
 {
   return {errors.gyro * r.gyro + errors.g_sensitivity * r.accel, errors.accel * r.accel};

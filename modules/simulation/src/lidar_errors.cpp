@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "random_stream.h"
+#include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/lidar_errors.h>
 
 #include <cmath>
@@ -14,13 +14,13 @@ constexpr double kCos80 = 0.17364817766693036;
 
 Pose drawMounting(const SimulationSettings& s)
 {
-  const UntoldSettings& untold = s.lidar.untold;
-  const Pose& said = s.lidar.T_imu_lidar;
-  if (untold.rotation_std == 0.0 && untold.position_std == 0.0) return said;
+  const HiddenErrors& hidden = s.lidar.hidden;
+  const Pose& nominal = s.lidar.T_imu_lidar;
+  if (hidden.rotation_std == 0.0 && hidden.position_std == 0.0) return nominal;
   RandomStream random(s.seed, NoiseSource::Mounting);
-  const Vec3 turned = untold.rotation_std * random.normal3();
-  const Vec3 moved = untold.position_std * random.normal3();
-  return {said.R * expSO3(turned), said.p + moved};
+  const Vec3 turned = hidden.rotation_std * random.normal3();
+  const Vec3 moved = hidden.position_std * random.normal3();
+  return {nominal.R * expSO3(turned), nominal.p + moved};
 }
 
 std::vector<double> drawOffsets(
@@ -63,7 +63,7 @@ double rangeBias(const BeamSettings& settings, const Return& back)
 
 double clockOffset(const LidarSettings& settings)
 {
-  return settings.time_offset + settings.untold.clock_error;
+  return settings.time_offset + settings.hidden.clock_error;
 }
 
 }  // namespace fastlio

@@ -3,12 +3,12 @@
 
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/config/config_document.h>
-#include <fastlio/exporters/run_folder.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/parallel/workers.h>
+#include <fastlio/run/run_folder.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/recording.h>
@@ -92,7 +92,7 @@ class RawlogFile
   std::size_t next_ = 0, next_aid_ = 0;
 };
 
-/** What the sensors beside LiDAR and IMU deliver, in the order of stamps. */
+/** The observations of the sensors beside LiDAR and IMU, in the order of stamps. */
 std::vector<Encoded> encodeAids(const Simulation& simulation)
 {
   std::vector<Encoded> aids;

@@ -3,12 +3,12 @@
 
 #include "carrier_vibration.h"
 #include "caster.h"
-#include "random_stream.h"
-#include "scenario_table.h"
-#include "session_changes.h"
 #include <fastlio/math/time.h>
+#include <fastlio/scenarios/random_stream.h>
+#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/session_changes.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/packet_loss.h>
-#include <fastlio/simulation/settings_table.h>
 #include <fastlio/simulation/simulation.h>
 
 #include <algorithm>
@@ -97,7 +97,7 @@ void addRangeNoise(std::vector<Echo>& echoes, const SimulationSettings& s, std::
 }
 }  // namespace
 
-/** What the constructor makes before the members. */
+/** The objects that the constructor makes before the members. */
 struct Simulation::Parts
 {
   SimulationSettings settings;

@@ -3,7 +3,7 @@
 
 #include <fastlio/simulation/beam.h>
 #include <fastlio/simulation/panes.h>
-#include <fastlio/simulation/world.h>
+#include <fastlio/worlds/world.h>
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 
 #include "short_simulation.h"
 #include <fastlio/lidar/point_time.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 #include <fastlio/simulation/observations.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationPointCloud.h>

@@ -155,8 +155,8 @@ TEST(LidarErrors, RangesOfASweepHaveTheBiasOfTheirIncidenceAndReflectivity)
 TEST(LidarErrors, MountingIsNotWhatTheRecordingTells)
 {
   SimulationSettings settings = exactOffice();
-  settings.lidar.untold.rotation_std = 0.3 * kRadPerDeg;
-  settings.lidar.untold.position_std = 0.01;
+  settings.lidar.hidden.rotation_std = 0.3 * kRadPerDeg;
+  settings.lidar.hidden.position_std = 0.01;
   double turned = 0.0, moved = 0.0;
   constexpr int kSeeds = 300;  // times three axes: 3 sigma of the root mean square is 7 %
   for (int seed = 1; seed <= kSeeds; ++seed)
@@ -170,11 +170,11 @@ TEST(LidarErrors, MountingIsNotWhatTheRecordingTells)
   EXPECT_NEAR(std::sqrt(moved / (3 * kSeeds)), 0.01, 0.0007);
 }
 
-TEST(LidarErrors, ScansAreFiredFromTheTrueMountingAndToldAnother)
+TEST(LidarErrors, ScansAreFiredFromTheTrueMountingAndStoreAnother)
 {
   SimulationSettings settings = exactOffice();
-  settings.lidar.untold.position_std = 0.05;
-  settings.lidar.untold.rotation_std = 2.0 * kRadPerDeg;
+  settings.lidar.hidden.position_std = 0.05;
+  settings.lidar.hidden.rotation_std = 2.0 * kRadPerDeg;
   const Simulation simulation(settings);
   SimulationSettings honest = exactOffice();
   honest.lidar.T_imu_lidar = simulation.lidarErrors().T_imu_lidar;
@@ -188,7 +188,7 @@ TEST(LidarErrors, ClockErrorShiftsStampsLikeATimeOffset)
 {
   SimulationSettings settings = exactOffice();
   settings.lidar.time_offset = 0.001;
-  settings.lidar.untold.clock_error = 0.004;
+  settings.lidar.hidden.clock_error = 0.004;
   const LidarScan late = Simulation(settings).scan(3), on_time = Simulation(exactOffice()).scan(3);
   EXPECT_EQ(late.stamp_ns - on_time.stamp_ns, 5'000'000);
   EXPECT_EQ(late.points.x, on_time.points.x);

@@ -4,7 +4,7 @@
 #include "short_simulation.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
-#include <fastlio/simulation/path_builder.h>
+#include <fastlio/worlds/path_builder.h>
 
 #include <gtest/gtest.h>
 

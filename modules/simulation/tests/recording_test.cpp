@@ -154,15 +154,15 @@ TEST(Recording, HoldsEverythingInTheOrderOfStamps)
 {
   const TemporaryDirectory directory;
   const Simulation simulation(testing::shortSettings("office", 3.0));
-  std::size_t told = 0;
+  std::size_t reported = 0;
   const RecordingFiles files = writeRecording(
       simulation, directory.path(),
       [&](std::size_t done, std::size_t total)
       {
-        EXPECT_EQ(done, ++told);
+        EXPECT_EQ(done, ++reported);
         EXPECT_EQ(total, simulation.scanCount());
       });
-  EXPECT_EQ(told, simulation.scanCount());
+  EXPECT_EQ(reported, simulation.scanCount());
 
   RawlogSource source({files.rawlog});
   std::size_t scans = 0, samples = 0;

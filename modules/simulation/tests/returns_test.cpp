@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "short_simulation.h"
+#include <fastlio/scenarios/realistic.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
-#include <fastlio/simulation/realistic.h>
 #include <fastlio/simulation/recording.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -158,7 +158,7 @@ TEST(Realistic, LeavesTheRandomNumbersOfIdealSensorsAsTheyWere)
   settings.lidar.beam.false_returns = 1e-9;
   settings.lidar.beam.packet_loss = 1e-9;
   settings.imu.errors.g_sensitivity_std = 1e-30;
-  settings.lidar.untold.clock_error = 0.004;
+  settings.lidar.hidden.clock_error = 0.004;
   const Simulation other(settings);
   EXPECT_EQ(ideal.scan(20).points.x, other.scan(20).points.x);
   for (std::size_t i = 0; i < ideal.imu().samples.size(); ++i)
@@ -181,9 +181,9 @@ TEST(Realistic, TurnsOnEverySettingOfImperfectionsButTheCrowd)
         b.false_returns,
         b.packet_loss,
         b.outage_interval,
-        real.lidar.untold.clock_error,
-        real.lidar.untold.rotation_std,
-        real.lidar.untold.position_std,
+        real.lidar.hidden.clock_error,
+        real.lidar.hidden.rotation_std,
+        real.lidar.hidden.position_std,
         real.imu.errors.gyro_scale_std,
         real.imu.errors.accel_scale_std,
         real.imu.errors.gyro_misalignment_std,

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file rides.h What tests ask of long ways: which parts are passed again, which places look alike.
+/** \file rides.h Properties of long ways for tests: the parts that are passed again, the places that look alike.
  */
 #pragma once
 
@@ -83,8 +83,8 @@ inline std::vector<double> viewFrom(const World& world, const Pose& pose, double
   return ranges;
 }
 
-/** Share of directions in which two views have the same range within a tolerance [m]. */
-inline double shareAlike(
+/** Fraction of directions in which two views have the same range within a tolerance [m]. */
+inline double fractionAlike(
     const std::vector<double>& a, const std::vector<double>& b, double tolerance)
 {
   double alike = 0.0;

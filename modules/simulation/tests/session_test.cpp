@@ -4,8 +4,8 @@
 /** \file session_test.cpp The same world on other days. */
 
 #include "rides.h"
-#include "scenario_table.h"
-#include "session_changes.h"
+#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/session_changes.h>
 #include <fastlio/simulation/recording.h>
 
 #include <gtest/gtest.h>

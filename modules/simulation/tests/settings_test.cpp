@@ -3,8 +3,8 @@
 
 #include "short_simulation.h"
 #include <fastlio/config/config.h>
+#include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
-#include <fastlio/simulation/settings_table.h>
 
 #include <gtest/gtest.h>
 
@@ -124,7 +124,7 @@ TEST(MatchingParameters, AreValidForEveryScenario)
   EXPECT_EQ(problemOf([&] { validate(matchingConfig(perfect)); }), "");
 }
 
-TEST(MatchingParameters, TellTheFilterWhatTheSensorsAre)
+TEST(MatchingParameters, GiveTheFilterTheSensorsAsTheyAre)
 {
   SimulationSettings settings = defaultSettings("office");
   settings.lidar.time_offset = 0.02;

@@ -5,7 +5,7 @@
  * not those that rays are cast with. */
 #pragma once
 
-#include <fastlio/simulation/world.h>
+#include <fastlio/worlds/world.h>
 
 namespace fastlio::testing
 {

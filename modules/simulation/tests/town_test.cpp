@@ -3,7 +3,7 @@
 
 #include "rides.h"
 #include <fastlio/math/angles.h>
-#include <fastlio/simulation/path_builder.h>
+#include <fastlio/worlds/path_builder.h>
 
 #include <gtest/gtest.h>
 
@@ -62,7 +62,7 @@ TEST(Town, RidesAsAVehicleOverHills)
 
 TEST(Town, LooksDifferentInEveryStreet)
 {
-  // What stands around crossings: no two have walls at the same ranges.
+  // The surroundings of crossings: no two have walls at the same ranges.
   const Simulation simulation(testing::wholeRide("town"));
   std::vector<std::vector<double>> views;
   for (double t = 10.0; t < 100.0; t += 10.0)
@@ -72,7 +72,7 @@ TEST(Town, LooksDifferentInEveryStreet)
   }
   for (std::size_t a = 0; a < views.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      EXPECT_LT(testing::shareAlike(views[a], views[b], 0.3), 0.5) << a << " and " << b;
+      EXPECT_LT(testing::fractionAlike(views[a], views[b], 0.3), 0.5) << a << " and " << b;
 }
 
 TEST(Route, SlowsDownInBendsAsTheAccelerationAsks)

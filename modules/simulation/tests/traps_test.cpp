@@ -25,8 +25,8 @@ TEST(Facades, LookTheSameOnePeriodFurther)
   { return testing::viewFrom(simulation.world(), levelAt(x, -1.8, 1.6), 80.0); };
   for (const double x : {-30.0, 0.0, 4.0})
   {
-    EXPECT_EQ(testing::shareAlike(view(x), view(x + 17.5), 1e-6), 1.0) << x;
-    EXPECT_LT(testing::shareAlike(view(x), view(x + 8.0), 0.1), 0.5) << x;
+    EXPECT_EQ(testing::fractionAlike(view(x), view(x + 17.5), 1e-6), 1.0) << x;
+    EXPECT_LT(testing::fractionAlike(view(x), view(x + 8.0), 0.1), 0.5) << x;
   }
 }
 
@@ -66,7 +66,7 @@ TEST(Corridors, LookAlikeAndSomeDifferALittle)
     for (int level = 0; level < 2; ++level)
       for (const double x : {7.0, 12.0, 18.0})
       {
-        const double alike = testing::shareAlike(view(x, 1, 0), view(x, corridor, level), 0.05);
+        const double alike = testing::fractionAlike(view(x, 1, 0), view(x, corridor, level), 0.05);
         EXPECT_GT(alike, 0.8) << corridor << ", " << level << ", " << x;
         differs = differs || alike < 0.99;
       }

@@ -6,8 +6,8 @@
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/simulation/observations.h>
-#include <fastlio/simulation/path_builder.h>
 #include <fastlio/simulation/recording.h>
+#include <fastlio/worlds/path_builder.h>
 
 #include <gtest/gtest.h>
 

@@ -60,7 +60,8 @@ class CLidarInertialOdometry::Impl
   {
   }
 
-  /** What the observation was, for the log; empty when it was used or belongs to other sensors. */
+  /** A description of the observation for the log; empty when it was used or belongs to other
+   * sensors. */
   std::string take(const mrpt::obs::CObservation::ConstPtr& observation)
   {
     const bool were_known = sensors_.areKnown();

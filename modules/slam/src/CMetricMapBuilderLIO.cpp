@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
-#include <fastlio/exporters/scan_in_world.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/mrpt_poses.h>
+#include <fastlio/run/scan_in_world.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 
@@ -120,7 +120,7 @@ void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observati
   takeKeyFrames();
 }
 
-/** The first pose tells where the odometry's world is: the vehicle starts at T_map_start_. */
+/** The first pose locates the odometry's world: the vehicle starts at T_map_start_. */
 void CMetricMapBuilderLIO::placeOrigin()
 {
   const auto& poses = odometry_.track().poses();

@@ -17,7 +17,7 @@ OnlineSensors::OnlineSensors(const Config& config, OptionFilter is_given)
     : config_(config), is_given_(std::move(is_given)), patterns_(patternsOf(config.sensors))
 {
   patterns_.further_lidar_labels.clear();  // one LiDAR is used here
-  (void)isComplete(survey_, patterns_);    // tells of labels that are no patterns
+  (void)isComplete(survey_, patterns_);    // reports labels that are no patterns
 }
 
 std::vector<BridgeOutput> OnlineSensors::convert(

@@ -35,13 +35,13 @@ class OnlineSensors
   /** A scan of the LiDAR in use; nothing for others, and as long as the sensors are not known. */
   [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation);
 
-  /** What the user should know, once. */
+  /** Diagnostics for the user, each once. */
   [[nodiscard]] std::string takeMessage() { return std::exchange(message_, {}); }
 
   [[nodiscard]] bool areKnown() const { return bridge_.has_value(); }
 
-  /** What was given, and, once the sensors are known, the preset of the LiDAR that its label or its
-   * data name. */
+  /** The given configuration and, once the sensors are known, the preset of the LiDAR that its
+   * label or its data name. */
   [[nodiscard]] const Config& config() const { return config_; }
 
   /** IMU frame to vehicle frame; the identity as long as the sensors are not known. */

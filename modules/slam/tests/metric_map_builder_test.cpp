@@ -63,7 +63,7 @@ class Builder : public ::testing::Test
   }
 };
 
-TEST_F(Builder, TellsTheWayOnTheGroundFromTheStart)
+TEST_F(Builder, ReportsTheWayOnTheGroundFromTheStart)
 {
   const mrpt::slam::CMetricMapBuilder& builder = driven();
   const auto pdf = std::dynamic_pointer_cast<mrpt::poses::CPose3DPDFGaussian>(
@@ -120,7 +120,7 @@ TEST_F(Builder, KeepsViewsByTheRules)
   }
 }
 
-TEST(BuilderStart, BeginsWhereItIsToldAndKeepsTheMapThatItIsGiven)
+TEST(BuilderStart, BeginsAtTheGivenPoseAndKeepsTheGivenMap)
 {
   CMetricMapBuilderLIO builder(matchingConfig(walk().settings()));
   mrpt::maps::CSimpleMap given;

@@ -45,7 +45,7 @@ std::string referenceText(PointTimeReference reference)
   }
 }
 
-/** The revolution that tells the times, if the parameters and the data allow one. */
+/** The revolution that gives the times, if the parameters and the data allow one. */
 std::optional<SweepTiming> sweepOf(const SensorSummary& sensor, const SensorOptions& parameters)
 {
   SweepTiming sweep;
@@ -205,7 +205,7 @@ LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters
   LidarPlan plan;
   if (sensor.times_by_sensor)
   {
-    plan.text = "the sensor's own data tell the time of each point";
+    plan.text = "the sensor's own data give the time of each point";
     return plan;
   }
   plan.finding = findPointTimes(

@@ -18,7 +18,7 @@ const Vec3 kMid360Imu(0.011, 0.02329, -0.04412);
 constexpr std::string_view kOusterFrame =
     "The IMU's place is given in the sensor frame (x forward), in which Ouster's drivers deliver "
     "the points; sensors differ by a few millimetres, their own metadata "
-    "(imu_to_sensor_transform) tell";
+    "(imu_to_sensor_transform) hold the exact values";
 constexpr std::string_view kLivoxUnits =
     "Livox drivers deliver acceleration in g; points come in frames of 0.1 s with times of their "
     "own";

@@ -18,7 +18,7 @@ namespace
 constexpr double kStep = 0.005;           // of the offsets that are tried [s]
 constexpr double kConclusive = 0.95;      // correlation
 constexpr double kSharp = 0.01;           // standard deviation of the offset [s]
-constexpr double kLeastRate = 0.05;       // RMS of the LiDAR's rate: slower tells nothing [rad/s]
+constexpr double kLeastRate = 0.05;       // RMS of the LiDAR's rate: slower says nothing [rad/s]
 constexpr double kLeastSecondAxis = 0.1;  // of the strongest axis' singular value
 constexpr double kUnsteadiness = 0.02;    // what a rate that changes within a scan does [of a scan]
 constexpr std::size_t kFewestTurns = 10;

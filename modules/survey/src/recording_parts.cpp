@@ -25,8 +25,8 @@ constexpr double kOpening = 2.0;  // enough to meet every LiDAR and IMU [s]
 constexpr double kLongestPause = 1.0;
 // A file is cut by bytes: the last sensors to be written overlap the next file by a scan or two.
 constexpr double kLongestOverlap = 0.3;
-// The opening's share of the bytes tells the duration to within this factor.
-constexpr double kDoubtOfDuration = 10.0;
+// The opening's fraction of the bytes gives the duration to within this factor.
+constexpr double kDurationMargin = 10.0;
 
 /** How a recording begins. */
 struct Opening
@@ -84,7 +84,7 @@ Opening openingOf(const std::string& file)
   opening.first_ns = covered->first;
   opening.likely_end_ns =
       at_end ? covered->second
-             : covered->first + toNanoseconds(kDoubtOfDuration * seconds / std::max(share, 1e-6));
+             : covered->first + toNanoseconds(kDurationMargin * seconds / std::max(share, 1e-6));
   return opening;
 }
 
@@ -122,7 +122,7 @@ std::optional<std::size_t> successorOf(std::size_t file, const std::vector<Openi
   return next;
 }
 
-/** What continues a file, and after which pause. */
+/** The file that continues another one, and the pause between them. */
 struct Continuation
 {
   std::size_t file = 0;

@@ -118,7 +118,7 @@ BridgeOptions planBridge(
   }
 }
 
-void judgeLooks(RecordingSurvey& survey, SecondPass& pass)
+void recogniseModels(RecordingSurvey& survey, SecondPass& pass)
 {
   for (std::size_t i = 0; i < survey.lidars.size(); ++i)
   {
@@ -164,7 +164,7 @@ RecordingSurvey surveyRecording(
   if (options.check_motion) request.turns = liveliest(samples, survey.imu.gyro_max, seconds);
   SecondPass second =
       readSecond(files, ObservationBridge(*selection, bridge), request, half(options, 0.5));
-  judgeLooks(survey, second);
+  recogniseModels(survey, second);
   if (options.check_motion)
   {
     survey.motion = checkMotion(second.turns, samples);

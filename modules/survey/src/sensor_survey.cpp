@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
@@ -23,10 +24,9 @@ namespace
 using namespace fastlio;
 using mrpt::obs::CObservation;
 
-constexpr double kNanosecondsPerSecond = 1e9;
 constexpr std::size_t kFewestScans = 5;
 
-// What one observation tells about its sensor.
+// The facts of one observation about its sensor.
 struct Appearance
 {
   SensorKind kind = SensorKind::Other;
@@ -175,7 +175,7 @@ std::optional<std::size_t> note(SensorSurvey& survey, const CObservation& observ
 bool hasUsable(
     const std::vector<SensorSummary>& sensors, SensorKind kind, const LabelPattern& pattern)
 {
-  // What the times of points mean shows from several scans.
+  // The meaning of point times shows from several scans.
   const std::size_t least = kind == SensorKind::Lidar ? kFewestScans : 1;
   return std::any_of(
       sensors.begin(), sensors.end(),
@@ -226,11 +226,11 @@ bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns)
 SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least)
 {
-  const std::int64_t at_least_ns = std::llround(at_least * kNanosecondsPerSecond);
+  const std::int64_t at_least_ns = toNanoseconds(at_least);
   RawlogSource source(files);
   SensorSurvey survey;
   std::int64_t begin_ns = 0;
-  const CompiledPatterns compiled(patterns);  // patterns that are none are told before reading
+  const CompiledPatterns compiled(patterns);  // patterns that are none are reported before reading
   while (const auto observation = source.next())
   {
     if (observation->timestamp == INVALID_TIMESTAMP) continue;

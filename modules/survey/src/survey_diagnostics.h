@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file survey_diagnostics.h What people should know of a surveyed recording (internal). */
+/** \file survey_diagnostics.h Diagnostics of a surveyed recording. */
 #pragma once
 
 #include <fastlio/survey/recording_survey.h>

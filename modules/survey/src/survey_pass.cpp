@@ -18,7 +18,7 @@ namespace fastlio
 namespace
 {
 
-void tell(const SurveyProgress& progress, const ReadProgress& read)
+void report(const SurveyProgress& progress, const ReadProgress& read)
 {
   if (progress && read.bytes_total > 0)
     progress(static_cast<double>(read.bytes_read) / static_cast<double>(read.bytes_total));
@@ -180,7 +180,7 @@ FirstPass readFirst(const std::vector<std::string>& files, const SurveyProgress&
   while (const auto observation = source.next())
   {
     gatherer.add(*observation);
-    tell(progress, source.progress());
+    report(progress, source.progress());
   }
   FirstPass pass = gatherer.take();
   pass.survey.problems = source.problems();
@@ -197,7 +197,7 @@ SecondPass readSecond(
   TurnFinder turns;
   while (const auto observation = source.next())
   {
-    tell(progress, source.progress());
+    report(progress, source.progress());
     const auto lidar = bridge.lidarOf(*observation);
     if (!lidar) continue;
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);

@@ -17,7 +17,7 @@ namespace fastlio
 {
 using SurveyProgress = std::function<void(double fraction)>;
 
-/** What the first reading gathers; one entry per sensor. */
+/** The results of the first reading; one entry per sensor. */
 struct FirstPass
 {
   SensorSurvey survey;
@@ -29,7 +29,7 @@ struct FirstPass
 [[nodiscard]] FirstPass readFirst(
     const std::vector<std::string>& files, const SurveyProgress& progress);
 
-/** What the second reading looks at. */
+/** The results of the second reading. */
 struct SecondPassRequest
 {
   ScanSpan turns{0, -1};   //!< stamps of scans of the first LiDAR to be matched; empty: none

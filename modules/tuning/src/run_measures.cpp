@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "run_table.h"
+#include <fastlio/math/time.h>
 #include <fastlio/tuning/run_measures.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ Slip slipOf(const RunTable& states)
     // Nanoseconds since 1970 do not fit into a double.
     const std::int64_t stamp = std::stoll(states.text(i, "stamp_ns"));
     if (i == 0) first = stamp;
-    const double time = 1e-9 * static_cast<double>(stamp - first);
+    const double time = toSeconds(stamp - first);
     const Vec3 next_position = states.vector(i, {"x", "y", "z"});
     const Vec3 next_velocity = states.vector(i, {"vx", "vy", "vz"});
     Vec3 step = Vec3::Zero();

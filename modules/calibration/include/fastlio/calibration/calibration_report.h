@@ -18,21 +18,21 @@ struct CalibrationRow
   std::string name, unit;
   double given = 0.0, found = 0.0;
   double std = 0.0, prior_std = 0.0;  //!< after and before; prior_std 0: nothing was assumed
-  std::string advice;  //!< the motion that would tell it; empty when it is known well
+  std::string advice;  //!< the motion that would determine it; empty when it is known well
 
   /** The data say more than was known before. */
-  [[nodiscard]] bool told() const;
+  [[nodiscard]] bool determined() const;
 };
 
 /** All values but the beams', in the units of the configuration. The rotation of the LiDAR is that
- * against the axes of the gyro: no data tell the axes of the housing. */
+ * against the axes of the gyro: no data determine the axes of the housing. */
 [[nodiscard]] std::vector<CalibrationRow> calibrationRows(
     const Rig& given, const RigEstimate& estimate);
 
 /** The rows as a table with advice, and the beams. */
 [[nodiscard]] std::string calibrationTable(const Rig& given, const RigEstimate& estimate);
 
-/** What the trial says, in one or two sentences. */
+/** The verdict of the trial, in one or two sentences. */
 [[nodiscard]] std::string describe(const CalibrationTrial& trial);
 
 /** The configuration with the calibration, as YAML with its evidence as comments. Loading it gives

@@ -1,12 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file calibration_run.h One recording through the odometry, for what it tells about the
+/** \file calibration_run.h One recording through the odometry, for its evidence about the
  * calibration. */
 #pragma once
 
 #include <fastlio/config/config.h>
-#include <fastlio/odometry/calibration_sums.h>
+#include <fastlio/errormodel/calibration_sums.h>
 
 #include <cstddef>
 #include <limits>
@@ -33,7 +33,7 @@ struct RunAgreement
   [[nodiscard]] double mapThickness() const;  //!< root mean square of the residuals [m]
 };
 
-/** What a run tells. */
+/** The evidence of a run. */
 struct CalibrationRunResult
 {
   CalibrationFindings findings;

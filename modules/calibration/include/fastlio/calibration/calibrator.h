@@ -38,7 +38,7 @@ struct RigEstimate
   std::vector<std::string> problems;  //!< of reading, for people: the rest was used
 };
 
-/** What a calibration is worth on data that it was not fitted to. */
+/** The value of a calibration on data that it was not fitted to. */
 struct CalibrationTrial
 {
   RunAgreement before, after;
@@ -82,7 +82,7 @@ class Calibrator
       const CalibrationUnknowns& unknowns, const Eigen::VectorXd& x,
       const CalibrationStep& step) const;
   [[nodiscard]] CalibrationTrial tryLastPart() const;
-  void tell(const std::string& what) const;
+  void report(const std::string& what) const;
 
   std::vector<CalibrationRecording> recordings_;
   Config config_;

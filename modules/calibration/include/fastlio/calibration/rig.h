@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/config/config.h>
-#include <fastlio/odometry/calibration_sums.h>
+#include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/survey/input_plan.h>
 
 #include <array>
@@ -32,7 +32,7 @@ struct Rig
   std::vector<BeamRow> beams;            //!< ascending by elevation
 };
 
-/** What a configuration and the recording say. */
+/** The values of a configuration and the recording. */
 [[nodiscard]] Rig rigOf(
     const Config& config, const SensorSelection& selection, const InputPlan& plan);
 

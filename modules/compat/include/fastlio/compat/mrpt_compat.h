@@ -25,9 +25,9 @@
 #define FASTLIO_MRPT_HAS_NN_INTERFACE (MRPT_VERSION >= 0x20b03)
 /** mrpt::maps::CPointsMapXYZIRT. */
 #define FASTLIO_MRPT_HAS_XYZIRT (MRPT_VERSION >= 0x20b04)
-/** CObservationRotatingScan has points and tells where it is stored, in streams too. */
+/** CObservationRotatingScan has points and knows where it is stored, in streams too. */
 #define FASTLIO_MRPT_HAS_ROTATING_POINTS (MRPT_VERSION >= 0x20b04)
-/** CSimpleMap consists of key frames that have a twist. */
+/** CSimpleMap consists of keyframes that have a twist. */
 #define FASTLIO_MRPT_HAS_KEYFRAMES (MRPT_VERSION >= 0x20b05)
 /** CPointsMap::impl_copyFrom() is final and knows MRPT's own fields only. */
 #define FASTLIO_MRPT_COPIES_POINTS_ITSELF (MRPT_VERSION >= 0x20d02)
@@ -48,18 +48,18 @@ namespace fastlio
 #if FASTLIO_MRPT_HAS_NN_INTERFACE
 /** Base of maps that are searched by MRPT's names. */
 using NearestNeighborsInterface = mrpt::maps::NearestNeighborsCapable;
-/** What a map definition's factory hands over. */
+/** The result of a map definition's factory. */
 using CreatedMap = std::shared_ptr<mrpt::maps::CMetricMap>;
 #else
 /** Base of maps that are searched by MRPT's names: nothing is virtual yet. */
 struct NearestNeighborsInterface
 {
 };
-/** What a map definition's factory hands over; the caller owns it. */
+/** The result of a map definition's factory; the caller owns it. */
 using CreatedMap = mrpt::maps::CMetricMap*;
 #endif
 
-/** A key frame of a map. */
+/** A keyframe of a map. */
 struct KeyFrameView
 {
   mrpt::poses::CPose3DPDF::ConstPtr pose;
@@ -78,7 +78,7 @@ struct KeyFrameView
 #endif
 }
 
-/** Appends a key frame. Older versions of MRPT have no place for the twist.
+/** Appends a keyframe. Older versions of MRPT have no place for the twist.
  * \param twist of the vehicle, its own frame */
 inline void insertKeyFrame(
     mrpt::maps::CSimpleMap& map, const mrpt::poses::CPose3DPDFGaussian& pose,

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/exporters/export_options.h>
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/options/option_table.h>
 #include <fastlio/sensors/sensor_options.h>
 

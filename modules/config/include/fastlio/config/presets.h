@@ -22,7 +22,7 @@ namespace fastlio
 /** The file params/NAME.yaml: ranges, noise, the mounting of a built-in IMU, and their sources. */
 [[nodiscard]] std::string presetFile(const Preset& preset);
 
-/** What a configuration took from a preset. */
+/** The values that a configuration took from a preset. */
 struct PresetUse
 {
   std::string name;               //!< of the preset

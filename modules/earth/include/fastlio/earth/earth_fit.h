@@ -25,7 +25,7 @@ struct EarthFitOptions
   /** Whether points that contradict the others are found and left out. Without it all of them take
    * part. */
   bool robust = true;
-  /** What the map adds to the standard deviation of each point, by its drift [m]. */
+  /** Standard deviation that the map's drift adds to each point [m]. */
   double map_std_m = 0;
   /** A point contradicts when its residual is longer than this many standard deviations; 4.03 is
    * passed by one good point in a thousand (chi square, 3 degrees of freedom). */
@@ -34,7 +34,7 @@ struct EarthFitOptions
   double most_yaw_std_deg = 2.0;
 };
 
-/** What is left at one point. */
+/** The residual at one point. */
 struct EarthResidual
 {
   std::string name;
@@ -49,7 +49,7 @@ struct EarthFit
   // Unaligned, so that size and alignment do not depend on compiler flags.
   using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 
-  Pose T_enu_map;      //!< turns about the vertical only: gravity has levelled the map
+  Pose T_enu_map;      //!< turns about the vertical only: gravity has aligned the map's z axis
   double yaw_rad = 0;  //!< of the map: from East to its x axis, counter-clockwise
   /** Of yaw [rad] and of the map's origin in East, North, Up [m]. */
   Matrix4 covariance = Matrix4::Zero();

@@ -22,7 +22,7 @@ struct LasPoint
   Vec3 position = Vec3::Zero();  //!< easting, northing, height [m]
   float intensity = 0;           //!< as the sensor gives it; see LasOptions::intensity_scale
   std::int64_t stamp_ns = 0;     //!< UTC since 1970
-  std::uint16_t source = 0;      //!< a session or a scanner; 0: not told
+  std::uint16_t source = 0;      //!< a session or a scanner; 0: unknown
 };
 
 struct LasOptions
@@ -32,7 +32,7 @@ struct LasOptions
   std::string wkt;
   /** The step of the coordinates [m]; 32 bits of it reach 2147 km to both sides at 0.001. */
   double scale_m = 0.001;
-  /** What the coordinates count from [m]; none: the first point, rounded down to whole kilometres.
+  /** Origin of the coordinates [m]; none: the first point, rounded down to whole kilometres.
    */
   std::optional<Vec3> offset;
   /** LAS has 16 bits for intensities: they are multiplied by this, rounded and limited. */
@@ -44,7 +44,7 @@ struct LasOptions
 /** Writes points as they come, in constant memory; the file gets its name in commit().
  *
  * Point data record format 6: coordinates, intensity, return 1 of 1, "created, never classified",
- * adjusted standard GPS time (gps_time.h; told in the global encoding), source. The reference
+ * adjusted standard GPS time (gps_time.h; flagged in the global encoding), source. The reference
  * system is a variable length record "LASF_Projection" 2112. The day of creation is that of the
  * latest stamp, so that the same points make the same bytes. Each number of points fits the format.
  *

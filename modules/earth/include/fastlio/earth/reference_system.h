@@ -17,7 +17,7 @@ namespace fastlio
  * \exception std::invalid_argument no place on the earth, or beyond the grid (80 S to 84 N) */
 [[nodiscard]] std::string utmCodeAt(const GeodeticPoint& point);
 
-/** Dialects of "well-known text", which tells other programs what coordinates mean. */
+/** Dialects of "well-known text", which defines the meaning of coordinates for other programs. */
 enum class WktDialect
 {
   Wkt1,      //!< OGC 01-009 as GDAL writes it: what LAS 1.4 asks for

@@ -10,7 +10,7 @@
 
 namespace fastlio
 {
-/** What may be chosen freely between the two world frames. */
+/** The degrees of freedom between the two world frames. */
 enum class Alignment
 {
   None,   //!< nothing: both share the world frame

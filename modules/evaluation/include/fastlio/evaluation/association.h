@@ -16,7 +16,7 @@ struct AssociationOptions
   double time_offset = 0.0;  //!< added to the estimate's stamps [s]
 };
 
-/** What became of the estimated poses. */
+/** The fate of the estimated poses. */
 struct AssociationCounts
 {
   std::size_t estimated = 0;  //!< poses of the estimate

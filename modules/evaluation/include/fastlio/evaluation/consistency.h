@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file consistency.h Does the covariance tell the truth? Normalised estimation error squared
+/** \file consistency.h Is the covariance right? Normalised estimation error squared
  * (NEES).
  *
  * Bar-Shalom, Li, Kirubarajan, "Estimation with Applications to Tracking and Navigation", 2001,

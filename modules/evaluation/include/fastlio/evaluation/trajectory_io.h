@@ -37,7 +37,7 @@ struct KittiTiming
  */
 [[nodiscard]] Trajectory readCovarianceCsv(const std::filesystem::path& file);
 
-/** Any of the above, told apart by the first line with data. */
+/** Any of the above, recognised by the first line with data. */
 [[nodiscard]] Trajectory readTrajectory(
     const std::filesystem::path& file, const KittiTiming& timing = {});
 

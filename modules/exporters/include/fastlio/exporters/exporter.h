@@ -1,14 +1,14 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file exporter.h What writes results: one class per file format, fed scan by scan. */
+/** \file exporter.h Exporters of results: one class per file format, fed scan by scan. */
 #pragma once
 
-#include <fastlio/exporters/output_map.h>
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/run_summary.h>
 
 #include <memory>
 #include <string>
@@ -18,12 +18,12 @@ namespace fastlio
 {
 class SurfaceMap;
 
-/** What is known when the last scan is done. */
+/** The state of the run after the last scan. */
 struct RunEnd
 {
   const RunSummary& summary;  //!< with the outputs of the exporters that finished before
   const OutputMap& map;       //!< final map, world frame; empty unless an exporter needs it
-  /** What scans were matched with, when there is something. */
+  /** The map that scans were matched with, if there is one. */
   const SurfaceMap* surfaces = nullptr;
   std::string map_problem = {};  //!< why the map is not complete, or empty
 };

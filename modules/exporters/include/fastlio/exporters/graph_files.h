@@ -4,7 +4,7 @@
 /** \file graph_files.h Pose graphs as text, as MRPT and g2o read them. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <string>

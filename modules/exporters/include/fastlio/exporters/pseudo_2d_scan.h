@@ -5,14 +5,14 @@
 #pragma once
 
 #include <fastlio/exporters/export_options.h>
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/run/pose_track.h>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
 namespace fastlio
 {
-/** What configures pseudo2dScan(). */
+/** Options of pseudo2dScan(). */
 struct Pseudo2dScanOptions
 {
   int rays = 720;

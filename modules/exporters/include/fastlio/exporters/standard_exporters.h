@@ -6,8 +6,8 @@
 
 #include <fastlio/exporters/export_options.h>
 #include <fastlio/exporters/exporter.h>
-#include <fastlio/exporters/pose_output.h>
-#include <fastlio/exporters/recording_access.h>
+#include <fastlio/run/pose_output.h>
+#include <fastlio/run/recording_access.h>
 
 #include <string>
 #include <string_view>
@@ -15,7 +15,7 @@
 
 namespace fastlio
 {
-/** What to write and where; an empty path leaves the file or files out. */
+/** The files to write and their places; an empty path leaves the file or files out. */
 struct ExportTarget
 {
   std::string directory;      //!< exists; receives the files
@@ -108,20 +108,20 @@ struct ExporterKind
  * fastlio::CVoxelPlanesMap. */
 [[nodiscard]] std::unique_ptr<Exporter> makePlanesExporter(const std::string& path);
 
-/** `keyframes.simplemap`: a gzipped mrpt::maps::CSimpleMap of the raw scans of key frames. */
+/** `keyframes.simplemap`: a gzipped mrpt::maps::CSimpleMap of the raw scans of keyframes. */
 [[nodiscard]] std::unique_ptr<Exporter> makeSimpleMapExporter(const ExportTarget& options);
 
 /** `odometry.rawlog`: what other SLAM programs of MRPT take as odometry. */
 [[nodiscard]] std::unique_ptr<Exporter> makeRawlogExporter(const ExportTarget& options);
 
-/** `poses.graph`: key frames and the motions between them, as mrpt::graphs reads them (VERTEX3,
+/** `poses.graph`: keyframes and the motions between them, as mrpt::graphs reads them (VERTEX3,
  * EDGE3 with information matrices). */
 [[nodiscard]] std::unique_ptr<Exporter> makeGraphExporter(const ExportTarget& options);
 
 /** `poses.g2o`: the same for g2o (VERTEX_SE3:QUAT, EDGE_SE3:QUAT). */
 [[nodiscard]] std::unique_ptr<Exporter> makeG2oExporter(const ExportTarget& options);
 
-/** `scene.3Dscene`: map, trajectory, key frames and ellipsoids of their covariances, for
+/** `scene.3Dscene`: map, trajectory, keyframes and ellipsoids of their covariances, for
  * SceneViewer3D of MRPT. */
 [[nodiscard]] std::unique_ptr<Exporter> makeSceneExporter(const ExportTarget& options);
 

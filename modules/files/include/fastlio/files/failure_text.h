@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file failure_text.h What an exception says to people. */
+/** \file failure_text.h The text of an exception for people. */
 #pragma once
 
 #include <exception>

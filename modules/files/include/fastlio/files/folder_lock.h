@@ -11,7 +11,7 @@
 namespace fastlio
 {
 /** Holds a folder for this process. The system gives it free when the process ends, however it
- * ends; the file `.fastlio-lock` in the folder tells others the process, and goes in the end. */
+ * ends; the file `.fastlio-lock` in the folder names the process to others, and goes in the end. */
 class FolderLock
 {
  public:

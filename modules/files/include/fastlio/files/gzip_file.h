@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file gzip_file.h A gzip file that MRPT's archives write to, piece by piece; it gets its name
- * when it is complete. MRPT's own gzip stream does not tell a full disk. */
+ * when it is complete. MRPT's own gzip stream does not report a full disk. */
 #pragma once
 
 #include <fastlio/files/atomic_file.h>

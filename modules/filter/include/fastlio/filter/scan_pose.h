@@ -3,7 +3,7 @@
 
 /** \file scan_pose.h Where the points of a scan are, as a function of the whole state.
  *
- * All that a scan of surfaces can tell is a rigid pose: that of its compensated points in the
+ * A scan of surfaces constrains only a rigid pose: that of its compensated points in the
  * world. Body pose, extrinsic and time offset act on that pose only, so measurements are summed in
  * its six coordinates (see InformationSums) and the state comes in through the Jacobian of the
  * pose. */

@@ -38,7 +38,7 @@ struct MotionDirection
   Vec3 axis = Vec3::UnitX();  //!< of a rotation in the body frame, of a translation in the world
 };
 
-/** What an iteration of the update needs to know of the measurements at an iterate. */
+/** The measurements at an iterate, as an iteration of the update needs them. */
 struct MeasurementEvaluation
 {
   InformationSums sums;                            //!< always filled
@@ -57,7 +57,8 @@ enum class GainForm
 
 /** Convergence rules of the iterated update; those of attitude and position also hold for rotation
  * and translation of the extrinsic. Only max_iterations is a key: the others are constants of the
- * method (a tenth of what a scan tells), which tests tighten to compare with exact solutions. */
+ * method (a tenth of the uncertainty of a scan), which tests tighten to compare with exact
+ * solutions. */
 struct IterationLimits
 {
   int max_iterations = 5;

@@ -20,7 +20,7 @@ class ClippingDetector
   /** Takes the next reading.
    * \return the full scale when an axis is clipped, otherwise 0 */
   double add(const Vec3& reading);
-  /** What add() returned for the reading before the latest one; 0 when there was none. */
+  /** The result of add() for the reading before the latest one; 0 when there was none. */
   [[nodiscard]] double before() const { return before_; }
 
  private:

@@ -43,13 +43,13 @@ class ImuConditioner
   const std::vector<ConditionedSample>& finish();
 
   [[nodiscard]] ImuReport report() const;
-  /** What is added to the stamps, since the clock was set back [ns]. */
+  /** Added to the stamps, since the clock was set back [ns]. */
   [[nodiscard]] std::int64_t clockOffset() const { return time_gate_.clockOffset(); }
-  /** What was found out since the last call. */
+  /** The diagnostics since the last call. */
   [[nodiscard]] std::vector<Diagnostic> takeDiagnostics();
 
  private:
-  /** What readings are multiplied by. */
+  /** The factor on readings. */
   struct Units
   {
     double accel_scale = 1.0, gyro_scale = 1.0;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file imu_report.h What was found out about the inertial sensor along the way. */
+/** \file imu_report.h Findings about the inertial sensor. */
 #pragma once
 
 #include <fastlio/imu/imu_units.h>
@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** Something that the user should know, told once. */
+/** Something that the user should know, reported once. */
 struct Diagnostic
 {
   std::int64_t stamp_ns = 0;

@@ -41,7 +41,7 @@ class ImuTimeGate
   [[nodiscard]] std::size_t badStamps() const { return bad_stamps_; }
   [[nodiscard]] std::size_t late() const { return late_ + behind_.size(); }
   [[nodiscard]] std::size_t clockSteps() const { return clock_steps_; }
-  /** What is added to the stamps, since the clock was set back [ns]. */
+  /** Added to the stamps, since the clock was set back [ns]. */
   [[nodiscard]] std::int64_t clockOffset() const { return offset_ns_; }
 
  private:

@@ -36,7 +36,7 @@ enum class GyroUnit
 [[nodiscard]] double siPerUnit(AccelUnit unit);
 [[nodiscard]] double siPerUnit(GyroUnit unit);
 
-/** What the magnitude of the specific force says. */
+/** Conclusion from the magnitude of the specific force. */
 struct AccelUnitVerdict
 {
   AccelUnit unit = AccelUnit::Si;

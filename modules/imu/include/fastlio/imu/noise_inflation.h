@@ -33,13 +33,13 @@ struct NoiseInflation
 };
 
 /** The noise densities of an input that holds from begin_ns to end_ns: an error sigma that is
- * constant over dt is like white noise of the density sigma sqrt(dt). Without a doubt about that
+ * constant over dt is like white noise of the density sigma sqrt(dt). Without an inflation in that
  * time, \a noise to the bit. */
 [[nodiscard]] ImuNoise noiseBetween(
     const ImuNoise& noise, const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns,
     std::int64_t end_ns);
 
-/** Share of [begin_ns, end_ns] that is in inflation, 0 to 1. */
+/** Fraction of [begin_ns, end_ns] that is in inflation, 0 to 1. */
 [[nodiscard]] double inflatedRatio(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
 

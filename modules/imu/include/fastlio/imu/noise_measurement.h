@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file noise_measurement.h The noise that inertial samples have, by how they scatter from one to
- * the next: vibration of the platform is often more than what the datasheet tells of the sensor. */
+ * the next: vibration of the platform is often more than the sensor's noise in its datasheet. */
 #pragma once
 
 #include <fastlio/filter/imu.h>
@@ -29,7 +29,7 @@ struct SampleNoise
 class ThirdDifferences
 {
  public:
-  /** \return what the last four samples tell: nothing when one is missing among them */
+  /** \return the measure of the last four samples: nothing when one is missing among them */
   [[nodiscard]] std::optional<SampleNoise> add(const ImuSample& sample);
 
  private:

@@ -24,7 +24,7 @@ struct InertialMean
 /** Mean of inputs that hold from their stamps on, the last one until end_ns. */
 [[nodiscard]] InertialMean inertialMean(const std::vector<ImuSample>& inputs, std::int64_t end_ns);
 
-/** What a scan and the inertial data before it say. */
+/** Evidence of a scan and the inertial data before it. */
 struct RestEvidence
 {
   std::int64_t stamp_ns = 0;  //!< the scan's end
@@ -36,10 +36,10 @@ struct RestEvidence
 
 /** Decides after every scan.
  *
- * Inertial data alone cannot tell rest from steady motion, and vibration disturbs them, so that the
- * scans decide: since the platform has become quiet, their poses stay within a small region and
- * show no trend. Inertial means over a tenth of a second or more, in which vibration averages out,
- * must not change; they are what tells a start within a scan. */
+ * Inertial data alone cannot distinguish rest from steady motion, and vibration disturbs them, so
+ * that the scans decide: since the platform has become quiet, their poses stay within a small
+ * region and show no trend. Inertial means over a tenth of a second or more, in which vibration
+ * averages out, must not change; they reveal a start within a scan. */
 class RestDetector
 {
  public:

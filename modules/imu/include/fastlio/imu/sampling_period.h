@@ -14,7 +14,7 @@ class SamplingPeriod
 {
  public:
   /** \param interval to the sample before [s]
-   * \param gap_periods longer intervals are gaps and tell
+   * \param gap_periods longer intervals are gaps and say
    * nothing about the scatter */
   void add(double interval, double gap_periods);
 

@@ -64,7 +64,7 @@ class Downsampler
   static constexpr std::size_t kBins = 256;
   static constexpr std::size_t kChunk = 4096;  // points
 
-  /** What the range gates made of some points. */
+  /** The effect of the range gates on some points. */
   struct Ranges
   {
     std::array<std::uint32_t, kBins> counts{};  //!< of usable points, by logarithm of the range

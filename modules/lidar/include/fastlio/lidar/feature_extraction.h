@@ -100,7 +100,7 @@ class FeatureExtractor
   [[nodiscard]] bool isSharpest(std::size_t i) const;
   void classifyLine(ScanFeatures& features) const;
 
-  /** What follows from the limits. */
+  /** Values derived from the limits. */
   struct Bounds
   {
     double beam_chord = 0.0;     // between unit beams of neighbours

@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What makes points neighbours in the scan. */
+/** The order that makes points neighbours in the scan. */
 enum class ScanLineOrder
 {
   Automatic,  //!< Ring when the points have rings, else Elevation or Time, whichever fits
@@ -45,7 +45,7 @@ class ScanLineSorter
       ScanLines& lines);
 
  private:
-  /** Elevations are told apart in steps of 0.1 deg: finer than the lines of any sensor. */
+  /** Elevations are distinguished in steps of 0.1 deg: finer than the lines of any sensor. */
   static constexpr std::size_t kElevationBins = 1800;
 
   [[nodiscard]] bool haveRings(

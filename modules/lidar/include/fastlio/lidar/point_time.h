@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file point_time.h What the time fields of point clouds mean: their unit and what they refer to,
+/** \file point_time.h The meaning of the time fields of point clouds: unit and reference,
  * found from the numbers themselves. */
 #pragma once
 
@@ -24,7 +24,7 @@ enum class PointTimeUnit
   Nanoseconds
 };
 
-/** What a time field refers to. */
+/** The reference of a time field. */
 enum class PointTimeReference
 {
   Auto,      //!< to be found
@@ -51,7 +51,7 @@ struct PointTimeSample
   double resolution = 0;      //!< distance of neighbouring numbers of the field's type at max
 };
 
-/** What is known about a time field. */
+/** The findings about a time field. */
 enum class PointTimeVerdict
 {
   Absent,         //!< no scan has times
@@ -81,7 +81,7 @@ struct PointTimeFinding
 /** Decides how times are to be read.
  *
  * Unit: a field that advances with the stamps of the scans is a clock, and the ratio is its unit;
- * otherwise the scan, which lasts about as long as the period of the stamps, tells. Reference: a
+ * otherwise the scan, which lasts about as long as the period of the stamps, decides. Reference: a
  * clock that agrees with the stamps is absolute; one that does not can only be read when the
  * reference is given. All other times refer to the stamp.
  *

@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** What to do with clouds that have no time per point. */
+/** The treatment of clouds that have no time per point. */
 enum class MissingPointTimes
 {
   Auto,             //!< from the azimuth where the order of the points shows a revolution

@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** What went through a queue. */
+/** Counts of the elements that went through a queue. */
 struct FreshQueueCounts
 {
   std::size_t scans = 0;            //!< that were put in

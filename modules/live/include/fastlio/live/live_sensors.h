@@ -23,7 +23,7 @@ namespace fastlio
     std::string_view line, std::int64_t arrival_ns, const std::string& label);
 
 /** Velodyne, Livox and Ouster as PacketStreams reads them. A Velodyne has no IMU, and its packets
- * tell the time within the hour: they get stamps of this machine by an ArrivalClock. Packets to the
+ * give the time within the hour: they get stamps of this machine by an ArrivalClock. Packets to the
  * port of the inertial samples are text, a sample in each line. */
 class LiveSensors
 {

@@ -25,23 +25,13 @@ struct LineMatch
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
 };
 
-/** What configures an EdgeMap. */
+/** Options of an EdgeMap. */
 struct EdgeMapOptions
 {
-  /** Neighbours that make a line, 3 to kMaxNeighbors. */
-  std::size_t neighbors = 5;
-  /** The farthest neighbour may be this far from the point [m]. */
-  double max_neighbor_distance = 2.0;
-  /** A neighbour farther from the line than this makes it no line [m]. */
-  double max_line_distance = 0.15;
-  /** The neighbours' standard deviation along the line over that across it, at least. */
-  double min_elongation = 3.0;
   /** Points of the map are at least this far apart [m]; 0 keeps every point. */
   double min_spacing = 0.2;
   /** Standard deviation of an edge point about its edge before its neighbours are seen [m]. */
   double point_noise = 0.02;
-  /** Observations that point_noise is worth against the fit's own residuals. */
-  double point_noise_weight = 4.0;
 };
 
 /** Edge points of earlier scans, and the line through the nearest ones of a query.
@@ -50,8 +40,9 @@ struct EdgeMapOptions
  * itself, and so are the map's points. What a measurement may differ from the line is therefore
  * learnt from the map's own points: the variance is s^2 (1 + 1/n + t^2 / (n lambda)), the
  * prediction variance of a linear regression for one more point at the coordinate t along the line,
- * with s^2 = (w s_0^2 + SSR) / (w + 2 (n - 2)): point_noise s_0 as the prior, worth w observations,
- * and the squared distances SSR of the n neighbours, which have 2 (n - 2) degrees of freedom.
+ * with s^2 = (w s_0^2 + SSR) / (w + 2 (n - 2)): point_noise s_0 as the prior, worth w = 4
+ * observations, and the squared distances SSR of the n neighbours, which have 2 (n - 2) degrees of
+ * freedom.
  *
  * match() is const, allocates nothing, and may run in several threads at once; the other methods
  * may not run beside it. */

@@ -52,8 +52,8 @@ struct NeighborSet
  * text files, visualisation, copies, maps of maps, ICP.
  *
  * **Inherited ways to change points** (insertPoint(), setPoint(), changeCoordinatesReference(),
- * loading, ...) make the index stale, which MRPT's mark_as_modified() and the number of points
- * tell. On a stale index nearest() gives the same answers by looking at every point; ensureIndex(),
+ * loading, ...) make the index stale; MRPT's mark_as_modified() and the number of points show
+ * it. On a stale index nearest() gives the same answers by looking at every point; ensureIndex(),
  * or any of the non-const methods below, rebuilds it. As in every MRPT points map, the *Fast()
  * methods do not mark the change; call mark_as_modified() after them.
  *
@@ -129,7 +129,7 @@ class CIncrementalPointsMap : public mrpt::maps::CSimplePointsMap
 
   double min_spacing_ = 0.0;
   std::unique_ptr<PointForest> forest_;
-  // What the index was made for: any marked change differs.
+  // The state that the index was made for: any marked change differs.
   std::size_t indexed_size_ = 0;
   float mark_ = 0.0F;
 

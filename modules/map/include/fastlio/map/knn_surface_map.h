@@ -12,28 +12,20 @@
 
 namespace fastlio
 {
-/** What configures a KnnSurfaceMap. */
+/** Options of a KnnSurfaceMap. */
 struct KnnSurfaceMapOptions
 {
-  /** Neighbours that make a plane, 3 to kMaxNeighbors. */
-  std::size_t neighbors = 5;
-  /** The farthest neighbour may be this far from the point [m]. */
-  double max_neighbor_distance = 2.23606797749979;
-  /** A neighbour farther from the plane than this makes it no plane [m]. */
-  double max_plane_distance = 0.1;
   /** Points of the map are at least this far apart [m]; 0 keeps every point. */
   double min_spacing = 0.4;
   /** Standard deviation of a map point about its surface before its neighbours are seen [m]. */
   double point_noise = 0.02;
-  /** Observations that point_noise is worth against the fit's own residuals. */
-  double point_noise_weight = 4.0;
 };
 
 /** SurfaceMap over a CIncrementalPointsMap: plane through the nearest points of each query.
  *
- * A match is valid when `neighbors` points lie within max_neighbor_distance, are not on a line, and
- * all lie within max_plane_distance of their plane. Its variance is planeOffsetVariance() with the
- * point variance s^2 = (w s_0^2 + SSR) / (w + n - 3): point_noise s_0 as the prior, worth w
+ * A match is valid when kNeighbors points lie within kMaxNeighborDistance, are not on a line, and
+ * all lie within kMaxPlaneDistance of their plane. Its variance is planeOffsetVariance() with the
+ * point variance s^2 = (w s_0^2 + SSR) / (w + n - 3): point_noise s_0 as the prior, worth w = 4
  * observations, and the squared residuals SSR of the n neighbours, which have n - 3 degrees of
  * freedom. With five neighbours the residuals alone would now and then claim a perfect plane.
  *
@@ -42,6 +34,12 @@ struct KnnSurfaceMapOptions
 class KnnSurfaceMap : public SurfaceMap
 {
  public:
+  static constexpr std::size_t kNeighbors = 5;  //!< that make a plane (paper)
+  /** The farthest neighbour may be this far from the point: the square root of 5 [m]. */
+  static constexpr double kMaxNeighborDistance = 2.23606797749979;
+  /** A neighbour farther from the plane than this makes it no plane [m]. */
+  static constexpr double kMaxPlaneDistance = 0.1;
+
   /** \exception std::invalid_argument an option is out of its range (the message names it) */
   explicit KnnSurfaceMap(const KnnSurfaceMapOptions& options = {});
 

@@ -11,7 +11,7 @@
 
 namespace fastlio
 {
-/** What makes a plane of a voxel's points. */
+/** The rule that makes a plane of a voxel's points. */
 struct PlaneRules
 {
   float point_noise = 0.02F;   //!< standard deviation of a point along its beam [m]

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file surface_map.h What the filter asks of a map: planes for points (eq. 12-14), growth (eq.
+/** \file surface_map.h The map as the filter uses it: planes for points (eq. 12-14), growth (eq.
  * 21) and bounded memory. */
 #pragma once
 
@@ -61,11 +61,13 @@ class SurfaceMap
   /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
   virtual void removeOutside(const Vec3& center, double radius) = 0;
 
-  /** Insertions so far, which PlaneMatch::created_insertion counts; 0 for maps that do not tell. */
+  /** Insertions so far, which PlaneMatch::created_insertion counts; 0 for maps that do not count.
+   */
   [[nodiscard]] virtual std::uint32_t insertionCount() const { return 0; }
 
-  /** It tells by created_insertion which matches share a plane's error. Where it does not, the
-   * filter takes their errors for independent and is too sure of what only the map's planes tell.
+  /** Its created_insertion shows which matches share a plane's error. Where it does not, the
+   * filter takes their errors for independent and is too sure of directions that only the map's
+   * planes constrain.
    */
   [[nodiscard]] virtual bool knowsSharedErrors() const { return false; }
 

@@ -17,7 +17,7 @@ namespace fastlio
 struct Aids
 {
   /** CObservationGPS with a GGA message and a fix. Without dilution of precision in the message,
-   * the quality of the fix tells its standard deviation. */
+   * the quality of the fix gives its standard deviation. */
   std::vector<GnssFix> fixes;
   /** CObservationOdometry, of the label that comes first. */
   std::vector<WheelPose> wheels;

@@ -4,16 +4,16 @@
 /** \file corrected_trajectory.h The poses of a run after its submaps have moved. */
 #pragma once
 
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/mapping/mapper.h>
-#include <fastlio/odometry/scan_result.h>
 
 #include <cstddef>
 #include <vector>
 
 namespace fastlio
 {
-/** What a wrong extrinsic makes of the pose of the IMU, relative to the first pose: scans tell the
- * motion L of the LiDAR, and with T_imu_lidar = Exp(eta) X the motion of the IMU comes out as
+/** What a wrong extrinsic makes of the pose of the IMU, relative to the first pose: scans measure
+ * the motion L of the LiDAR, and with T_imu_lidar = Exp(eta) X the motion of the IMU comes out as
  * Exp(eta) A Exp(-eta) instead of A = X L X^-1. No closure shows it, because it is the same for all
  * ways to a pose.
  * \param moment of eta (extrinsicMoment()) \return (attitude in the body frame, position in the

@@ -7,8 +7,8 @@
 
 #include <fastlio/earth/control_points.h>
 #include <fastlio/earth/reference_system.h>
-#include <fastlio/exporters/output_map.h>
 #include <fastlio/mapping/gnss.h>
+#include <fastlio/run/output_map.h>
 
 #include <optional>
 #include <string>
@@ -27,7 +27,7 @@ struct Georeference
   double rms_m = 0.0;                    //!< of them
 };
 
-/** By control points, or else by GNSS; nothing when neither tells the place.
+/** By control points, or else by GNSS; nothing when neither gives the place.
  * \param crs of projected coordinates; empty: the UTM zone of the place
  * \exception std::runtime_error the control points cannot be used
  * \exception std::invalid_argument the reference system is unknown */

@@ -6,8 +6,8 @@
 
 #include <fastlio/earth/earth_fit.h>
 #include <fastlio/earth/local_frame.h>
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/mapping/mapper.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,11 +4,11 @@
 /** \file map_report.h A built map for people (a page) and for programs (JSON). */
 #pragma once
 
-#include <fastlio/exporters/run_summary.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
 #include <fastlio/mapping/moving_objects.h>
+#include <fastlio/run/run_summary.h>
 
 #include <optional>
 #include <string>
@@ -28,7 +28,7 @@ struct ClosureAgreement
 /** Of the accepted closures. */
 [[nodiscard]] std::vector<ClosureAgreement> agreements(const MappingResult& result);
 
-/** What is told about a map. */
+/** The content of a report about a map. */
 struct MapAccount
 {
   std::string version;

@@ -7,9 +7,9 @@
  * The error of a node is (dtheta, dp): R <- R Exp(dtheta), p <- p + dp, as in the filter. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/pose.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <optional>

@@ -4,9 +4,9 @@
 /** \file registration.h The pose of one submap in another from their planes, with evidence. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/map/plane_voxel.h>
 #include <fastlio/parallel/workers.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <memory>
@@ -18,10 +18,10 @@ namespace fastlio
 struct RegistrationEvidence
 {
   std::size_t planes = 0;      //!< of the source
-  double overlap = 0.0;        //!< share of them beside a plane of the target with its direction
-  double inlier_ratio = 0.0;   //!< share of those that agree with the target's
+  double overlap = 0.0;        //!< fraction of them beside a plane of the target with its direction
+  double inlier_ratio = 0.0;   //!< fraction of those that agree with the target's
   double residual_rms = 0.0;   //!< of the inliers, across the planes [m]
-  double score = 0.0;          //!< share of the source's planes that agree
+  double score = 0.0;          //!< fraction of the source's planes that agree
   double upright_score = 0.0;  //!< likewise of upright planes: floors and ceilings fit anywhere
   std::size_t starts = 0;      //!< places and headings that were tried
   double cost = 0.0;           //!< minus the logarithm of the likelihood of all planes
@@ -56,7 +56,7 @@ class SubmapRegistration
   SubmapRegistration& operator=(const SubmapRegistration&) = delete;
 
   /** Tries starts all over the places that the prediction allows, to 3 standard deviations.
-   * \param predicted T_target_source and its covariance: it also tells how likely a place is
+   * \param predicted T_target_source and its covariance: it also gives the likelihood of a place
    * \param up the direction against gravity in the target's frame: headings turn about it */
   [[nodiscard]] Registration search(
       const std::vector<VoxelPlane>& source, const RelativePose& predicted, const Vec3& up) const;

@@ -5,10 +5,10 @@
  * moves as a whole. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/map/plane_voxel.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <cstdint>

@@ -4,8 +4,8 @@
 /** \file wheels.h Wheel odometry: how far the vehicle went where LiDAR and IMU leave it open. */
 #pragma once
 
-#include <fastlio/exporters/pose_track.h>
 #include <fastlio/mapping/mapper.h>
+#include <fastlio/run/pose_track.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,7 @@ struct WheelOutcome
   std::size_t checks = 0;        //!< motions that LiDAR and IMU know well enough to compare with
   std::size_t contradicted = 0;  //!< of them, those that do not agree with the wheels
   std::size_t taking_part = 0;   //!< motions that LiDAR and IMU do not know
-  double scale = 1.0;            //!< true way over the way that the wheels tell
+  double scale = 1.0;            //!< true way over the way that the wheels measure
   double scale_std = 0.0;
   double noise = 0.0;  //!< standard deviation after 1 m [m]
 };
@@ -41,8 +41,8 @@ struct WheelOutcome
 /** What came of it, for people. */
 [[nodiscard]] std::string wheelSentence(const WheelOutcome& outcome);
 
-/** Wheel odometry of all sessions as motions in a graph. The wheels tell the way along the vehicle;
- * its attitude is that of LiDAR and IMU. */
+/** Wheel odometry of all sessions as motions in a graph. The wheels measure the way along the
+ * vehicle; its attitude is that of LiDAR and IMU. */
 class WheelFactors
 {
  public:
@@ -61,7 +61,7 @@ class WheelFactors
   struct Motion
   {
     std::size_t a = 0, b = 0;    //!< numbers of the submaps
-    Vec3 rolled = Vec3::Zero();  //!< of the vehicle, as the wheels tell; IMU frame of a [m]
+    Vec3 rolled = Vec3::Zero();  //!< of the vehicle, as the wheels measure it; IMU frame of a [m]
     Vec3 swung = Vec3::Zero();   //!< what the turn adds for the IMU, likewise [m]
     double way = 0.0;            //!< along the path [m]
     bool slipped = false;

@@ -6,13 +6,13 @@
  */
 #pragma once
 
+#include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/filter/imu.h>
 #include <fastlio/imu/imu_report.h>
+#include <fastlio/interface/imu_rate.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
 #include <fastlio/lidar/scan.h>
-#include <fastlio/odometry/calibration_sums.h>
-#include <fastlio/odometry/imu_rate.h>
-#include <fastlio/odometry/odometry_options.h>
-#include <fastlio/odometry/scan_result.h>
 
 #include <memory>
 #include <optional>
@@ -73,7 +73,7 @@ class Odometry
   [[nodiscard]] std::optional<ScanResult> flush();
 
   [[nodiscard]] const SurfaceMap& map() const;
-  /** What map() and registeredPoints() are counted from, in the world [m]: the origin of the map
+  /** Origin of map() and registeredPoints(), in the world [m]: the origin of the map
    * that the run began in; else zero. Poses are in the world. */
   [[nodiscard]] const Vec3& mapOrigin() const;
 
@@ -95,14 +95,14 @@ class Odometry
    * the start and while the pose is not trusted. Each call propagates anew from that scan. */
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample();
 
-  /** What the scans so far tell about the calibration that they were processed with. */
+  /** The evidence of the scans so far about the calibration that they were processed with. */
   [[nodiscard]] CalibrationFindings calibrationFindings() const;
 
   [[nodiscard]] const OdometryOptions& parameters() const;
   [[nodiscard]] const InputStatistics& inputStatistics() const;
   /** Units, rate and faults of the inertial sensor so far. */
   [[nodiscard]] ImuReport imuReport() const;
-  /** What the user should know, in the order in which it was found out: units, mounting,
+  /** Diagnostics for the user, in the order of their discovery: units, mounting,
    * re-initialisations. */
   [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const;
 

@@ -17,7 +17,7 @@
 
 namespace fastlio
 {
-/** Who changes an option. */
+/** The users that change an option. */
 enum class OptionTier
 {
   Main,   //!< most users: it describes the sensors or what is wanted
@@ -69,7 +69,7 @@ std::string valueText(const OptionRow<Options>& row, Options options)
   return valueText(row.value(options));
 }
 
-/** What may stand in the text of an option. */
+/** The form of an option's text. */
 template <typename Options>
 std::string allowedText(const OptionRow<Options>& row)
 {
@@ -77,7 +77,7 @@ std::string allowedText(const OptionRow<Options>& row)
   return allowedText(row.value(options), row.unit);
 }
 
-/** What is wrong with the values of \a options, each with its key: "map.radius: -1 is ...". */
+/** The errors in the values of \a options, each with its key: "map.radius: -1 is ...". */
 template <typename Options>
 std::vector<std::string> problemsOf(const OptionTable<Options>& table, Options options)
 {

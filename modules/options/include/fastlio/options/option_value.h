@@ -116,7 +116,7 @@ ChoiceValue choice(Enum* member, std::vector<std::string_view> names)
 /** The value in YAML notation and in the unit of the text. */
 [[nodiscard]] std::string valueText(const OptionValue& value);
 
-/** What may stand in the text: "0.5 to 10 m", "true, false", "information, standard", ... */
+/** The permitted texts: "0.5 to 10 m", "true, false", "information, standard", ... */
 [[nodiscard]] std::string allowedText(const OptionValue& value, std::string_view unit);
 
 /** Short name of the type: "number", "whole number", "boolean", ... */
@@ -125,7 +125,7 @@ ChoiceValue choice(Enum* member, std::vector<std::string_view> names)
 /** The text of a RegexValue or a TextValue as it is, without quotes; nothing for other values. */
 [[nodiscard]] std::optional<std::string> plainText(const OptionValue& value);
 
-/** What is wrong with the value that is stored, or nothing. */
+/** The error in the stored value, or nothing. */
 [[nodiscard]] std::optional<std::string> valueProblem(
     const OptionValue& value, std::string_view unit);
 

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file report_figure.h What pages are made of: style, text, figures. */
+/** \file report_figure.h Parts of pages: style, text, figures. */
 #pragma once
 
 #include <fastlio/plot/svg_plot.h>
@@ -20,10 +20,10 @@ struct LegendEntry
 /** Text of others as part of a page: printable, in full, and escaped. */
 [[nodiscard]] std::string htmlText(const std::string& text);
 
-/** A plot with its title, its legend and a remark below. \param remark is HTML */
+/** A plot with its title, its legend and a note below. \param note is HTML */
 [[nodiscard]] std::string figureHtml(
     const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
-    const std::vector<LegendEntry>& legend, const std::string& remark);
+    const std::vector<LegendEntry>& legend, const std::string& note);
 
 /** The style of a page, for light and dark screens. */
 [[nodiscard]] std::string reportStyle();

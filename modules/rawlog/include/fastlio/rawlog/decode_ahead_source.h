@@ -43,7 +43,7 @@ class DecodeAheadSource
   /** Stops reading early; next() returns nothing from then on. */
   void stop();
 
-  /** What was met on the way: call after next() has returned nothing, or after stop().
+  /** The problems on the way: call after next() has returned nothing, or after stop().
    * \exception std::logic_error called earlier */
   [[nodiscard]] const std::vector<ReadProblem>& problems() const;
   [[nodiscard]] const BridgeStatistics& statistics() const;

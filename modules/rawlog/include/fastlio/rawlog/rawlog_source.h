@@ -38,7 +38,7 @@ struct RawlogSourceOptions
 
 /** Reads one or more recordings in the order given: rawlogs, plain or compressed, streams of
  * observations or action/sensory-frame rawlogs (frames are taken apart, actions skipped), and the
- * formats of recordingFormats(). The content of a file tells its format.
+ * formats of recordingFormats(). The content of a file determines its format.
  *
  * next() does not throw for anything that the files contain: what cannot be read ends up in
  * problems() and everything else is delivered. Not thread-safe; see DecodeAheadSource for reading

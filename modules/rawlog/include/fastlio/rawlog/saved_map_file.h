@@ -4,13 +4,13 @@
 /** \file saved_map_file.h Maps of earlier runs out of files. */
 #pragma once
 
-#include <fastlio/odometry/saved_map.h>
+#include <fastlio/localmap/saved_map.h>
 
 #include <string>
 
 namespace fastlio
 {
-/** Reads a map to start in; what it is, the content tells, not the name:
+/** Reads a map to start in; its content decides what it is, not its name:
  *
  * - PLY (ASCII or binary), PCD (ASCII or binary): the points,
  * - an archive of MRPT, gzip or not: points maps of any class, fastlio::CVoxelPlanesMap (its planes

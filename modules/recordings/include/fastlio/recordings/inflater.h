@@ -17,7 +17,7 @@ enum class InflateStatus
   Corrupt
 };
 
-/** What a step has come to. */
+/** The outcome of a step. */
 struct InflateStep
 {
   std::size_t consumed = 0;  //!< bytes of the input

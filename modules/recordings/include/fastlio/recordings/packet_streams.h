@@ -37,15 +37,15 @@ struct UdpPacket
 
 using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
 
-/** Tells sensors by their packets. Each sender is a sensor; its kind and address make the label. An
- * Ouster needs its metadata. Memory is bounded: a scan for each of at most 64 sensors. */
+/** Recognises sensors by their packets. Each sender is a sensor; its kind and address make the
+ * label. An Ouster needs its metadata. Memory is bounded: a scan for each of at most 64 sensors. */
 class PacketStreams
 {
  public:
   /** \param metadata JSON of an Ouster; empty: none
    * \exception std::runtime_error it is not such metadata */
   explicit PacketStreams(const std::string& metadata = {});
-  /** With the metadata beside a capture, if there is any. Metadata that cannot be used are told
+  /** With the metadata beside a capture, if there is any. Metadata that cannot be used are reported
    * when packets of an Ouster come. */
   [[nodiscard]] static PacketStreams ofCapture(const std::string& path);
   ~PacketStreams();
@@ -61,10 +61,10 @@ class PacketStreams
   /** The scans that have begun. */
   void flush(ObservationQueue& out);
 
-  /** What cannot be read although it seems to be of a LiDAR; each is told once. */
+  /** Packets that cannot be read although they seem to be of a LiDAR; each is reported once. */
   [[nodiscard]] std::vector<std::string> takeProblems() { return std::exchange(problems_, {}); }
 
-  /** What came, by sender and port. */
+  /** The received packets, by sender and port. */
   [[nodiscard]] std::vector<TopicReport> reports() const;
 
  private:

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file read_problem.h What went wrong while reading a recording. */
+/** \file read_problem.h A problem while reading a recording. */
 #pragma once
 
 #include <cstddef>

@@ -55,7 +55,7 @@ class RecordingReader
   /** Bytes of the files, as they lie on disk, that have been used. */
   [[nodiscard]] virtual std::uint64_t position() const = 0;
 
-  /** What has been met; complete behind the end. */
+  /** The topics found so far; complete behind the end. */
   [[nodiscard]] virtual std::vector<TopicReport> topics() const = 0;
 
   /** Sentences for people: where the poses of sensors come from, and the like. */

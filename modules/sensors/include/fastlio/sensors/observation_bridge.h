@@ -37,7 +37,7 @@ struct BridgeOptions
   double further_min_range = 0.0;  //!< nearer points of these are left out: the platform [m]
 };
 
-/** What became of the observations; returns are counted over all scans. */
+/** Counts of used and dropped observations; returns are counted over all scans. */
 struct BridgeStatistics
 {
   std::size_t imu_converted = 0;
@@ -63,7 +63,7 @@ struct BridgeStatistics
   std::string last_error;         //!< why the last unreadable scan was
 };
 
-/** std::monostate: nothing for the odometry, statistics() tells why. */
+/** std::monostate: nothing for the odometry, statistics() has the reason. */
 using BridgeOutput = std::variant<std::monostate, ImuSample, LidarScan>;
 
 /** Converts the observations of the selected LiDARs and IMU; counts the others. Never throws for

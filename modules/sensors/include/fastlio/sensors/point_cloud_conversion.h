@@ -26,7 +26,7 @@ enum class PointTimes
  * nanoseconds. */
 constexpr double kMaxTimeOffset = 2.0;
 
-/** A revolution, for points whose azimuth tells their time. */
+/** A revolution, for points whose azimuth gives their time. */
 struct SweepTiming
 {
   int sense = 1;                        //!< +1: counter-clockwise seen from above; -1: clockwise
@@ -50,7 +50,7 @@ struct CloudConversion
   std::size_t dropped_invalid = 0;  //!< not finite (also in time), or at the origin
 };
 
-/** Gives every point the time that its azimuth tells. */
+/** Gives every point the time that its azimuth gives. */
 void assignSweepTimes(PointColumns& points, const SweepTiming& sweep);
 
 /** Points at (0, 0, 0) are what drivers write for "no return"; they are dropped like NaN. */

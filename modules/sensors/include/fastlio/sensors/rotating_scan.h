@@ -25,7 +25,7 @@ namespace fastlio
 #if FASTLIO_MRPT_HAS_ROTATING_POINTS
 using RotatingScan = mrpt::obs::CObservationRotatingScan;
 #else
-/** What newer versions of the class have besides. */
+/** Further members of newer versions of the class. */
 class RotatingScan : public mrpt::obs::CObservationRotatingScan
 {
  public:
@@ -36,11 +36,11 @@ class RotatingScan : public mrpt::obs::CObservationRotatingScan
 #endif
 
 /** The points of a scan: those that it holds, else from its range image when the model of the
- * sensor tells the elevation of the rows (VLP-16, HDL-32E, HDL-64E). */
+ * sensor gives the elevation of the rows (VLP-16, HDL-32E, HDL-64E). */
 struct RotatingScanPoints
 {
   PointColumns points;           //!< times from the first column on
-  bool has_point_times = false;  //!< the scan tells how long a sweep takes
+  bool has_point_times = false;  //!< the scan gives the duration of a sweep
   std::size_t no_return = 0;     //!< pixels without a range
   std::size_t out_of_range = 0;  //!< outside of the observation's [minRange, maxRange]
 };

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file sensor_summary.h What is known of the sensors of a recording, and those that are used. */
+/** \file sensor_summary.h The sensors of a recording, and those that are used. */
 #pragma once
 
 #include <fastlio/lidar/point_time.h>
@@ -15,7 +15,7 @@
 
 namespace fastlio
 {
-/** What a sensor is to the odometry. */
+/** The role of a sensor in the odometry. */
 enum class SensorKind
 {
   Lidar,

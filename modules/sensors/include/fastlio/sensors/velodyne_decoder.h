@@ -18,7 +18,7 @@
 
 namespace fastlio
 {
-/** What was left out, in returns unless said otherwise. */
+/** Counts of dropped data, in returns unless a member names another unit. */
 struct VelodyneDecodeCounts
 {
   std::size_t no_return = 0;         //!< distance zero: the laser got no echo
@@ -38,7 +38,7 @@ struct VelodyneSweep
   VelodyneDecodeCounts counts;
 };
 
-/** Name of the sensor model that the packets (or a calibration of 64 lasers) tell, e.g. "VLP-16".
+/** Name of the sensor model that the packets (or a calibration of 64 lasers) name, e.g. "VLP-16".
  */
 [[nodiscard]] std::string velodyneModelName(const mrpt::obs::CObservationVelodyneScan& scan);
 

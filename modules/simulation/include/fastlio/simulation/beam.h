@@ -5,14 +5,14 @@
 #pragma once
 
 #include <fastlio/simulation/lidar_errors.h>
-#include <fastlio/simulation/primitive.h>
+#include <fastlio/worlds/primitive.h>
 
 #include <functional>
 #include <optional>
 
 namespace fastlio
 {
-/** What a ray of no width finds. */
+/** The hit of a ray of no width. */
 using Look = std::function<std::optional<Return>(const Ray&)>;
 
 /** Splits a beam into rays and makes one return of what they find, as a receiver for the strongest

@@ -4,20 +4,20 @@
 /** \file gnss_model.h A receiver of satellite navigation: noise that lasts, outages, multipath. */
 #pragma once
 
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
+#include <fastlio/worlds/motion.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace fastlio
 {
-/** What the receiver finds at an instant. */
+/** The fix of the receiver at an instant. */
 struct GnssFix
 {
   std::int64_t stamp_ns = 0;
   bool known = true;            //!< false: an outage, no position
-  bool multipath = false;       //!< the position is far off, and nothing tells it
+  bool multipath = false;       //!< the position is far off, and nothing shows it
   Vec3 antenna = Vec3::Zero();  //!< measured, in the world: east, north, up of the datum [m]
   Vec3 error = Vec3::Zero();    //!< measured minus true position of the antenna [m]
 };

@@ -5,11 +5,11 @@
  * sensitivity of the gyro to acceleration, resolution. */
 #pragma once
 
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
 
 namespace fastlio
 {
-/** What one sensor measures instead of the angular rate w and the specific force f:
+/** The measurements of one sensor instead of the angular rate w and the specific force f:
  * gyro w + g_sensitivity f and accel f. */
 struct ImuErrors
 {

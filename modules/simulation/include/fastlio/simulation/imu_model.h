@@ -4,9 +4,9 @@
 /** \file imu_model.h An inertial sensor with all its faults. */
 #pragma once
 
+#include <fastlio/scenarios/settings.h>
 #include <fastlio/simulation/imu_errors.h>
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/worlds/motion.h>
 
 #include <vector>
 
@@ -19,7 +19,7 @@ struct ImuBias
   Vec3 accel = Vec3::Zero();  //!< [m/s^2]
 };
 
-/** What the sensor delivered, in the order of time, and what was true. */
+/** The samples of the sensor, in the order of time, and the truth. */
 struct ImuRecording
 {
   std::vector<ImuSample> samples;  //!< stamps as delivered (with jitter)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file lidar_errors.h Errors of a LiDAR that stay as they are: offsets of its lasers, bias of its
- * ranges, and a mounting that is not the one that the recording tells. */
+ * ranges, and a mounting that is not the one in the recording. */
 #pragma once
 
 #include <fastlio/simulation/lidar_model.h>
@@ -11,7 +11,7 @@
 
 namespace fastlio
 {
-/** What is true of one LiDAR and not known of it. */
+/** The true errors of one LiDAR, which the configuration does not contain. */
 struct LidarErrors
 {
   Pose T_imu_lidar;                      //!< true mounting
@@ -25,7 +25,7 @@ struct LidarErrors
 /** Where a shot really goes; LiDAR frame. Its nominal direction is what the data say. */
 [[nodiscard]] Vec3 trueDirection(const Shot& shot, const LidarErrors& errors);
 
-/** What light came back of: the surface that a range was measured to. */
+/** The origin of the light that came back: the surface that a range was measured to. */
 struct Return
 {
   double range = 0.0;         //!< [m]
@@ -38,7 +38,7 @@ struct Return
  * + dark_bias + reflectivity (bright_bias - dark_bias). */
 [[nodiscard]] double rangeBias(const BeamSettings& settings, const Return& back);
 
-/** LiDAR clock minus IMU clock [s], told or not. */
+/** LiDAR clock minus IMU clock [s], given or not. */
 [[nodiscard]] double clockOffset(const LidarSettings& settings);
 
 }  // namespace fastlio

@@ -4,7 +4,7 @@
 /** \file lidar_model.h When and whereto a LiDAR shoots. */
 #pragma once
 
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
 
 #include <cstddef>
 #include <memory>

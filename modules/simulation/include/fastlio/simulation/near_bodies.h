@@ -4,8 +4,8 @@
 /** \file near_bodies.h People close to the sensors. */
 #pragma once
 
-#include <fastlio/simulation/primitive.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
+#include <fastlio/worlds/primitive.h>
 
 #include <vector>
 

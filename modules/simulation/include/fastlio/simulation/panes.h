@@ -5,14 +5,14 @@
 #pragma once
 
 #include <fastlio/simulation/lidar_errors.h>
-#include <fastlio/simulation/primitive.h>
+#include <fastlio/worlds/primitive.h>
 
 #include <functional>
 #include <optional>
 
 namespace fastlio
 {
-/** What a ray meets first, with its range from the ray's origin. */
+/** The first hit of a ray, with its range from the ray's origin. */
 using FirstHit = std::function<std::optional<RayHit>(const Ray&, double max_range)>;
 
 /** Follows light through glass and off mirrors. Which squares of a world are panes depends on their

@@ -13,7 +13,7 @@
 
 namespace fastlio
 {
-/** Told after each sweep: how many are done, of how many. */
+/** Called after each sweep: how many are done, of how many. */
 using RecordingProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /** The files of a recording. */
@@ -33,8 +33,8 @@ RecordingFiles writeRecording(
     const Simulation& simulation, const std::string& directory,
     const RecordingProgress& progress = {}, bool overwrite = false);
 
-/** What writeRecording() checks of the directory, without making anything: for before a simulation
- * is computed. \exception std::exception as writeRecording() */
+/** The checks of writeRecording() on the directory, without making anything: for before a
+ * simulation is computed. \exception std::exception as writeRecording() */
 void requireRecordingPlace(const std::string& directory, bool overwrite);
 
 /** The odometry's parameters that match the simulated sensors: noise densities (a vibration counts

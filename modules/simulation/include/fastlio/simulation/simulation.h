@@ -15,19 +15,19 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/simulation/gnss_model.h>
 #include <fastlio/simulation/imu_model.h>
 #include <fastlio/simulation/lidar_errors.h>
 #include <fastlio/simulation/lidar_model.h>
-#include <fastlio/simulation/scenario.h>
 #include <fastlio/simulation/wheel_model.h>
-#include <fastlio/simulation/world.h>
+#include <fastlio/worlds/world.h>
 
 #include <memory>
 
 namespace fastlio
 {
-/** What came back of a shot. */
+/** The return of a shot. */
 struct Echo
 {
   double range = 0.0;      //!< with noise [m]; 0: nothing came back
@@ -67,7 +67,7 @@ class Simulation
   [[nodiscard]] FiredSweep fire(std::size_t index) const;
 
   /** The same as points, with the stamp that the LiDAR delivers (clockOffset()) and the mounting
-   * that the recording tells. */
+   * in the recording. */
   [[nodiscard]] LidarScan scan(std::size_t index) const;
 
   /** The true state of motion at a stamp of the IMU's clock. */

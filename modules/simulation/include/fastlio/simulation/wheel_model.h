@@ -4,8 +4,8 @@
 /** \file wheel_model.h Odometry of two driven wheels. */
 #pragma once
 
-#include <fastlio/simulation/motion.h>
-#include <fastlio/simulation/settings.h>
+#include <fastlio/scenarios/settings.h>
+#include <fastlio/worlds/motion.h>
 
 #include <cstdint>
 #include <vector>

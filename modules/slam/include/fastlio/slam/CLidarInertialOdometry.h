@@ -7,8 +7,8 @@
 
 #include <fastlio/config/config.h>
 #include <fastlio/config/config_document.h>
-#include <fastlio/exporters/pose_track.h>
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/run/pose_track.h>
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -22,7 +22,7 @@
 
 namespace fastlio
 {
-/** What a scan gave. */
+/** The outcome of a scan. */
 struct OdometryEstimate
 {
   ScanResult result;  //!< of the IMU

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file imu_survey.h What inertial samples show at rest: units, noise, which way is up. */
+/** \file imu_survey.h Inertial samples at rest: units, noise, the direction up. */
 #pragma once
 
 #include <fastlio/filter/imu.h>

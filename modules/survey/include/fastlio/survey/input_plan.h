@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file input_plan.h What is going to be done with the sensors of a recording: found in the data,
- * or told by parameters. */
+/** \file input_plan.h The planned treatment of a recording's sensors: from the data,
+ * or given by parameters. */
 #pragma once
 
 #include <fastlio/lidar/lidar_options.h>
@@ -22,7 +22,7 @@ struct LidarPlan
   CloudTiming timing;
   bool compensated = true;  //!< false: no point has a time of its own, no motion compensation
   std::string text;         //!< for people: where the times come from, with the numbers
-  bool loud = false;        //!< text tells of something that people should look at
+  bool loud = false;        //!< text is about something that people should look at
 };
 
 /** Where a sensor in use is mounted. */

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file lidar_look.h What the points of a LiDAR show of it: lines, field of view, ranges. */
+/** \file lidar_look.h Properties of a LiDAR that its points show: lines, field of view, ranges. */
 #pragma once
 
 #include <fastlio/lidar/scan.h>

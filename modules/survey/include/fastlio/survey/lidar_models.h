@@ -35,7 +35,7 @@ struct Preset
 /** All presets, by maker. */
 [[nodiscard]] const std::vector<Preset>& presetTable();
 
-/** What a recording shows of its LiDAR. */
+/** Properties of a LiDAR in a recording. */
 struct LidarAppearance
 {
   std::string label;    //!< of the sensor, and its model if known

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file motion_check.h Do LiDAR and IMU tell of the same motion? Time offset, rotation between
+/** \file motion_check.h Do LiDAR and IMU see the same motion? Time offset, rotation between
  * them and unit of the gyro from the rotations that both see. */
 #pragma once
 
@@ -22,7 +22,7 @@ struct ScanTurn
   Vec3 rotation = Vec3::Zero();           //!< LiDAR axes [rad]
 };
 
-/** What both sensors agree on. */
+/** The agreement of both sensors. */
 struct MotionCheck
 {
   std::size_t turns = 0;   //!< pairs of scans that were used

@@ -4,7 +4,7 @@
 /** \file recording_survey.h A recording looked at as a whole, without running the odometry. */
 #pragma once
 
-#include <fastlio/odometry/odometry_options.h>
+#include <fastlio/interface/odometry_options.h>
 #include <fastlio/survey/imu_survey.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/lidar_look.h>
@@ -66,7 +66,7 @@ struct SurveyOptions
 {
   bool check_motion = true;
   std::size_t most_scans = 100;  //!< for the check of motion
-  /** Share of the work that is done, 0..1. */
+  /** Fraction of the work that is done, 0..1. */
   std::function<void(double)> progress;
 };
 

@@ -14,7 +14,7 @@
 
 namespace fastlio
 {
-/** Sensors that a survey tells apart: more than any vehicle has, few enough to look through. */
+/** Sensors that a survey distinguishes: more than any vehicle has, few enough to look through. */
 inline constexpr std::size_t kMostSensors = 1000;
 
 /** Every sensor seen; problems that reading met. */

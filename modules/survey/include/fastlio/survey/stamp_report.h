@@ -10,7 +10,7 @@
 
 namespace fastlio
 {
-/** What the stamps of a sensor tell, in the order of their arrival. */
+/** Findings about the stamps of a sensor, in the order of their arrival. */
 struct StampReport
 {
   std::size_t count = 0;

@@ -48,7 +48,7 @@ struct SearchCounts
   std::size_t started = 0;  //!< claims, so that started - finished are those that were cut off
 };
 
-/** What a change survives when the call that makes it has returned. */
+/** The faults that a change survives when the call that makes it has returned. */
 enum class Durability
 {
   Power,   //!< a power failure

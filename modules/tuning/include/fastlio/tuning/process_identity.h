@@ -9,7 +9,7 @@
 
 namespace fastlio
 {
-/** A process, told apart from a later one that gets the same number. */
+/** A process, distinguished from a later one that gets the same number. */
 struct ProcessIdentity
 {
   std::string host;        //!< name, boot and process namespace: where the number means something

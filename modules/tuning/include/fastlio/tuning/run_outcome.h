@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file run_outcome.h What a run of the odometry amounts to. */
+/** \file run_outcome.h The outcome of a run of the odometry. */
 #pragma once
 
 #include <map>

@@ -38,7 +38,7 @@ using Candidate = std::vector<std::string>;
 [[nodiscard]] Candidate candidateAt(const SearchSpace& space, const std::vector<double>& places);
 
 /** \a base with the values of a candidate. They may contradict each other or the base: validate()
- * tells. \exception std::invalid_argument a value is out of its own range */
+ * checks. \exception std::invalid_argument a value is out of its own range */
 [[nodiscard]] Config configured(
     const Config& base, const SearchSpace& space, const Candidate& candidate);
 

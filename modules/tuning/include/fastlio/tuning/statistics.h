@@ -22,7 +22,7 @@ struct TriedPoint
   double ratio = 1.0;  //!< error by error of the base: geometric mean over recordings
 };
 
-/** What the trials with some values of a key have in common. */
+/** Statistics of the trials with some values of a key. */
 struct KeyLevel
 {
   std::string values;  //!< "0.01", or "0.01 to 0.05"

@@ -13,7 +13,7 @@
 
 namespace fastlio
 {
-/** What counts of a run: its state and its error. */
+/** State and error of a run. */
 struct Judged
 {
   RunState state = RunState::Failed;

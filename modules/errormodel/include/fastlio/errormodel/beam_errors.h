@@ -1,0 +1,58 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file beam_errors.h Errors that all points of a laser share: its range is off by a constant, or
+ * its elevation. Thousands of points do not average them out, and nor do hundreds of planes. */
+#pragma once
+
+#include <fastlio/errormodel/calibration_sums.h>
+#include <fastlio/lidar/beam_corrections.h>
+#include <fastlio/matching/match_result.h>
+#include <fastlio/matching/plane_groups.h>
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace fastlio
+{
+/** Learns how large such errors are from the residuals that the beams of one elevation leave on
+ * average, and says what they do to a scan. Points do not name their laser, but its elevation does.
+ */
+class BeamErrors
+{
+ public:
+  /** A scan was matched. \param R_world_scan attitude of the scan pose
+   * \param points its measurements, as those of \a scan.surfaces */
+  void add(
+      const Mat3& R_world_scan, const DeskewedScan& scan,
+      const std::vector<PointMeasurement>& points);
+
+  /** Covariance of sum w h b over the last scan, b by offsets of range and elevation. */
+  [[nodiscard]] Matrix6 covariance() const;
+  /** Root mean square of the offsets; 0 while none is known. */
+  [[nodiscard]] double rangeOffset() const;      //!< [m]
+  [[nodiscard]] double elevationOffset() const;  //!< [rad]
+  /** Of all elevations that were seen, ascending. */
+  [[nodiscard]] std::vector<BeamSums> sums() const;
+
+ private:
+  /** An offset of the beams of one elevation. */
+  struct Offset
+  {
+    double information = 0.0, weighted = 0.0;  // of all scans
+    Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last scan
+
+    void add(const PointMeasurement& point, double derivative);
+  };
+  using Offsets = std::array<Offset, kBeamBins>;
+
+  [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
+  [[nodiscard]] double rangeVariance() const;
+  [[nodiscard]] double elevationVariance() const;
+
+  Offsets range_, elevation_;
+  std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
+};
+
+}  // namespace fastlio

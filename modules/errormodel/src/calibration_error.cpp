@@ -1,0 +1,95 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "insertion_weights.h"
+#include <fastlio/errormodel/calibration_error.h>
+
+namespace fastlio
+{
+CalibrationErrorModel::CalibrationErrorModel()
+{
+  insertions_.reserve(kMaxInsertions);
+}
+
+void CalibrationErrorModel::start(const NavState& x, bool tilted)
+{
+  S_.setZero();
+  const Vec3 force = -(x.R.transpose() * x.g);
+  const Vec3 up = force.normalized();
+  const Mat3 along = up * up.transpose();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int column = kAccelMatrixError + 3 * axis;  // its error adds force[axis] * theta
+    S_.block<3, 3>(kAccelBias, column) = force[axis] * along;
+    if (tilted)
+      S_.block<3, 3>(kAttitude, column) = -force[axis] / force.squaredNorm() * skew(force);
+    else
+      S_.block<3, 3>(kGravity, column) = -force[axis] * x.R * (Mat3::Identity() - along);
+  }
+}
+
+void CalibrationErrorModel::propagate(const ErrorTransition& transition)
+{
+  S_ = transition.times(S_);
+  S_.block<kMotionDim, 18>(0, kGyroMatrixError) += transition.by_inertial;
+}
+
+void CalibrationErrorModel::correct(const StateMatrix& kept)
+{
+  S_ = product(kept, S_);
+}
+
+PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state) const
+{
+  PoseByCalibration of_scan = product(by_state, S_);
+  of_scan.middleCols<6>(kExtrinsicError) += by_state.middleCols<6>(kExtrinsicRotation);
+  return of_scan;
+}
+
+PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& groups)
+{
+  weighInsertions(groups, insertions_);
+  PoseByCalibration mean = PoseByCalibration::Zero();
+  for (const Insertion& insertion : insertions_)
+    if (insertion.weight > 0.0) mean += insertion.weight * insertion.twist;
+  return mean;
+}
+
+UpdateByCalibration CalibrationErrorModel::update(
+    const LinearizedUpdate& update, const GroupedMeasurements& scan)
+{
+  UpdateByCalibration by_calibration;
+  if (scan.groups.empty()) return by_calibration;
+  const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  by_calibration.innovation = ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
+  const Matrix6 information =
+      update.constrained.transpose() * scan.information * update.constrained;
+  const Sensitivity correction =
+      -product(update.gain, PoseByCalibration(product(information, by_calibration.innovation)));
+  by_calibration.correction = correction.topRows<6>();
+  S_ += correction;
+  return by_calibration;
+}
+
+void CalibrationErrorModel::recordInsertion(
+    std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state)
+{
+  if (insertions_.size() >= kMaxInsertions) keepEverySecond(insertions_);
+  insertions_.push_back({scan, 0.0, product(twistJacobian(T_world_scan), ofScan(by_state))});
+}
+
+StateMatrix CalibrationErrorModel::addition(const CalibrationErrorMatrix& moment) const
+{
+  return productByTransposed(product(S_, moment), S_);
+}
+
+StateMatrix CalibrationErrorModel::additionAfter(
+    const ErrorTransition& transition, const CalibrationErrorMatrix& moment) const
+{
+  CalibrationErrorModel then;
+  then.S_ = S_;
+  then.propagate(transition);
+  return then.addition(moment);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,76 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/errormodel/calibration_evidence.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace fastlio
+{
+namespace
+{
+using Square6 = Eigen::Matrix<double, 6, 6>;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+// Beside so many scans one more adds little: from then on one in so many is followed by a
+// solution.
+constexpr int kScansSolvedEach = 20;
+constexpr int kScansPerSolution = 10;
+
+bool isPositive(const Eigen::LDLT<Square6>& ldlt)
+{
+  return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 0.0;
+}
+}  // namespace
+
+CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
+{
+  const auto matrix = [&](int first)
+  {
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        prior_.std[first + 3 * column + row] =
+            row == column ? options.imu_scale_std : options.imu_misalignment_std;
+  };
+  matrix(kGyroMatrixError);
+  matrix(kAccelMatrixError);
+  const bool estimated = options.estimate_extrinsic;  // by the filter itself
+  prior_.std.segment<3>(kExtrinsicError)
+      .setConstant(estimated ? 0.0 : options.extrinsic_rotation_std);
+  prior_.std.segment<3>(kExtrinsicError + 3)
+      .setConstant(estimated ? 0.0 : options.extrinsic_translation_std);
+  estimate_ = solve(sums_, prior_);
+}
+
+void CalibrationEvidence::add(
+    const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
+    const FilterState& predicted, const UpdateResult& update)
+{
+  const Eigen::Matrix<double, 6, kStateDim> B = by_state;
+  const Square6 P = productByTransposed(product(B, predicted.P), B);
+  const Square6 information = update.last.HtRinvH;
+  const Vec6 correction = B * boxminus(update.posterior.x, predicted.x);
+  const Eigen::LDLT<Square6> P_ldlt(P), information_ldlt(information);
+  if (!isPositive(P_ldlt) || !isPositive(information_ldlt)) return;
+  // The innovation y has the covariance W^-1 = information^-1 + P; the filter corrects by P W y.
+  const Vec6 Wy = P_ldlt.solve(correction);
+  const Square6 W =
+      Square6(Square6::Identity() + information * P).partialPivLu().solve(information);
+  const PoseByCalibration weighted = product(W, innovation);
+  sums_.information += innovation.transpose() * weighted;
+  sums_.weighted -= innovation.transpose() * Wy;
+  sums_.squares += Wy.dot(information_ldlt.solve(Wy) + P * Wy);
+  sums_.count += 6.0;
+  ++scans_;
+  if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0)
+    estimate_ = solve(sums_, prior_);
+}
+
+Matrix6 CalibrationEvidence::byPrior(const PoseByCalibration& pose) const
+{
+  const PoseByCalibration scaled = pose * prior_.std.asDiagonal();
+  return scaled * scaled.transpose();
+}
+
+}  // namespace fastlio

@@ -1,0 +1,49 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file insertion_weights.h Which scans created the planes in view. */
+#pragma once
+
+#include <fastlio/matching/plane_groups.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace fastlio
+{
+/** So many insertions are remembered; beyond it every second one is dropped, as what is remembered
+ * changes slowly. */
+inline constexpr std::size_t kMaxInsertions = 256;
+
+template <typename Insertion>
+void keepEverySecond(std::vector<Insertion>& insertions)
+{
+  for (std::size_t i = 0; 2 * i < insertions.size(); ++i)
+    insertions[i] = insertions[2 * i];
+  insertions.resize((insertions.size() + 1) / 2);
+}
+
+/** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
+ * created. \param insertions ascending by scan; older ones may have been dropped */
+template <typename Insertion>
+void weighInsertions(const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions)
+{
+  for (Insertion& insertion : insertions)
+    insertion.weight = 0.0;
+  double total = 0.0;
+  for (const PlaneGroup& group : groups)
+  {
+    total += group.weight;
+    const auto next = std::upper_bound(
+        insertions.begin(), insertions.end(), group.created_insertion,
+        [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
+    if (next != insertions.begin()) std::prev(next)->weight += group.weight;
+  }
+  if (!(total > 0.0)) return;
+  for (Insertion& insertion : insertions)
+    insertion.weight /= total;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,195 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "insertion_weights.h"
+#include <fastlio/errormodel/map_error.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
+using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
+using AlignedStateBy6 = Eigen::Matrix<double, kStateDim, 6>;
+using Aligned6ByState = Eigen::Matrix<double, 6, kStateDim>;
+
+/** C with C C^T = m for a positive semi-definite m. */
+AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
+{
+  // Keeps the factor finite where some direction has no error at all.
+  constexpr double kRelativeFloor = 1e-12;
+  const AlignedMatrix6 floor =
+      (kRelativeFloor * m.diagonal().array() + 1e-300).matrix().asDiagonal();
+  const Eigen::LLT<AlignedMatrix6> llt(m + floor);
+  return llt.info() == Eigen::Success ? AlignedMatrix6(llt.matrixL())
+                                      : AlignedMatrix6(AlignedMatrix6::Zero());
+}
+
+/** The gain with which the map's errors are passed on: they reach the scan pose and with it the
+ * body's pose, while the calibration, which all scans determine together, is taken as it is. */
+AlignedStateBy6 gainOf(const LinearizedUpdate& update)
+{
+  const Eigen::Matrix<double, 6, kStateDim> B = update.by_state;
+  AlignedStateBy6 gain = update.gain;
+  const AlignedMatrix6 scan_pose = product(B, gain);
+  gain.topRows<6>() = AlignedMatrix6(B.leftCols<6>()).partialPivLu().solve(scan_pose);
+  gain.bottomRows<kCalibrationDim>().setZero();
+  return gain * update.constrained.transpose();
+}
+
+/** I - K H = I - G (S B): what an update leaves of an error, as a change of rank six. */
+struct Keeping
+{
+  AlignedStateBy6 G;
+  Aligned6ByState SB;
+
+  [[nodiscard]] AlignedStateBy6 times(const AlignedStateBy6& m) const
+  {
+    const AlignedMatrix6 seen = product(SB, m);
+    return m - G * seen;
+  }
+
+  [[nodiscard]] AlignedStateMatrix onBothSidesOf(const AlignedStateMatrix& m) const
+  {
+    const AlignedStateMatrix left = m - product(G, product(SB, m));
+    return left - productByTransposed(productByTransposed(left, SB), G);
+  }
+
+  /** Of the rows and columns of the pose. */
+  [[nodiscard]] double poseTrace() const
+  {
+    return 6.0 - (G.topRows<6>() * SB.leftCols<6>()).trace();
+  }
+};
+
+/** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
+AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
+{
+  AlignedMatrix6 Q = AlignedMatrix6::Zero();
+  for (const PlaneGroup& group : groups)
+    Q.noalias() += group.shared_variance * group.g * group.g.transpose();
+  return Q;
+}
+}  // namespace
+
+Matrix6 twistJacobian(const Pose& T_world_scan)
+{
+  Matrix6 L = Matrix6::Identity();
+  L.topLeftCorner<3, 3>() = T_world_scan.R;
+  L.bottomLeftCorner<3, 3>() = skew(T_world_scan.p) * T_world_scan.R;
+  return L;
+}
+
+Matrix6 twistJacobianInverse(const Pose& T_world_scan)
+{
+  Matrix6 L = Matrix6::Identity();
+  L.topLeftCorner<3, 3>() = T_world_scan.R.transpose();
+  L.bottomLeftCorner<3, 3>() = -skew(T_world_scan.p);
+  return L;
+}
+
+TwistCovariance twistCovariance(const Matrix6& pose_covariance, const Pose& T_world_imu)
+{
+  const AlignedMatrix6 L = twistJacobian(T_world_imu);
+  return L * pose_covariance * L.transpose();
+}
+
+Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_imu)
+{
+  const AlignedMatrix6 L = twistJacobianInverse(T_world_imu);
+  return L * covariance * L.transpose();
+}
+
+TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>& groups)
+{
+  weighInsertions(groups, insertions_);
+  TwistCovariance mean = TwistCovariance::Zero();
+  TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
+  for (const Insertion& insertion : insertions_)
+  {
+    const double part = insertion.weight;
+    remembered *= insertion.memory;
+    mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
+    remembered += part * insertion.own;
+  }
+  return mean;
+}
+
+void MapErrorModel::thinOut()
+{
+  for (std::size_t i = 2; i < insertions_.size(); i += 2)
+    insertions_[i].memory *= insertions_[i - 1].memory;
+  keepEverySecond(insertions_);
+}
+
+void MapErrorModel::propagate(const ErrorTransition& transition)
+{
+  addition_ = transition.onBothSidesOf(addition_);
+  Y_planes_ = transition.times(Y_planes_);
+  Y_poses_ = transition.times(Y_poses_);
+}
+
+void MapErrorModel::correct(const StateMatrix& kept)
+{
+  addition_ = transformedCovariance(kept, addition_);
+  Y_planes_ = product(kept, Y_planes_);
+  Y_poses_ = product(kept, Y_poses_);
+}
+
+void MapErrorModel::update(
+    const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
+{
+  if (scan.groups.empty()) return;
+  const AlignedMatrix6 L = twistJacobian(update.T_world_scan);
+  const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
+  const AlignedMatrix6 C_planes =
+      squareRoot(L_inverse.transpose() * (planeErrors(scan.groups) + beam_errors) * L_inverse);
+  const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(scan.groups));
+
+  const AlignedStateBy6 gain = gainOf(update);
+  const Keeping keep{gain, scan.information * (update.constrained * update.by_state)};
+  memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
+  const AlignedStateBy6 G = gain * L.transpose();
+  const AlignedStateBy6 in_planes = G * C_planes, in_poses = G * C_poses;
+  const AlignedStateBy6 kept_planes = scan.persistence * keep.times(AlignedStateBy6(Y_planes_));
+  const AlignedStateBy6 kept_poses = keep.times(AlignedStateBy6(Y_poses_));
+
+  // One half of all that comes in; its transpose is the other.
+  const AlignedStateBy6 planes = kept_planes + 0.5 * in_planes;
+  const AlignedStateBy6 poses = kept_poses + 0.5 * in_poses;
+  const AlignedStateBy6 noise = 0.5 * gain * scan.shared_noise;
+  const AlignedStateMatrix half = productByTransposed(planes, in_planes) +
+                                  productByTransposed(poses, in_poses) -
+                                  productByTransposed(noise, gain);
+  addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
+  Y_planes_ = kept_planes + in_planes;
+  Y_poses_ = kept_poses + in_poses;
+}
+
+StateMatrix MapErrorModel::addition() const
+{
+  return 0.5 * (addition_ + addition_.transpose());
+}
+
+StateMatrix MapErrorModel::additionAfter(const ErrorTransition& transition) const
+{
+  return transition.onBothSidesOf(addition());
+}
+
+void MapErrorModel::recordInsertion(
+    std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan)
+{
+  if (insertions_.size() >= kMaxInsertions) thinOut();
+  insertions_.push_back(
+      {scan, twistCovariance(pose_error.inherited, T_world_scan),
+       twistCovariance(pose_error.own, T_world_scan), memory_, 0.0});
+  memory_ = 1.0;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,108 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/errormodel/beam_errors.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kWeight = 1.0 / 4e-4;  // of a range noise of 2 cm
+constexpr double kRadius = 8.0;         // of the room [m]
+
+/** Offsets of a beam of laser \a line. */
+struct LaserOffset
+{
+  double range = 0.0, elevation = 0.0;
+};
+
+/** A scan of sixteen lasers in a round room of surfaces that are turned at random. */
+class RandomRoom
+{
+ public:
+  template <typename OffsetOf>
+  void scan(BeamErrors& beams, double noise, const OffsetOf& offsetOf)
+  {
+    DeskewedScan scan;
+    std::vector<PointMeasurement> points;
+    constexpr int kLines = 16, kColumns = 60;
+    scan.surfaces.resize(kLines * kColumns);
+    for (int i = 0; i < kLines * kColumns; ++i)
+    {
+      const double elevation = (-15.0 + 2.0 * (i % kLines)) * M_PI / 180.0;
+      const double azimuth = 0.5 * M_PI * i / (kLines * kColumns);  // one corner of the room
+      const double cosine = std::cos(elevation);
+      const Vec3 beam(cosine * std::cos(azimuth), cosine * std::sin(azimuth), std::sin(elevation));
+      const Vec3 upward(
+          -std::sin(elevation) * std::cos(azimuth), -std::sin(elevation) * std::sin(azimuth),
+          cosine);
+      const Vec3 turned(normal_(random_), normal_(random_), normal_(random_));
+      const Vec3 normal = (beam + 0.5 * turned).normalized();
+      const LaserOffset offset = offsetOf(i % kLines);
+      PointMeasurement& point = points.emplace_back();
+      point.weight = kWeight;
+      point.weighted_h.head<3>() = kWeight * (kRadius * beam).cross(normal);
+      point.weighted_h.tail<3>() = kWeight * normal;
+      point.z = offset.range * normal.dot(beam) + kRadius * offset.elevation * normal.dot(upward) +
+                noise * normal_(random_);
+      const auto k = static_cast<std::size_t>(i);
+      scan.surfaces.x[k] = static_cast<float>(kRadius * beam.x());
+      scan.surfaces.y[k] = static_cast<float>(kRadius * beam.y());
+      scan.surfaces.z[k] = static_cast<float>(kRadius * beam.z());
+    }
+    beams.add(Mat3::Identity(), scan, points);
+  }
+
+ private:
+  std::mt19937 random_{7};
+  std::normal_distribution<double> normal_;
+};
+
+TEST(BeamErrors, AreNoneInNoise)
+{
+  RandomRoom room;
+  BeamErrors beams;
+  EXPECT_EQ(beams.rangeOffset(), 0.0);
+  EXPECT_EQ(beams.covariance().norm(), 0.0);
+  for (int i = 0; i < 200; ++i)
+    room.scan(beams, 0.02, [](int) { return LaserOffset{}; });
+  EXPECT_LT(beams.rangeOffset(), 5e-4);
+  EXPECT_LT(beams.elevationOffset(), 1e-4);
+}
+
+TEST(BeamErrors, AreAsLargeAsTheOffsetsOfTheLasers)
+{
+  const auto range = [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; };
+  const auto elevation = [](int line) { return LaserOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3}; };
+  RandomRoom room;
+  BeamErrors by_range, by_elevation;
+  for (int i = 0; i < 200; ++i)
+  {
+    room.scan(by_range, 0.02, range);
+    room.scan(by_elevation, 0.02, elevation);
+  }
+  EXPECT_NEAR(by_range.rangeOffset(), 0.01, 5e-4);
+  EXPECT_NEAR(by_elevation.elevationOffset(), 1e-3, 5e-5);
+}
+
+TEST(BeamErrors, DoNotAverageOutWithTheNumberOfPoints)
+{
+  // The sum over all points of a laser grows with their number, and so does its standard deviation:
+  // independent errors would grow with the root.
+  RandomRoom room;
+  BeamErrors beams;
+  for (int i = 0; i < 200; ++i)
+    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+  constexpr double kPoints = 16 * 60;
+  const double independent = kPoints * std::pow(kWeight * 0.01, 2);
+  const double trace = beams.covariance().diagonal().tail<3>().sum();
+  EXPECT_GT(trace, 3.0 * independent);
+}
+}  // namespace
+}  // namespace fastlio

@@ -1,0 +1,85 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file motion_agreement.h Do the scans and the inertial sensor see the same motion? A wrong
+ * mounting, a wrong unit or clocks that are apart make a map that is consistent in itself, so that
+ * the residuals stay small. What they cannot hide: scan after scan, the correction of the
+ * prediction is many times what its covariance explains. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/interface/scan_result.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace fastlio
+{
+/** Compares predictions and their corrections, scan after scan. */
+class MotionAgreement
+{
+ public:
+  static constexpr std::size_t kWindow = 21;  //!< scans: two seconds of most LiDARs
+
+  /** A scan corrected a prediction.
+   * \param before state that the prediction began with, \a seconds before
+   * \param posterior of the update, before anything else changes it
+   * \param by_calibration covariance of the correction of the pose that errors of the calibration
+   * explain, as far as the options admit them */
+  void add(
+      const NavState& before, double seconds, const FilterState& predicted,
+      const FilterState& posterior, const Matrix6& by_calibration);
+  /** The next correction says nothing: the run begins, or the pose was searched. */
+  void restart();
+
+  /** Median over the last scans of e^T S^-1 e / 3 for the correction e of attitude or position,
+   * whichever is larger, with S its covariance, those by calibration, vibration and jitter of
+   * stamps included; about 1 when the model is true, 0 while too few scans are known. */
+  [[nodiscard]] double innovation() const;
+  /** The same with nothing explained but by the noise. */
+  [[nodiscard]] double unexplainedInnovation() const;
+
+  /** The rotation between the mounting in use and the one that the turns of the last minute show;
+   * nothing while they do not determine it. */
+  [[nodiscard]] std::optional<MountingError> mountingError() const;
+
+  /** The turns of the gyro over those of the scans in the last minute; nothing while they do not
+   * determine it. */
+  [[nodiscard]] std::optional<GyroScale> gyroScale() const;
+
+ private:
+  /** The turns of the last minute, without their means: the bias of the gyro does not
+   * matter. */
+  struct Turns
+  {
+    Mat3 from_scans = Mat3::Identity();  //!< rotation that takes turns of the scans to the gyro's
+    Mat3 axes = Mat3::Identity();        //!< its right singular vectors: axes of the gyro's turns
+    Vec3 strengths = Vec3::Zero();       //!< of the turns about them, signed [rad^2]
+    double inertial_squares = 0.0, scan_squares = 0.0;  //!< sums [rad^2]
+    double variance = 0.0;  //!< of what one component of a turn leaves over [rad^2]
+  };
+  [[nodiscard]] std::optional<Turns> turns() const;
+  void addTurn(const Vec3& inertial, const Vec3& scans);
+
+  using Window = std::array<double, kWindow>;
+
+  /** Rings of e^T S^-1 e / 3. */
+  struct Windows
+  {
+    Window attitude{}, position{};
+  };
+
+  [[nodiscard]] double largerMedian(const Windows& windows) const;
+
+  Windows explained_, unexplained_;
+  std::size_t corrections_ = 0;
+  std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
+  // Sums over the turns between scans, for Wahba's problem.
+  Mat3 products_ = Mat3::Zero();
+  Vec3 inertial_sum_ = Vec3::Zero(), scan_sum_ = Vec3::Zero();
+  double inertial_squares_ = 0.0, scan_squares_ = 0.0;
+  double turns_ = 0.0;
+};
+
+}  // namespace fastlio

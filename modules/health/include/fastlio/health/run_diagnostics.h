@@ -1,0 +1,51 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file run_diagnostics.h Diagnostics of a run for the user, each reported once. */
+#pragma once
+
+#include <fastlio/imu/imu_report.h>
+#include <fastlio/imu/noise_measurement.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** Collects diagnostics: those that others find, and those that show in samples and results. */
+class RunDiagnostics
+{
+ public:
+  explicit RunDiagnostics(const OdometryOptions& options)
+      : calibration_(options.calibration), imu_noise_(options.imu.noise)
+  {
+  }
+
+  /** Beyond some hundreds, later ones are left out. */
+  void report(std::int64_t stamp_ns, std::string text);
+
+  /** Looks at the next inertial sample. */
+  void consider(const ImuSample& sample);
+  /** Looks at the next result. */
+  void consider(const ScanResult& result);
+
+  /** In the order of their discovery. */
+  [[nodiscard]] const std::vector<Diagnostic>& all() const { return all_; }
+
+ private:
+  void considerMounting(const ScanResult& result);
+  void considerExtrinsic(const ScanResult& result);
+  void considerMotion(const ScanResult& result);
+
+  CalibrationOptions calibration_;
+  ImuNoise imu_noise_;
+  SampleScatter scatter_;
+  bool scatter_reported_ = false, mounting_reported_ = false, extrinsic_reported_ = false,
+       motion_reported_ = false;
+  std::vector<Diagnostic> all_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,172 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/health/classify.h>
+#include <fastlio/localmap/map_search.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr int kSparseMapScans = 20;
+
+std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s)
+{
+  return mrpt::format(
+      "%zu of %zu points match the map, at least %zu are needed; "
+      "%.2f s on inertial data alone, position uncertain by %.3f m%s",
+      s.points_effective, outcome.points, kMinEffectivePoints, outcome.unaided_s,
+      outcome.position_std,
+      outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
+}
+
+/** There is no map yet, and the scan cannot begin one. */
+std::string emptyScan(
+    const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
+{
+  return mrpt::format(
+      "%zu of %zu points are left, at least %zu are needed to begin a map: %zu without an echo, "
+      "%zu "
+      "nearer than lidar.min_range (%g m), %zu farther than lidar.max_range (%g m)",
+      outcome.points, s.points_in, kMinEffectivePoints, s.dropped_invalid, s.dropped_near,
+      options.lidar.min_range, s.dropped_far, options.lidar.max_range);
+}
+
+std::string foundAgain(const PoseSearchResult& search)
+{
+  return mrpt::format(
+      "the pose is found again in the map: %.0f %% of the points match, %zu places were tried",
+      100.0 * search.best->inlier_ratio, search.candidates);
+}
+
+std::string searchFailure(const ScanOutcome& outcome)
+{
+  const PoseSearchResult& search = *outcome.search;
+  const PoseCandidate best = search.best.value_or(PoseCandidate{});
+  return mrpt::format(
+      "none of %zu places within the prediction's uncertainty (%.2f m)%s matches convincingly: the "
+      "best has %.0f %% inliers with a mean z^2/r of %.1f, its rival %.0f %% of its score; %.2f s "
+      "on inertial data alone",
+      search.candidates, outcome.position_std, search.complete ? "" : ", not all of it,",
+      100.0 * best.inlier_ratio, best.innovation,
+      best.score > 0.0 ? 100.0 * search.rival_score / best.score : 0.0, outcome.unaided_s);
+}
+
+std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
+{
+  return mrpt::format(
+      "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match; "
+      "the last one was %.2f s ago",
+      s.points_effective, outcome.points, s.normalized_innovation, outcome.unaided_s);
+}
+
+std::string bridgedGap(double gap_s, double max_gap)
+{
+  return mrpt::format(
+      "%.2f s without inertial samples (imu.max_gap is %.2f s): bridged with the last rate and "
+      "acceleration",
+      gap_s, max_gap);
+}
+
+std::string relocalisationFailure(
+    const ScanOutcome& outcome, const ScanStatistics& s, const InitializationOptions& p)
+{
+  return mrpt::format(
+      "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
+      "needed; is the pose within initialization.pose_position_std "
+      "(%.2f m) and pose_yaw_std of the true one?",
+      100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)),
+      100.0 * kGivenMapInlierRatio, p.pose_position_std);
+}
+
+/** The state is not trusted: the prediction overflowed, or no scan has corrected it for long. */
+bool isDiverged(const ScanOutcome& outcome, const OdometryOptions& options)
+{
+  return !outcome.prediction_finite || outcome.unaided_s > options.measurement.max_unaided_time;
+}
+
+/** Why the scan did not correct the state; empty when it did and nothing is worth a word. */
+std::string trackingMessage(
+    const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
+{
+  const bool diverged = isDiverged(outcome, options);
+  if (outcome.search && outcome.prediction_finite)
+    return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
+  if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
+  if (outcome.map_was_empty && !outcome.begins_map) return emptyScan(outcome, s, options);
+  if (diverged || (!outcome.updated && !outcome.begins_map)) return fewMatches(outcome, s);
+  if (outcome.imu_gap_s > options.imu.max_gap)
+    return bridgedGap(outcome.imu_gap_s, options.imu.max_gap);
+  return {};
+}
+
+std::string messageOf(
+    ScanStatus status, const ScanOutcome& outcome, const ScanStatistics& s,
+    const OdometryOptions& options)
+{
+  if (outcome.place == ScanOutcome::Place::OutsideGivenMap)
+    return relocalisationFailure(outcome, s, options.initialization);
+  if (outcome.place == ScanOutcome::Place::InMap) return trackingMessage(outcome, s, options);
+  if (status == ScanStatus::Tracking)
+    return mrpt::format(
+        "the map is found again after a new start, %zu of %zu points match it", s.points_effective,
+        outcome.points);
+  if (status == ScanStatus::FirstScan)
+    return mrpt::format(
+        "a new map is begun at the pose that was carried over, which is uncertain by %.2f m",
+        outcome.position_std);
+  return "a new start, looking for the map: " + trackingMessage(outcome, s, options);
+}
+}  // namespace
+
+ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
+{
+  if (outcome.place == ScanOutcome::Place::OutsideGivenMap) return ScanStatus::Initializing;
+  if (isDiverged(outcome, options)) return ScanStatus::Diverged;
+  if (outcome.begins_map) return ScanStatus::FirstScan;
+  if (outcome.updated) return ScanStatus::Tracking;
+  return outcome.place == ScanOutcome::Place::InMap ? ScanStatus::PredictionOnly
+                                                    : ScanStatus::Diverged;
+}
+
+void ScanClassifier::classify(
+    const ScanOutcome& outcome, const std::vector<NoiseInflation>& inflations, ScanResult& result)
+{
+  result.status = statusOf(outcome, options_);
+  result.message = messageOf(result.status, outcome, result.statistics, options_);
+
+  HealthContext context;
+  context.since_ns = previous_ns_ == 0 ? result.begin_ns : previous_ns_;
+  context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
+  context.map_is_sparse = scans_until_dense_ > 0;
+  context.max_mounting_error = maxMountingError(options_.calibration);
+  context.max_gyro_scale_error = maxGyroScaleError(options_.calibration);
+  result.health = healthOf(result, context);
+  previous_ns_ = result.stamp_ns;
+  if (result.status == ScanStatus::FirstScan)
+    scans_until_dense_ = kSparseMapScans;
+  else if (result.status == ScanStatus::Tracking)
+    scans_until_dense_ = std::max(0, scans_until_dense_ - 1);
+}
+
+ScanResult classifyUnprocessed(const QueuedScan& queued, const std::string& why, bool started)
+{
+  ScanResult result;
+  result.begin_ns = queued.span.begin_ns;
+  result.stamp_ns = queued.span.end_ns;
+  result.statistics.points_in = queued.scan.points.size();
+  result.status = started ? ScanStatus::Diverged : ScanStatus::Initializing;
+  result.message = why;
+  result.health = {0.0, started ? HealthCause::Lost : HealthCause::Starting, why};
+  return result;
+}
+
+}  // namespace fastlio

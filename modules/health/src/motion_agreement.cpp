@@ -1,0 +1,196 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/health/motion_agreement.h>
+#include <fastlio/math/so3.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+using Square6 = Eigen::Matrix<double, 6, 6>;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kFewestTurns = 90.0;
+// Of the sums, per turn: the mounting in use may be estimated along the way, so that what was seen
+// a minute ago counts less.
+constexpr double kForgetting = 0.998;
+// Turns of less than this, root mean square, are mostly noise [rad].
+constexpr double kLeastTurn = 0.004;
+constexpr double kLeastCorrelation = 0.95;
+// A second axis of rotation with less of the first one's singular value says nothing.
+constexpr double kLeastSecondAxis = 0.05;
+
+// Every platform does it and no noise density includes it: vibration between the inertial samples
+// turns and shifts it, and stamps are good to half a millisecond.
+constexpr double kVibrationAngle = 5e-4;  // [rad]
+constexpr double kVibrationShift = 1e-3;  // [m]
+constexpr double kStampJitter = 5e-4;     // [s]
+
+/** Covariance of a correction by vibration and jitter. */
+Matrix6 byVibration(const NavState& x)
+{
+  const Vec3 shift = kStampJitter * x.v;
+  Matrix6 C = Matrix6::Zero();
+  C.topLeftCorner<3, 3>() = kVibrationAngle * kVibrationAngle * Mat3::Identity();
+  C.bottomRightCorner<3, 3>() =
+      kVibrationShift * kVibrationShift * Mat3::Identity() + shift * shift.transpose();
+  return C;
+}
+
+/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what
+ * else explains it. */
+double normalized(
+    const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
+    const Matrix6& explained, int block)
+{
+  const Vec3 e = correction.segment<3>(block);
+  const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block) +
+                 explained.block<3, 3>(block, block);
+  const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
+  if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
+  return e.dot(ldlt.solve(e).eval()) / 3.0;
+}
+
+/** The attitude that the scan alone shows: without the weight that the prediction had. */
+Mat3 attitudeOfScan(
+    const StateVector& correction, const FilterState& predicted, const FilterState& posterior)
+{
+  const Square6 P = predicted.P.topLeftCorner<6, 6>();
+  const Square6 S = P - posterior.P.topLeftCorner<6, 6>();
+  const Vec6 e = P * S.ldlt().solve(correction.head<6>());
+  return predicted.x.R * expSO3(e.head<3>());
+}
+
+double medianOf(std::array<double, MotionAgreement::kWindow> values)
+{
+  auto* const middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Standard deviation of a rotation along itself that Wahba's problem gave.
+ * \param strengths of the turns about the columns of \a axes: sums of squares [rad^2]
+ * \param variance of what one component of a turn leaves over [rad^2] */
+double stdAlong(const Vec3& rotation, const Mat3& axes, const Vec3& strengths, double variance)
+{
+  const Vec3 along = axes.transpose() * rotation.normalized();
+  const Vec3 information(
+      strengths[1] + strengths[2], strengths[0] + strengths[2], strengths[0] + strengths[1]);
+  return std::sqrt(variance * along.cwiseAbs2().dot(information.cwiseInverse()));
+}
+}  // namespace
+
+void MotionAgreement::add(
+    const NavState& before, double seconds, const FilterState& predicted,
+    const FilterState& posterior, const Matrix6& by_calibration)
+{
+  const StateVector correction = boxminus(posterior.x, predicted.x);
+  const std::size_t slot = corrections_ % kWindow;
+  const Matrix6 nothing = Matrix6::Zero();
+  const Matrix6 harmless = by_calibration + byVibration(predicted.x);
+  const auto at = [&](int block, const Matrix6& explained)
+  { return normalized(correction, predicted, posterior, explained, block); };
+  explained_.attitude[slot] = at(kAttitude, harmless);
+  explained_.position[slot] = at(kPosition, harmless);
+  unexplained_.attitude[slot] = at(kAttitude, nothing);
+  unexplained_.position[slot] = at(kPosition, nothing);
+  ++corrections_;
+  const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
+  // As the gyro measured it: the filter's bias takes in what a wrong scale does in a long turn.
+  const Vec3 inertial = logSO3(before.R.transpose() * predicted.x.R) + seconds * before.gyro_bias;
+  if (R_last_scan_) addTurn(inertial, logSO3(R_last_scan_->transpose() * R_scan));
+  R_last_scan_ = R_scan;
+}
+
+void MotionAgreement::restart()
+{
+  corrections_ = 0;
+  R_last_scan_.reset();
+}
+
+double MotionAgreement::largerMedian(const Windows& windows) const
+{
+  if (corrections_ < kWindow) return 0.0;
+  return std::max(medianOf(windows.attitude), medianOf(windows.position));
+}
+
+double MotionAgreement::innovation() const
+{
+  return largerMedian(explained_);
+}
+
+double MotionAgreement::unexplainedInnovation() const
+{
+  return largerMedian(unexplained_);
+}
+
+void MotionAgreement::addTurn(const Vec3& inertial, const Vec3& scans)
+{
+  products_ = kForgetting * products_ + scans * inertial.transpose();
+  inertial_sum_ = kForgetting * inertial_sum_ + inertial;
+  scan_sum_ = kForgetting * scan_sum_ + scans;
+  inertial_squares_ = kForgetting * inertial_squares_ + inertial.squaredNorm();
+  scan_squares_ = kForgetting * scan_squares_ + scans.squaredNorm();
+  turns_ = kForgetting * turns_ + 1.0;
+}
+
+std::optional<MotionAgreement::Turns> MotionAgreement::turns() const
+{
+  if (turns_ < kFewestTurns) return std::nullopt;
+  const double n = turns_;
+  const Mat3 products = products_ - scan_sum_ * inertial_sum_.transpose() / n;
+  Turns turns;
+  turns.inertial_squares = inertial_squares_ - inertial_sum_.squaredNorm() / n;
+  turns.scan_squares = scan_squares_ - scan_sum_.squaredNorm() / n;
+  if (!(turns.inertial_squares > n * kLeastTurn * kLeastTurn) || !(turns.scan_squares > 0.0))
+    return std::nullopt;
+  // Wahba's problem.
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  const Vec3 signs(1.0, 1.0, sign);
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
+  const Vec3 sizes = svd.singularValues();
+  turns.strengths = sizes.cwiseProduct(signs);
+  turns.axes = svd.matrixV();
+  turns.from_scans = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  const double common = turns.strengths.sum();
+  if (common < kLeastCorrelation * std::sqrt(turns.inertial_squares * turns.scan_squares))
+    return std::nullopt;
+  const double left_over = turns.inertial_squares + turns.scan_squares - 2.0 * common;
+  turns.variance = std::max(left_over, 0.0) / (3.0 * n);
+  return turns;
+}
+
+std::optional<MountingError> MotionAgreement::mountingError() const
+{
+  const auto seen = turns();
+  if (!seen || seen->strengths[1] < kLeastSecondAxis * seen->strengths[0]) return std::nullopt;
+  MountingError error;
+  error.R_true_given = seen->from_scans;
+  const Vec3 rotation = logSO3(error.R_true_given);
+  error.angle = rotation.norm();
+  error.std = stdAlong(rotation, seen->axes, seen->strengths, seen->variance);
+  return error;
+}
+
+std::optional<GyroScale> MotionAgreement::gyroScale() const
+{
+  const auto seen = turns();
+  if (!seen) return std::nullopt;
+  GyroScale scale;
+  const double common = seen->strengths.sum();
+  scale.lower = common / seen->scan_squares;
+  scale.upper = seen->inertial_squares / common;
+  scale.std = std::sqrt(seen->variance / seen->scan_squares);
+  return scale;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,123 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/health/classify.h>
+#include <fastlio/health/run_diagnostics.h>
+#include <fastlio/math/angles.h>
+#include <fastlio/math/so3.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kMostDiagnostics = 1000;
+// Samples scatter so much more than their noise densities say: not every shaken sensor is reported.
+constexpr double kMostScatter = 10.0;
+constexpr double kScatterTime = 5.0;  // that a scatter is averaged over at least [s]
+// Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
+constexpr double kOddDeviations = 5.0;
+
+bool isOdd(const Vec3& error, const Vec3& std, double given_std)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(error[axis]) > kOddDeviations * std::max(std[axis], given_std)) return true;
+  return false;
+}
+
+}  // namespace
+
+void RunDiagnostics::report(std::int64_t stamp_ns, std::string text)
+{
+  if (all_.size() < kMostDiagnostics) all_.push_back({stamp_ns, std::move(text)});
+}
+
+void RunDiagnostics::consider(const ImuSample& sample)
+{
+  if (scatter_reported_) return;
+  scatter_.add(sample);
+  if (scatter_.duration() < kScatterTime) return;
+  const double gyro = scatter_.gyroDensity(), accel = scatter_.accelDensity();
+  const double gyro_ratio = gyro / imu_noise_.gyro_noise_density;
+  const double accel_ratio = accel / imu_noise_.accel_noise_density;
+  if (std::max(gyro_ratio, accel_ratio) < kMostScatter) return;
+  scatter_reported_ = true;
+  report(
+      sample.stamp_ns,
+      mrpt::format(
+          "inertial samples scatter more than their noise densities say, the angular rate %.1f "
+          "times, the specific force %.1f times: as if imu.gyro_noise_density were %.2g and "
+          "imu.accel_noise_density %.2g. The platform vibrates, or readings are wrong now and "
+          "then; the prediction is trusted less for it",
+          gyro_ratio, accel_ratio, gyro, accel));
+}
+
+void RunDiagnostics::consider(const ScanResult& result)
+{
+  considerMounting(result);
+  considerExtrinsic(result);
+  considerMotion(result);
+}
+
+void RunDiagnostics::considerMounting(const ScanResult& result)
+{
+  const std::optional<MountingError>& error = result.statistics.mounting_error;
+  if (mounting_reported_ || !error || error->leastAngle() < maxMountingError(calibration_)) return;
+  mounting_reported_ = true;
+  const Vec3 turn = kDegPerRad * logSO3(error->R_true_given);
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
+          "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
+          "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
+          kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
+}
+
+/** Below what makes a scan one in trouble: real sensors may be as imperfect. */
+void RunDiagnostics::considerMotion(const ScanResult& result)
+{
+  const double innovation = result.statistics.unexplained_motion_innovation;
+  if (motion_reported_ || mounting_reported_ || innovation < kMaxMotionInnovation) return;
+  motion_reported_ = true;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "scans and inertial data see different motions, %.0f times as far apart as their noise "
+          "explains; a mounting (T_imu_lidar) or inertial sensor that is slightly off explains a "
+          "part of it, and the covariance counts that. Otherwise: check units, point times, clocks "
+          "and clipped or missing inertial readings",
+          innovation));
+}
+
+/** Smaller than what considerMounting() sees, and after a longer time. */
+void RunDiagnostics::considerExtrinsic(const ScanResult& result)
+{
+  const CalibrationCheck& check = result.statistics.calibration;
+  const bool turned =
+      isOdd(check.rotation, check.rotation_std, calibration_.extrinsic_rotation_std);
+  const bool moved =
+      isOdd(check.translation, check.translation_std, calibration_.extrinsic_translation_std);
+  if (extrinsic_reported_ || mounting_reported_ || (!turned && !moved)) return;
+  extrinsic_reported_ = true;
+  const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
+  const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the pose of the LiDAR in the IMU frame seems to be wrong: turned by (%.2f +- %.2f, %.2f "
+          "+- %.2f, %.2f +- %.2f) deg, moved by (%.0f +- %.0f, %.0f +- %.0f, %.0f +- %.0f) mm; the "
+          "covariance counts this, the trajectory does not. Check input.T_vehicle_lidar and "
+          "input.T_vehicle_imu, or set calibration.extrinsic_rotation_std and "
+          "extrinsic_translation_std to what is known of them",
+          rotation.x(), rotation_std.x(), rotation.y(), rotation_std.y(), rotation.z(),
+          rotation_std.z(), translation.x(), translation_std.x(), translation.y(),
+          translation_std.y(), translation.z(), translation_std.z()));
+}
+
+}  // namespace fastlio

@@ -1,0 +1,105 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file local_map.h The map around the platform: surfaces, edges, and what is known of its errors.
+ */
+#pragma once
+
+#include <fastlio/errormodel/beam_errors.h>
+#include <fastlio/errormodel/calibration_error.h>
+#include <fastlio/errormodel/map_error.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/localmap/saved_map.h>
+#include <fastlio/map/edge_map.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/matching/match_result.h>
+#include <fastlio/matching/plane_groups.h>
+#include <fastlio/matching/scan_matcher.h>
+#include <fastlio/parallel/workers.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace fastlio
+{
+/** A scan that may join the map. */
+struct InsertionCandidate
+{
+  const DeskewedScan& scan;
+  const FilterState& filter;  //!< posterior
+  ScanStatus status = ScanStatus::Initializing;
+  bool consistent = true;     //!< matches as scans usually match this map
+  double resting_time = 0.0;  //!< how long the platform has been known to rest [s]
+};
+
+/** The map that scans are matched with. A new one takes its place when the old one is given up. */
+class LocalMap
+{
+ public:
+  /** An empty map. */
+  LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers);
+  /** A map of an earlier run. Nothing is dropped from it for being far away. */
+  LocalMap(
+      const OdometryOptions& options, std::shared_ptr<const Workers> workers,
+      const SavedMap& saved);
+
+  [[nodiscard]] const SurfaceMap& surfaces() const { return *surfaces_; }
+  [[nodiscard]] const EdgeMap& edges() const { return edges_; }
+  [[nodiscard]] MatchedMaps matched() const { return {*surfaces_, edges_}; }
+  [[nodiscard]] const MapErrorModel& error() const { return error_; }
+  [[nodiscard]] const CalibrationErrorModel& calibrationError() const { return calibration_; }
+  [[nodiscard]] bool empty() const { return surfaces_->pointCount() == 0; }
+  /** It consists of so few scans that not much matches it yet. */
+  [[nodiscard]] bool isSparse() const;
+  /** It is the map of an earlier run. */
+  [[nodiscard]] bool isGiven() const { return given_; }
+  /** The inlier ratio of the scans that matched this map of late; 0: none did. */
+  [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
+
+  /** The state that scans are matched with comes from a mean specific force. */
+  void startCalibrationError(const NavState& x, bool tilted) { calibration_.start(x, tilted); }
+  /** The effect of the errors of map and calibration on the state passes on from scan to scan. */
+  void propagateError(const ErrorTransition& transition);
+  /** The same through an update without a scan. \param kept I - K H */
+  void correctError(const StateMatrix& kept);
+  /** Takes in what an update did with the errors of map and calibration (Schmidt).
+   * \param beams learn from the scan's residuals
+   * \return how the update depends on the error of the calibration */
+  UpdateByCalibration considerUpdate(
+      const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
+      BeamErrors& beams);
+
+  /** The scan matches as scans usually match this map. While the map consists of a few scans, any
+   * ratio is usual. */
+  [[nodiscard]] bool isConsistent(const ScanStatistics& statistics, std::size_t points) const;
+  /** Learns the usual inlier ratio, which depends on the place: nearly all points match in a room,
+   * few on a meadow. */
+  void learnInlierRatio(std::size_t inliers, std::size_t points);
+
+  /** The rule of insertion. */
+  [[nodiscard]] bool accepts(const InsertionCandidate& candidate) const;
+  /** The scan joins the map (eq. 21). \param surfaces its points in the world
+   * \param error of the scan pose \param sensor position of the LiDAR in the world [m]
+   * \param center position of the body: what is far from it is dropped [m] */
+  void insert(
+      const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
+      const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
+      const Vec3& center);
+
+ private:
+  bool update_given_ = true;  // map.update
+  double radius_ = 0.0;       // map.radius [m]
+  std::unique_ptr<SurfaceMap> surfaces_;
+  EdgeMap edges_;
+  MapErrorModel error_;
+  CalibrationErrorModel calibration_;
+  PlaneGrouping groups_;
+  std::uint32_t insertions_ = 0;
+  double usual_inlier_ratio_ = 0.0;
+  int ratios_ = 0;  // that it is the mean of
+  bool given_ = false;
+  WorldPoints world_edges_;  // reused between scans
+};
+
+}  // namespace fastlio

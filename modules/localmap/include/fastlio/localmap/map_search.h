@@ -1,0 +1,66 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_search.h Searches for the pose of a scan in a map where the prediction may be far off.
+ */
+#pragma once
+
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/localmap/local_map.h>
+#include <fastlio/matching/pose_search.h>
+#include <fastlio/matching/scan_matcher.h>
+
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+/** Inliers of a first match with a given map: half of the scan may be new or have moved. */
+inline constexpr double kGivenMapInlierRatio = 0.5;
+
+/** The best match of a search. */
+struct MapSearchResult
+{
+  MatchResult match;                      //!< the prediction, uncorrected, when the search failed
+  bool found = false;                     //!< the scan matches the map well enough
+  std::optional<PoseSearchResult> poses;  //!< evidence of a search within the prediction
+};
+
+/** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
+ * can show. Along a degenerate direction residuals stay large by design: nothing corrects them. */
+[[nodiscard]] bool isConvincing(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
+
+/** Searches for one scan in one map. */
+class MapSearch
+{
+ public:
+  MapSearch(
+      const OdometryOptions& options, ScanMatcher& matcher, const DeskewedScan& scan,
+      const LocalMap& map)
+      : options_(options), matcher_(matcher), scan_(scan), map_(map)
+  {
+  }
+
+  /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach. */
+  [[nodiscard]] MapSearchResult aroundGivenPose(const FilterState& predicted) const;
+  /** Tries headings and places, as far as a carried pose is uncertain; asks for the same evidence
+   * as aroundPrediction(). */
+  [[nodiscard]] MapSearchResult aroundCarriedPose(const FilterState& predicted) const;
+  /** Tries places within the prediction's uncertainty, and asks for more evidence than an ordinary
+   * match needs: inlier ratio, residuals, no rival nearly as good. */
+  [[nodiscard]] MapSearchResult aroundPrediction(const FilterState& predicted) const;
+
+ private:
+  [[nodiscard]] MapSearchResult around(
+      const FilterState& predicted, const std::vector<Mat3>& attitudes) const;
+  [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;
+  [[nodiscard]] double ratioOf(const UpdateResult& update) const;
+
+  const OdometryOptions& options_;
+  ScanMatcher& matcher_;
+  const DeskewedScan& scan_;
+  const LocalMap& map_;
+};
+
+}  // namespace fastlio

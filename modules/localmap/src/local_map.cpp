@@ -1,0 +1,127 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "map_factory.h"
+#include <fastlio/localmap/local_map.h>
+#include <fastlio/matching/match_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// So many scans of a map do not match much yet.
+constexpr std::uint32_t kSparseMapInsertions = 20;
+constexpr int kRatiosAveraged = 50;  // scans
+// At rest for longer, scans do not join: they repeat what the map knows, and their noise adds up.
+constexpr double kMaxRestingTime = 3.0;  // [s]
+// A scan without matches joins below this position error: half of the finest voxels.
+constexpr double kMaxInsertionStd = 0.2;  // [m]
+
+EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
+{
+  EdgeMapOptions options;
+  options.point_noise = parameters.measurement.range_noise;
+  return options;
+}
+
+}  // namespace
+
+LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers)
+    : update_given_(options.map.update),
+      radius_(options.map.radius),
+      surfaces_(makeSurfaceMap(options, workers)),
+      edges_(edgeMapOptions(options)),
+      groups_(std::move(workers))
+{
+}
+
+LocalMap::LocalMap(
+    const OdometryOptions& options, std::shared_ptr<const Workers> workers, const SavedMap& saved)
+    : update_given_(options.map.update),
+      radius_(options.map.radius),
+      surfaces_(makeSurfaceMap(options, workers, saved)),
+      edges_(edgeMapOptions(options)),
+      groups_(std::move(workers)),
+      insertions_(surfaces_->insertionCount()),
+      given_(true)
+{
+  // Its errors are those of the world itself.
+  error_.recordInsertion(0, InsertionError{}, Pose{});
+}
+
+void LocalMap::propagateError(const ErrorTransition& transition)
+{
+  error_.propagate(transition);
+  calibration_.propagate(transition);
+}
+
+void LocalMap::correctError(const StateMatrix& kept)
+{
+  error_.correct(kept);
+  calibration_.correct(kept);
+}
+
+UpdateByCalibration LocalMap::considerUpdate(
+    const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
+    BeamErrors& beams)
+{
+  const GroupedMeasurements& measurements =
+      groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model);
+  beams.add(update.T_world_scan.R, scan, groups_.points());
+  error_.update(update, measurements, beams.covariance());
+  return calibration_.update(update, measurements);
+}
+
+bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
+{
+  return isSparse() || matchesAsUsual(statistics, points);
+}
+
+void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
+{
+  ratios_ = std::min(ratios_ + 1, kRatiosAveraged);
+  const double ratio =
+      static_cast<double>(inliers) / static_cast<double>(std::max<std::size_t>(points, 1));
+  usual_inlier_ratio_ += (ratio - usual_inlier_ratio_) / ratios_;
+}
+
+bool LocalMap::accepts(const InsertionCandidate& candidate) const
+{
+  if (candidate.status == ScanStatus::Initializing || (given_ && !update_given_)) return false;
+  if (candidate.resting_time > kMaxRestingTime) return false;
+  if (empty() && candidate.status != ScanStatus::FirstScan) return false;
+  if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
+  if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
+    return true;
+  if (candidate.status == ScanStatus::Diverged) return false;
+  // A sparse map has few planes: it must grow as long as the prediction knows where the scan is.
+  const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
+  const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
+  return position_variance < std::pow(kMaxInsertionStd, 2);
+}
+
+bool LocalMap::isSparse() const
+{
+  return insertions_ < kSparseMapInsertions;
+}
+
+void LocalMap::insert(
+    const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
+    const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
+    const Vec3& center)
+{
+  error_.recordInsertion(++insertions_, error, T_world_scan);
+  calibration_.recordInsertion(insertions_, T_world_scan, by_state);
+  surfaces_->insert(surfaces, sensor);
+  if (!given_) surfaces_->removeOutside(center, radius_);
+  world_edges_.resize(scan.edges.size());
+  transformToWorld(scan.edges, T_world_scan, 0, scan.edges.size(), world_edges_);
+  edges_.insert(world_edges_);
+  edges_.removeOutside(T_world_scan.p, radius_);
+}
+
+}  // namespace fastlio

@@ -1,0 +1,174 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/initialization/start_in_map.h>
+#include <fastlio/localmap/map_search.h>
+#include <fastlio/matching/match_evidence.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// Of a given pose: from its whole uncertainty down, each pass looks nearer.
+constexpr int kGivenPosePasses = 4;
+constexpr double kShrink = 0.25;  // of the variances of place and heading, per pass
+// Of a carried pose.
+constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
+constexpr double kSigmas = 3.0;                      // of the heading
+constexpr double kMaxHeading = 1.5707963267948966;   // farther turns are not tried [rad]; 90 deg
+// So many inliers when the map is found again: more than chance, less than usual, as things move.
+constexpr double kFoundInlierRatio = 0.3;
+// Of a prediction. A found pose has to match this part of what scans matched before.
+constexpr double kUsualPart = 0.5;
+// Where only the places on one level can be tried, a rival may be above or below.
+constexpr double kUsualPartOnLevel = 0.75;
+// A carried pose is searched once in a while and by heading, too: some seconds are well spent.
+constexpr std::size_t kMostCarriedCandidates = 12000;
+// Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
+// that is set too small make a few times the noise: trouble, but a match.
+constexpr double kWrongPoseInnovation = 10.0;
+
+/** Standard deviation of the attitude about gravity [rad]. */
+double headingStd(const FilterState& s)
+{
+  const Vec3 down = s.x.R.transpose() * s.x.g.normalized();
+  const Mat3 P = s.P.block<3, 3>(kAttitude, kAttitude);
+  return std::sqrt(std::max(0.0, down.dot(P * down)));
+}
+
+/** The state with another heading. */
+FilterState turnedBy(double heading, const FilterState& s)
+{
+  FilterState turned = s;
+  const Mat3 W = expSO3(-heading * s.x.g.normalized());
+  turned.x.R = normalizeRotation(W * s.x.R);
+  turned.x.v = W * s.x.v;
+  return turned;
+}
+
+/** The argument of turnedBy() that comes nearest to an attitude. */
+double headingBetween(const NavState& from, const Mat3& R)
+{
+  return -logSO3(R * from.R.transpose()).dot(from.g.normalized());
+}
+
+/** The prediction stays as it is. \param latest match of the scan \param best sums of the best one
+ */
+MapSearchResult notFound(
+    MatchResult latest, const FilterState& predicted, const InformationSums& best, int iterations)
+{
+  latest.update = {};
+  latest.update.posterior = predicted;
+  latest.update.iterations = iterations;
+  latest.update.last = best;
+  return {std::move(latest), false, std::nullopt};
+}
+}  // namespace
+
+bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
+{
+  if (match.constraints.unconstrained > 0) return true;
+  const double ratio = static_cast<double>(match.update.last.count) /
+                       static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
+  return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
+         ratio >= kMinUsualFraction * map.usualInlierRatio();
+}
+
+double MapSearch::ratioOf(const UpdateResult& update) const
+{
+  return static_cast<double>(update.last.count) /
+         static_cast<double>(std::max<std::size_t>(scan_.surfaces.size(), 1));
+}
+
+MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
+{
+  UpdateResult best;
+  best.posterior = predicted;
+  MatchResult latest;
+  for (const Pose& candidate : posesAround(predicted.x.pose(), options_.initialization))
+  {
+    latest = approach(predicted, candidate);
+    if (latest.update.updated && latest.update.last.count > best.last.count) best = latest.update;
+  }
+  if (ratioOf(best) < kGivenMapInlierRatio)
+    return notFound(std::move(latest), predicted, best.last, 0);
+  // Once more, so that matches and constraints are those of the best.
+  const FilterState from = withUncertainPlace(
+      standingAt(predicted, best.posterior.x.pose()), options_.initialization,
+      std::pow(kShrink, kGivenPosePasses));
+  return {
+      matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_)), true, std::nullopt};
+}
+
+MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candidate) const
+{
+  MatchResult match;
+  Pose at = candidate;
+  double scale = 1.0;
+  for (int pass = 0; pass < kGivenPosePasses; ++pass)
+  {
+    scale *= kShrink;
+    const FilterState from =
+        withUncertainPlace(standingAt(predicted, at), options_.initialization, scale);
+    match = matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_));
+    if (!match.update.updated) break;
+    at = match.update.posterior.x.pose();
+  }
+  return match;
+}
+
+MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
+{
+  const double reach = std::min(kSigmas * headingStd(predicted), kMaxHeading);
+  const int turns = static_cast<int>(std::ceil(reach / kHeadingStep));
+  std::vector<Mat3> attitudes;
+  for (int i = -turns; i <= turns; ++i)
+    attitudes.push_back(turnedBy(kHeadingStep * i, predicted).x.R);
+  return around(predicted, attitudes);
+}
+
+MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
+{
+  return around(predicted, {predicted.x.R});
+}
+
+MapSearchResult MapSearch::around(
+    const FilterState& predicted, const std::vector<Mat3>& attitudes) const
+{
+  MatchOptions pull_in = ordinaryMatching(options_);
+  MatchResult latest;
+  const auto match = [&](const FilterState& start, const DeskewedScan& scan, int iterations)
+  {
+    pull_in.association_iterations = pull_in.limits.max_iterations = iterations;
+    latest = matcher_.match(scan, start, map_.matched(), pull_in);
+    return latest.update;
+  };
+  PoseSearchLimits wanted;
+  wanted.min_inlier_ratio = std::max(kFoundInlierRatio, kUsualPart * map_.usualInlierRatio());
+  wanted.min_level_inlier_ratio =
+      std::max(kFoundInlierRatio, kUsualPartOnLevel * map_.usualInlierRatio());
+  wanted.max_innovation = kMaxInnovation;
+  if (attitudes.size() > 1) wanted.most_candidates = kMostCarriedCandidates;
+  PoseSearchResult poses;
+  if (!map_.empty()) poses = searchPose(predicted, attitudes, scan_, wanted, match);
+  if (poses.accepted)
+  {
+    const Pose& found = poses.best->T_world_imu;
+    const FilterState turned = turnedBy(headingBetween(predicted.x, found.R), predicted);
+    latest = matcher_.match(
+        scan_, correctedByPose(turned, found), map_.matched(), ordinaryMatching(options_));
+    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_);
+    if (poses.accepted) return {std::move(latest), true, poses};
+  }
+  // The matches that are handed over are those of the whole scan, not of the sample.
+  latest = matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_));
+  MapSearchResult refused = notFound(std::move(latest), predicted, {}, 0);
+  if (!map_.empty()) refused.poses = poses;
+  return refused;
+}
+
+}  // namespace fastlio

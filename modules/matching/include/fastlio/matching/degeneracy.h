@@ -1,0 +1,60 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file degeneracy.h Which motions a scan does not constrain: along a tunnel, across an open
+ * field, in front of one wall. */
+#pragma once
+
+#include <fastlio/interface/scan_constraints.h>
+#include <fastlio/matching/point_to_plane.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** Information that appears where there is none, because the normals of the map are noisy: the sum
+ * of w_j cov(h_j), the rows' covariance for the normals' variance. A wall of a tunnel that is known
+ * to a degree seems to constrain the position along the tunnel. Of the points [first, last); the
+ * parts of a scan add up. */
+[[nodiscard]] Matrix6 normalNoiseInformation(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::size_t first, std::size_t last);
+
+/** The information of a scan by direction, of which none is left out yet. \param information the
+ * sum of w h h^T \param noise_information from normalNoiseInformation() */
+[[nodiscard]] ScanConstraints informationByDirection(
+    const Matrix6& information, const Matrix6& noise_information);
+
+/** The information of the points on one plane along a direction. */
+struct PlaneInformation
+{
+  std::uint32_t plane = 0;
+  double information = 0.0;  //!< [1/m^2]
+};
+
+/** Computes the supported information of the weak directions. A plane that a voxel at an edge has
+ * fitted to points of two walls may stand across a tunnel. It is certain of a position that nothing
+ * else confirms, so one or two planes never constrain a direction. \param storage reused */
+void withoutStrongestPlanes(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::vector<PlaneInformation>& storage,
+    ScanConstraints& constraints);
+
+/** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
+ * that of the noise, or where its supported information is not more than three tenths of that; and
+ * so are all weaker ones. */
+void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
+
+/** True when some direction has so much less information than the best one that it is worth the
+ * while to look for noise in it. */
+[[nodiscard]] bool mayBeDegenerate(const Matrix6& information);
+
+/** The unconstrained directions as plain motions, each by its larger part. */
+[[nodiscard]] std::vector<MotionDirection> unconstrainedMotions(const ScanConstraints& constraints);
+
+/** The sums with the unconstrained directions taken out: what is left moves the others only. */
+[[nodiscard]] InformationSums constrainedSums(
+    const InformationSums& sums, const ScanConstraints& constraints);
+
+}  // namespace fastlio

@@ -1,0 +1,92 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file plane_groups.h The measurements of a scan, put together by the plane of the map that they
+ * lie on: points on one plane share its error. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/lidar/deskew.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/matching/point_to_plane.h>
+#include <fastlio/parallel/workers.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** The points of a scan on one plane; rows h by the scan pose, weights w = 1 / variance. */
+struct PlaneGroup
+{
+  Vector6 g = Vector6::Zero();   //!< sum of w h
+  double shared_variance = 0.0;  //!< of the plane's offset, weighted mean over the points [m^2]
+  double weight = 0.0;           //!< sum of w
+  std::uint32_t created_insertion = 0;  //!< insertion that created the plane
+  bool seen_before = false;             //!< the scan before had points on it, too
+};
+
+/** A point's measurement; weight 0: it is not consistent. */
+struct PointMeasurement
+{
+  Vector6 weighted_h;   //!< w h
+  double weight = 0.0;  //!< w
+  double shared = 0.0;  //!< w s
+  double z = 0.0;       //!< residual [m]
+};
+
+/** A scan's measurements by plane. */
+struct GroupedMeasurements
+{
+  Matrix6 information = Matrix6::Zero();   //!< sum of w h h^T
+  Matrix6 shared_noise = Matrix6::Zero();  //!< sum of w^2 s h h^T, s the points' shared variance
+  double persistence = 0.0;                //!< fraction of the weight on planes seen before
+  std::vector<PlaneGroup> groups;          //!< in the order of their first point
+};
+
+/** Groups scan after scan; remembers which planes the scan before has seen. */
+class PlaneGrouping
+{
+ public:
+  /** \param workers who share the points; the result does not depend on them */
+  explicit PlaneGrouping(
+      std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
+
+  /** The consistent matches of a scan at a pose, by plane; valid until the next call. */
+  const GroupedMeasurements& group(
+      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+      const ResidualModel& model);
+
+  /** The measurements of the last call, by point. */
+  [[nodiscard]] const std::vector<PointMeasurement>& points() const { return points_; }
+
+ private:
+  /** Plane number to group; valid where the epoch is the current one. */
+  struct Entry
+  {
+    std::uint32_t epoch = 0, group = 0;
+  };
+
+  /** Sums over a chunk of points. */
+  struct Sums
+  {
+    Matrix6 information = Matrix6::Zero();
+    Matrix6 shared_noise = Matrix6::Zero();
+  };
+
+  [[nodiscard]] Sums measure(
+      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+      const ResidualModel& model, std::size_t first, std::size_t last);
+  PlaneGroup& groupOf(const PlaneMatch& match);
+  void finishGroups();
+
+  std::shared_ptr<const Workers> workers_;
+  GroupedMeasurements result_;
+  std::vector<PointMeasurement> points_;
+  std::vector<Sums> chunk_sums_;
+  std::vector<Entry> table_;
+  std::uint32_t epoch_ = 1;
+};
+
+}  // namespace fastlio

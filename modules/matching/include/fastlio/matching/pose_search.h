@@ -1,0 +1,89 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file pose_search.h Where in the map a scan was taken, after a time without scans: the
+ * prediction's covariance says where to look. */
+#pragma once
+
+#include <fastlio/filter/state.h>
+#include <fastlio/matching/match_result.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace fastlio
+{
+/** Adds what the inertial model leaves out to a prediction without scans: scale errors and
+ * misalignment of the accelerometer act like an unknown constant acceleration.
+ * \param blind_s time without a scan [s] */
+void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
+
+/** After a time without scans, the prediction is too uncertain for the matching of ordinary scans,
+ * which pulls in a few centimetres. (With scans, it is uncertain along degenerate directions only.)
+ * \param blind_s time without a scan [s] */
+[[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
+
+/** Positions around a predicted one. */
+struct CandidateGrid
+{
+  double step = 0.0;          //!< between neighbours [m]
+  std::vector<Vec3> offsets;  //!< from the predicted position, world frame, the likeliest first [m]
+  bool complete = true;  //!< false: the prediction is so uncertain that the truth may be outside
+};
+
+/** A grid over three standard deviations of the predicted position; wider where it would have too
+ * many places. \param most places */
+[[nodiscard]] CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most);
+
+/** The same on one level, for a prediction that is too uncertain for all places in space.
+ * \param height of the level over the predicted position [m] */
+[[nodiscard]] CandidateGrid levelGrid(
+    const FilterState& predicted, double height, std::size_t most);
+
+/** Matches a scan from a start; so many iterations search the map anew. */
+using MatchFromStart =
+    std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
+
+/** The evidence that a pose needs to be accepted. */
+struct PoseSearchLimits
+{
+  double min_inlier_ratio = 0.3;
+  double min_level_inlier_ratio = 0.5;  //!< where not all places can be tried, but those of a level
+  double max_innovation = 3.0;          //!< mean z^2/r
+  std::size_t most_candidates = 3000;   //!< bounds the time of a search, to half a second or so
+};
+
+/** A pose that a candidate was pulled to, with its evidence. */
+struct PoseCandidate
+{
+  Pose T_world_imu;
+  double inlier_ratio = 0.0;
+  double innovation = 0.0;  //!< mean z^2/r
+  double score = 0.0;       //!< many matches that agree
+};
+
+/** The outcome of a search. */
+struct PoseSearchResult
+{
+  std::size_t candidates = 0;
+  /** The places that were tried are all that the prediction allows, in space or on the level of the
+   * best one. Rooms repeat: who cannot look everywhere does not know whether the best is right. */
+  bool complete = true;
+  std::optional<PoseCandidate> best;
+  double rival_score = 0.0;  //!< of the best candidate at another place
+  bool accepted = false;     //!< enough evidence, and more than any rival has
+};
+
+/** Matches a sample of the scan from every candidate, and the whole scan from the best of them.
+ * \param attitudes that are tried at each place: R_world_imu */
+[[nodiscard]] PoseSearchResult searchPose(
+    const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
+    const PoseSearchLimits& limits, const MatchFromStart& match);
+
+/** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
+ * and biases, too, as far as they made the error. The scan itself makes it exact afterwards. */
+[[nodiscard]] FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu);
+
+}  // namespace fastlio

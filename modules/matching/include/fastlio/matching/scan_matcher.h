@@ -1,0 +1,80 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_matcher.h Matches a scan with the map and corrects the prediction (eq. 12-20). */
+#pragma once
+
+#include <fastlio/filter/update.h>
+#include <fastlio/interface/odometry_options.h>
+#include <fastlio/lidar/deskew.h>
+#include <fastlio/map/edge_map.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/matching/match_result.h>
+#include <fastlio/matching/point_to_plane.h>
+#include <fastlio/parallel/workers.h>
+
+#include <memory>
+#include <vector>
+
+namespace fastlio
+{
+/** How a scan is matched. */
+struct MatchOptions
+{
+  MeasurementOptions measurement;  //!< noise and gates
+  int association_iterations = 2;  //!< so many iterations search the map anew; more move no match
+  IterationLimits limits;          //!< of the iterated update
+  GainForm gain = GainForm::Information;
+};
+
+/** As the options say: for a prediction that is near. */
+[[nodiscard]] MatchOptions ordinaryMatching(const OdometryOptions& options);
+/** With more iterations: for a prediction that may be far off. */
+[[nodiscard]] MatchOptions pullInMatching(const OdometryOptions& options);
+
+/** The maps that a scan is matched with. */
+struct MatchedMaps
+{
+  const SurfaceMap& surfaces;
+  const EdgeMap& edges;
+};
+
+/** Matches scans with maps. A result depends on the arguments only; the object keeps storage. */
+class ScanMatcher
+{
+ public:
+  explicit ScanMatcher(std::shared_ptr<const Workers> workers);
+
+  /** Iterates matching and update from a prediction (eq. 12-20). The scan does not correct it when
+   * fewer than kMinEffectivePoints match.
+   * \return its list of matches is valid until the next call */
+  [[nodiscard]] MatchResult match(
+      const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
+      const MatchOptions& options);
+
+ private:
+  /** One call of match(). */
+  struct Call
+  {
+    const DeskewedScan& scan;
+    const MatchedMaps& maps;
+    const MatchOptions& options;
+    MatchResult& result;
+  };
+
+  [[nodiscard]] MeasurementEvaluation evaluate(
+      const NavState& iterate, int iteration, const Call& call);
+  void associate(const Pose& T_world_scan, const Call& call);
+  void findConstraints(const Pose& T_world_scan, const InformationSums& sums, const Call& call);
+
+  std::shared_ptr<const Workers> workers_;
+  // Reused between scans.
+  WorldPoints world_, world_edges_;
+  std::vector<PlaneMatch> matches_;
+  std::vector<LineMatch> edge_matches_;
+  std::vector<InformationSums> chunk_sums_;
+  std::vector<Matrix6> chunk_noise_;
+  std::vector<PlaneInformation> plane_information_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,211 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "information_lanes.h"
+#include "measurement_lanes.h"
+#include <fastlio/matching/degeneracy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace fastlio
+{
+namespace
+{
+using Square6 = Eigen::Matrix<double, 6, 6>;
+
+// Scans whose weakest direction has more than this fraction of the strongest one's information are
+// far from degenerate: normals would have to be off by tens of degrees.
+constexpr double kClearlyConstrained = 0.05;
+// Planes that may be wrong at once: in a simulated tunnel one or two of some 600 were.
+constexpr std::size_t kDistrustedPlanes = 3;
+// Without them, this part of the signal-to-noise ratio has to be left: spurious planes leave at
+// most a quarter, a floor that only near points see half and more.
+constexpr double kSupportedPart = 0.3;
+
+/** Lever arm that makes rotations and translations equally strong on the whole [m]. */
+double leverArmOf(const Matrix6& information)
+{
+  const double rotation = information.topLeftCorner<3, 3>().trace();
+  const double translation = information.bottomRightCorner<3, 3>().trace();
+  return translation > 0.0 && rotation > 0.0 ? std::sqrt(rotation / translation) : 1.0;
+}
+
+/** Information by (rotation * lever_arm, translation). */
+Square6 inLengths(const Matrix6& information, double lever_arm)
+{
+  Square6 m = information;
+  m.topRows<3>() /= lever_arm;
+  m.leftCols<3>() /= lever_arm;
+  return m;
+}
+
+/** (p, 1) of the points that count; the others may be no numbers. */
+void homogeneous(
+    const double (&weight)[kLanes], const double (&p)[3][kLanes], double (&out)[4][kLanes])
+{
+  for (std::size_t l = 0; l < kLanes; ++l)
+  {
+    for (std::size_t c = 0; c < 3; ++c)
+      out[c][l] = weight[l] > 0.0 ? p[c][l] : 0.0;
+    out[3][l] = 1.0;
+  }
+}
+
+/** The information of each plane along a direction, in the order of the planes' numbers. */
+void informationByPlane(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, const Vector6& direction, std::vector<PlaneInformation>& planes)
+{
+  planes.clear();
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    if (!matches[i].valid()) continue;
+    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
+    if (!isConsistent(m, model)) continue;
+    const double along = m.h.dot(direction);
+    planes.push_back({matches[i].plane, along * along / m.variance});
+  }
+  std::sort(
+      planes.begin(), planes.end(),
+      [](const PlaneInformation& a, const PlaneInformation& b)
+      { return std::tie(a.plane, a.information) < std::tie(b.plane, b.information); });
+  std::size_t last = 0;
+  for (std::size_t k = 1; k < planes.size(); ++k)
+    if (planes[k].plane == planes[last].plane)
+      planes[last].information += planes[k].information;
+    else
+      planes[++last] = planes[k];
+  if (!planes.empty()) planes.resize(last + 1);
+}
+}  // namespace
+
+Matrix6 normalNoiseInformation(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::size_t first, std::size_t last)
+{
+  // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
+  OuterProductLanes<kLanes> shh_lanes;
+  OuterProductLanes<kLanes, 4> spp_lanes;  // of (p, 1): s p p^T, s p and s
+  forMatches<kLanes>(
+      body, matches, first, last,
+      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+      {
+        auto m = measure(T_world_scan, lanes, model.range_variance);
+        double s[kLanes];
+        weigh(m, filled, model, s);
+        for (std::size_t l = 0; l < kLanes; ++l)
+          s[l] *=
+              s[l] > 0.0 ? 0.5 * static_cast<double>(matches[lanes.index[l]].normal_variance) : 0;
+        shh_lanes.add(s, m.h);
+        double p[4][kLanes];
+        homogeneous(s, lanes.p, p);
+        spp_lanes.add(s, p);
+      });
+  const auto sums = spp_lanes.sum();
+  const double s_sum = sums(3, 3);
+  const Vec3 sp_sum = sums.topRightCorner<3, 1>();
+  const Mat3 spp_sum = sums.topLeftCorner<3, 3>();
+  const Square6 shh_sum = shh_lanes.sum();
+  Square6 sum = -shh_sum;
+  // [p]x [p]x^T = |p|^2 I - p p^T
+  sum.topLeftCorner<3, 3>() += spp_sum.trace() * Mat3::Identity() - spp_sum;
+  const Mat3 lever = skew(sp_sum) * T_world_scan.R.transpose();
+  sum.topRightCorner<3, 3>() += lever;
+  sum.bottomLeftCorner<3, 3>() += lever.transpose();
+  sum.bottomRightCorner<3, 3>() += s_sum * Mat3::Identity();
+  return sum;
+}
+
+bool mayBeDegenerate(const Matrix6& information)
+{
+  const Vector6 values = symmetricEigenvalues(inLengths(information, leverArmOf(information)));
+  return values[0] < kClearlyConstrained * values[5];
+}
+
+ScanConstraints informationByDirection(const Matrix6& information, const Matrix6& noise_information)
+{
+  ScanConstraints c;
+  c.lever_arm = leverArmOf(information);
+  const Matrix6 scaled = inLengths(information, c.lever_arm);
+  const Eigensystem6 system = symmetricEigensystem(scaled);
+  const Square6 noise = inLengths(noise_information, c.lever_arm);
+  const Square6 V = system.vectors;
+  c.directions = V;
+  c.information = system.values;
+  c.supported_information = system.values;
+  for (int i = 0; i < 6; ++i)
+    c.noise_information[i] = V.col(i).dot(noise * V.col(i));
+  return c;
+}
+
+void withoutStrongestPlanes(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::vector<PlaneInformation>& storage,
+    ScanConstraints& constraints)
+{
+  for (int i = 0; i < 6; ++i)
+  {
+    if (constraints.information[i] >= kClearlyConstrained * constraints.information[5]) return;
+    Vector6 direction = constraints.directions.col(i);
+    direction.head<3>() /= constraints.lever_arm;
+    informationByPlane(T_world_scan, body, matches, model, direction, storage);
+    const std::size_t strongest = std::min(kDistrustedPlanes, storage.size());
+    std::partial_sort(
+        storage.begin(), storage.begin() + static_cast<std::ptrdiff_t>(strongest), storage.end(),
+        [](const PlaneInformation& a, const PlaneInformation& b)
+        { return a.information > b.information; });
+    double& supported = constraints.supported_information[i];
+    for (std::size_t k = 0; k < strongest; ++k)
+      supported -= storage[k].information;
+  }
+}
+
+void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& c)
+{
+  c.unconstrained = 0;
+  Vector6 keep = Vector6::Ones();
+  for (int i = 5; i >= 0; --i)
+  {
+    const double needed = min_signal_to_noise * c.noise_information[i];
+    if (c.information[i] <= needed || c.supported_information[i] <= kSupportedPart * needed)
+    {
+      c.unconstrained = i + 1;
+      keep.head(i + 1).setZero();
+      break;
+    }
+  }
+  if (c.unconstrained == 0) return;
+  Vector6 unit = Vector6::Ones();
+  unit.head<3>().setConstant(c.lever_arm);
+  const Square6 V = c.directions;
+  c.projection =
+      unit.cwiseInverse().asDiagonal() * V * keep.asDiagonal() * V.transpose() * unit.asDiagonal();
+}
+
+std::vector<MotionDirection> unconstrainedMotions(const ScanConstraints& constraints)
+{
+  std::vector<MotionDirection> motions;
+  for (int i = 0; i < constraints.unconstrained; ++i)
+  {
+    const Vec3 rotation = constraints.directions.col(i).head<3>();
+    const Vec3 translation = constraints.directions.col(i).tail<3>();
+    const bool is_rotation = rotation.norm() > translation.norm();
+    motions.push_back({is_rotation, (is_rotation ? rotation : translation).normalized()});
+  }
+  return motions;
+}
+
+InformationSums constrainedSums(const InformationSums& sums, const ScanConstraints& constraints)
+{
+  InformationSums left = sums;
+  if (constraints.unconstrained == 0) return left;
+  const Square6 projection = constraints.projection;
+  const Square6 information = projection.transpose() * sums.HtRinvH * projection;
+  left.HtRinvH = 0.5 * (information + information.transpose());
+  left.HtRinvz = projection.transpose() * sums.HtRinvz;
+  return left;
+}
+
+}  // namespace fastlio

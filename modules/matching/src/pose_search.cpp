@@ -1,0 +1,276 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/matching/pose_search.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fastlio
+{
+namespace
+{
+// Half a percent of scale and a third of a degree of misalignment of gravity, as MEMS sensors have.
+constexpr double kUnmodelledAcceleration = 0.05;  // [m/s^2]
+// Shorter times add nothing that the noise of the inertial sensor does not cover.
+constexpr double kShortTime = 0.5;  // [s]
+// A start farther off than this may end in a wrong minimum.
+constexpr double kPullInStd = 0.05;  // [m]
+// Planes of the coarser voxels pull in from half of this and more.
+constexpr double kGridStep = 0.5;  // [m]
+// Those of the coarsest still do.
+constexpr double kWideGridStep = 1.0;  // [m]
+// A candidate's uncertainty, of the step: neighbours overlap.
+constexpr double kStartStd = 0.6;
+constexpr double kSearchSigmas = 3.5;
+constexpr std::size_t kSamplePoints = 300;
+constexpr int kSampleIterations = 4, kScanIterations = 5;
+constexpr std::size_t kRefined = 8;
+constexpr double kSamePlace = 0.3;     // [m]
+constexpr double kSameAttitude = 0.1;  // [rad]
+// A rival as good as this fraction of the best: nobody knows which of the two is right.
+constexpr double kRivalShare = 0.8;
+constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
+// The whole scan pulls a candidate in from wide to narrow.
+constexpr double kRefiningStds[] = {0.3, 0.1, 0.05};  // [m]
+// How well a search knows the pose that the scan is then matched from.
+constexpr double kFoundAngleStd = 0.01, kFoundPositionStd = 0.03;  // [rad], [m]
+
+using Square6 = Eigen::Matrix<double, 6, 6>;
+
+PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
+{
+  PoseCandidate candidate;
+  candidate.T_world_imu = update.posterior.x.pose();
+  candidate.innovation = normalizedInnovation(update);
+  candidate.inlier_ratio = static_cast<double>(update.last.count) / static_cast<double>(points);
+  candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
+  return candidate;
+}
+
+/** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
+FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, double position_std)
+{
+  FilterState start = predicted;
+  start.x.R = T_world_imu.R;
+  start.x.p = T_world_imu.p;
+  start.P.setZero();
+  start.P.diagonal().segment<3>(kAttitude).setConstant(kHeadingStd * kHeadingStd);
+  start.P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
+  return start;
+}
+
+/** Every so many-th point: enough to rank candidates. */
+DeskewedScan sampleOf(const DeskewedScan& scan)
+{
+  const BodyPoints& all = scan.surfaces;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / kSamplePoints);
+  DeskewedScan sample;
+  sample.compensation = scan.compensation;
+  sample.surfaces.resize((all.size() + stride - 1) / stride);
+  for (std::size_t i = 0, k = 0; i < all.size(); i += stride, ++k)
+  {
+    BodyPoints& p = sample.surfaces;
+    p.x[k] = all.x[i], p.y[k] = all.y[i], p.z[k] = all.z[i];
+    p.ux[k] = all.ux[i], p.uy[k] = all.uy[i], p.uz[k] = all.uz[i];
+  }
+  return sample;
+}
+
+bool better(const PoseCandidate& a, const PoseCandidate& b)
+{
+  return a.score > b.score;
+}
+
+bool isSamePlace(const PoseCandidate& a, const PoseCandidate& b)
+{
+  const Pose &A = a.T_world_imu, &B = b.T_world_imu;
+  return (A.p - B.p).norm() < kSamePlace && logSO3(A.R.transpose() * B.R).norm() < kSameAttitude;
+}
+
+/** The best of each place, not more than are refined. \param candidates best first */
+std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidates)
+{
+  std::vector<PoseCandidate> places;
+  for (const PoseCandidate& candidate : candidates)
+  {
+    const auto near = [&](const PoseCandidate& p) { return isSamePlace(p, candidate); };
+    if (std::none_of(places.begin(), places.end(), near)) places.push_back(candidate);
+    if (places.size() == kRefined) break;
+  }
+  return places;
+}
+
+PoseCandidate refined(
+    PoseCandidate candidate, const FilterState& predicted, const DeskewedScan& scan,
+    const MatchFromStart& match)
+{
+  for (const double position_std : kRefiningStds)
+  {
+    const FilterState start = startAt(predicted, candidate.T_world_imu, position_std);
+    const UpdateResult update = match(start, scan, kScanIterations);
+    if (!update.updated)
+    {
+      candidate.score = 0.0;
+      return candidate;
+    }
+    candidate = candidateOf(update, scan.surfaces.size());
+  }
+  return candidate;
+}
+
+/** The whole scan from the best candidates. \return places with matches, best first */
+std::vector<PoseCandidate> refinedPlaces(
+    std::vector<PoseCandidate> candidates, const FilterState& predicted, const DeskewedScan& scan,
+    const MatchFromStart& match)
+{
+  std::stable_sort(candidates.begin(), candidates.end(), better);
+  std::vector<PoseCandidate> places = bestPlaces(candidates);
+  for (PoseCandidate& place : places)
+    place = refined(place, predicted, scan, match);
+  std::stable_sort(places.begin(), places.end(), better);
+  if (!places.empty() && places.front().score <= 0.0) places.clear();
+  return places;
+}
+
+Vec3 positionStd(const FilterState& predicted)
+{
+  const Vec3 variance = predicted.P.diagonal().segment<3>(kPosition);
+  if (!variance.allFinite()) return Vec3::Constant(std::numeric_limits<double>::infinity());
+  return variance.cwiseMax(0.0).cwiseSqrt();
+}
+
+/** \param std of the position [m] \param most places; more are cut off, the least likely ones */
+CandidateGrid gridOf(const Vec3& std, double step, std::size_t most)
+{
+  CandidateGrid grid;
+  grid.step = step;
+  grid.complete = std.allFinite();
+  // More steps than these would be cut off by the most that are tried anyway.
+  constexpr double kMostSteps = 20.0;
+  const auto steps = [&](double sigma)
+  {
+    // Grid points stand for half a step around them.
+    const double n = std::ceil(std::max(0.0, 3.0 * sigma - step / 2.0) / step);
+    if (n < kMostSteps) return static_cast<int>(n);
+    grid.complete = false;
+    return static_cast<int>(kMostSteps);
+  };
+  const int nx = steps(std.x()), ny = steps(std.y()), nz = steps(std.z());
+  const Vec3 scale = std.cwiseMax(step / 3.0).cwiseInverse();
+  for (int x = -nx; x <= nx; ++x)
+    for (int y = -ny; y <= ny; ++y)
+      for (int z = -nz; z <= nz; ++z)
+      {
+        const Vec3 offset = step * Vec3(x, y, z);
+        if (offset.cwiseProduct(scale).norm() <= kSearchSigmas) grid.offsets.push_back(offset);
+      }
+  std::stable_sort(
+      grid.offsets.begin(), grid.offsets.end(),
+      [&](const Vec3& a, const Vec3& b)
+      { return a.cwiseProduct(scale).squaredNorm() < b.cwiseProduct(scale).squaredNorm(); });
+  if (grid.offsets.size() > most)
+  {
+    grid.offsets.resize(most);
+    grid.complete = false;
+  }
+  return grid;
+}
+}  // namespace
+
+void considerUnmodelledAcceleration(FilterState& predicted, double blind_s)
+{
+  if (blind_s < kShortTime) return;
+  const double t = blind_s, q = kUnmodelledAcceleration * kUnmodelledAcceleration;
+  StateMatrix& P = predicted.P;
+  P.diagonal().segment<3>(kPosition).array() += q * t * t * t * t / 4.0;
+  P.diagonal().segment<3>(kVelocity).array() += q * t * t;
+  P.block<3, 3>(kPosition, kVelocity).diagonal().array() += q * t * t * t / 2.0;
+  P.block<3, 3>(kVelocity, kPosition).diagonal().array() += q * t * t * t / 2.0;
+}
+
+bool needsPoseSearch(const FilterState& predicted, double blind_s)
+{
+  return blind_s >= kShortTime &&
+         predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
+}
+
+CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most)
+{
+  CandidateGrid grid = gridOf(positionStd(predicted), kGridStep, most);
+  return grid.complete ? grid : gridOf(positionStd(predicted), kWideGridStep, most);
+}
+
+CandidateGrid levelGrid(const FilterState& predicted, double height, std::size_t most)
+{
+  Vec3 std = positionStd(predicted);
+  std.z() = 0.0;
+  CandidateGrid grid = gridOf(std, kWideGridStep, most);
+  for (Vec3& offset : grid.offsets)
+    offset.z() = height;
+  return grid;
+}
+
+PoseSearchResult searchPose(
+    const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
+    const PoseSearchLimits& limits, const MatchFromStart& match)
+{
+  PoseSearchResult result;
+  if (scan.surfaces.size() == 0) return result;
+  const DeskewedScan sample = sampleOf(scan);
+  const std::size_t most = std::max<std::size_t>(1, limits.most_candidates / attitudes.size());
+  std::vector<PoseCandidate> candidates;
+  const auto tryPlaces = [&](const CandidateGrid& grid)
+  {
+    for (const Vec3& offset : grid.offsets)
+      for (const Mat3& R : attitudes)
+      {
+        ++result.candidates;
+        const FilterState start =
+            startAt(predicted, {R, predicted.x.p + offset}, kStartStd * grid.step);
+        const UpdateResult update = match(start, sample, kSampleIterations);
+        if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
+      }
+    result.complete = grid.complete;
+    return refinedPlaces(candidates, predicted, scan, match);
+  };
+  const CandidateGrid grid = candidateGrid(predicted, most);
+  std::vector<PoseCandidate> places = tryPlaces(grid);
+  // The best place determines the height: its rivals stand on the same level.
+  if (!grid.complete && !places.empty())
+    places =
+        tryPlaces(levelGrid(predicted, places.front().T_world_imu.p.z() - predicted.x.p.z(), most));
+  if (places.empty()) return result;
+  result.best = places.front();
+  for (const PoseCandidate& place : places)
+    if (!isSamePlace(place, *result.best))
+      result.rival_score = std::max(result.rival_score, place.score);
+  const double needed = grid.complete ? limits.min_inlier_ratio : limits.min_level_inlier_ratio;
+  result.accepted = result.complete && result.best->inlier_ratio >= needed &&
+                    result.best->innovation <= limits.max_innovation &&
+                    result.rival_score < kRivalShare * result.best->score;
+  return result;
+}
+
+FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu)
+{
+  NavState found = predicted.x;
+  found.R = T_world_imu.R;
+  found.p = T_world_imu.p;
+  Square6 S = predicted.P.topLeftCorner<6, 6>();
+  S.diagonal().head<3>().array() += kFoundAngleStd * kFoundAngleStd;
+  S.diagonal().tail<3>().array() += kFoundPositionStd * kFoundPositionStd;
+  const Eigen::Matrix<double, kStateDim, 6> PHt = predicted.P.leftCols<6>();
+  const Eigen::Matrix<double, 6, kStateDim> Kt = S.llt().solve(PHt.transpose());
+  const StateVector difference = boxminus(found, predicted.x);
+  FilterState corrected;
+  corrected.x = boxplus(predicted.x, Kt.transpose() * difference.head<6>());
+  const StateMatrix removed = PHt * Kt;
+  corrected.P = predicted.P - 0.5 * (removed + removed.transpose());
+  return corrected;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,165 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/matching/point_to_line.h>
+#include <fastlio/matching/scan_matcher.h>
+#include <fastlio/math/stopwatch.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <functional>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr int kPullInIterations = 15;
+// Gate, in standard deviations of residual and prior: 99.7 % of what noise explains passes.
+constexpr double kResidualGate = 3.0;
+
+/** The prediction's uncertainty of position, as the gate takes it. One direction may be far more
+ * uncertain than the others (along a tunnel), which says nothing about planes across. The two
+ * others count whatever the plane: a prediction that is a little too sure of itself may not lose
+ * the planes that would correct it. */
+Mat3 priorOfGate(const Mat3& P)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(P, Eigen::EigenvaluesOnly);
+  return P + solver.eigenvalues().head<2>().sum() * Mat3::Identity();
+}
+
+ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predicted)
+{
+  ResidualModel model;
+  model.range_variance = p.range_noise * p.range_noise;
+  model.gate = kResidualGate;
+  model.prior_position_covariance = priorOfGate(predicted.bottomRightCorner<3, 3>());
+  model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
+  return model;
+}
+}  // namespace
+
+MatchOptions ordinaryMatching(const OdometryOptions& options)
+{
+  MatchOptions ordinary;
+  ordinary.measurement = options.measurement;
+  ordinary.limits = options.update;
+  ordinary.gain = options.gain;
+  return ordinary;
+}
+
+MatchOptions pullInMatching(const OdometryOptions& options)
+{
+  MatchOptions more = ordinaryMatching(options);
+  more.association_iterations = kPullInIterations;
+  more.limits.max_iterations = kPullInIterations;
+  return more;
+}
+
+ScanMatcher::ScanMatcher(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
+
+void ScanMatcher::associate(const Pose& T_world_scan, const Call& call)
+{
+  const Stopwatch watch;
+  const BodyPoints& points = call.scan.surfaces;
+  workers_->forEachChunk(
+      points.size(),
+      [&](std::size_t, std::size_t first, std::size_t last)
+      {
+        transformToWorld(points, T_world_scan, first, last, world_);
+        call.maps.surfaces.match(world_, first, last, matches_);
+      });
+  const BodyPoints& edges = call.scan.edges;
+  transformToWorld(edges, T_world_scan, 0, edges.size(), world_edges_);
+  call.maps.edges.match(world_edges_, 0, edges.size(), edge_matches_);
+  call.result.association_ms += watch.milliseconds();
+}
+
+void ScanMatcher::findConstraints(
+    const Pose& T_world_scan, const InformationSums& sums, const Call& call)
+{
+  const double min_signal_to_noise = call.options.measurement.min_signal_to_noise;
+  if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
+  const BodyPoints& points = call.scan.surfaces;
+  chunk_noise_.resize(chunk_sums_.size());
+  workers_->forEachChunk(
+      points.size(),
+      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      {
+        chunk_noise_[chunk] =
+            normalNoiseInformation(T_world_scan, points, matches_, call.result.model, first, last);
+      });
+  Matrix6 noise = Matrix6::Zero();
+  for (const Matrix6& part : chunk_noise_)
+    noise += part;
+  ScanConstraints& constraints = call.result.constraints;
+  constraints = informationByDirection(sums.HtRinvH, noise);
+  withoutStrongestPlanes(
+      T_world_scan, points, matches_, call.result.model, plane_information_, constraints);
+  leaveOutUnconstrained(min_signal_to_noise, constraints);
+}
+
+// Eq. 12-14 at an iterate.
+MeasurementEvaluation ScanMatcher::evaluate(
+    const NavState& iterate, int iteration, const Call& call)
+{
+  const CompensatedWith& compensation = call.scan.compensation;
+  const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
+  const ResidualModel& model = call.result.model;
+  const Pose T_world_scan = scanPose(iterate, compensation);
+  if (iteration < call.options.association_iterations) associate(T_world_scan, call);
+  workers_->forEachChunk(
+      points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
+      { chunk_sums_[chunk] = accumulate(T_world_scan, points, matches_, model, first, last); });
+  MeasurementEvaluation evaluation;
+  for (const InformationSums& sums : chunk_sums_)
+    addSums(evaluation.sums, sums);
+  addSums(
+      evaluation.sums, accumulateLines(T_world_scan, edges, edge_matches_, model, 0, edges.size()));
+  if (iteration == 0) findConstraints(T_world_scan, evaluation.sums, call);
+  const ScanConstraints& constraints = call.result.constraints;
+  evaluation.sums = constrainedSums(evaluation.sums, constraints);
+  if (call.options.gain == GainForm::Standard)
+  {
+    evaluation.stacked = stack(T_world_scan, points, matches_, model);
+    stackLines(T_world_scan, edges, edge_matches_, model, evaluation.stacked);
+    for (Vector6& h : evaluation.stacked.h)
+      h = constraints.projection.transpose() * h;
+  }
+  evaluation.unconstrained = unconstrainedMotions(constraints);
+  evaluation.by_state = scanPoseJacobian(iterate, compensation);
+  return evaluation;
+}
+
+MatchResult ScanMatcher::match(
+    const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
+    const MatchOptions& options)
+{
+  const std::size_t points = scan.surfaces.size();
+  world_.resize(points);
+  matches_.resize(points);
+  world_edges_.resize(scan.edges.size());
+  edge_matches_.resize(scan.edges.size());
+  chunk_sums_.resize(Workers::chunks(points));
+  plane_information_.reserve(points);
+  MatchResult result;
+  result.model =
+      residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));
+  result.matches = &matches_;
+  const Call call{scan, maps, options, result};
+  std::size_t effective = 0;
+  const auto measurements = [&](const NavState& iterate, int iteration)
+  {
+    MeasurementEvaluation e = evaluate(iterate, iteration, call);
+    effective = e.sums.count;
+    // An evaluation without measurements makes the update leave the prediction alone.
+    return effective < kMinEffectivePoints ? MeasurementEvaluation{} : e;
+  };
+  result.update =
+      // By reference: a copy of the captures would go to the heap.
+      iteratedUpdate(predicted, std::cref(measurements), options.limits, options.gain);
+  result.update.last.count = effective;
+  return result;
+}
+
+}  // namespace fastlio

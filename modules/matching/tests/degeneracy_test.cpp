@@ -1,0 +1,183 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/matching/degeneracy.h>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace fastlio
+{
+namespace
+{
+/** Points on planes, and the planes that the map knows there. */
+struct MatchedScan
+{
+  BodyPoints body;
+  std::vector<PlaneMatch> matches;
+};
+
+void addPoint(MatchedScan& scan, const Vec3& p, const Vec3& normal, double normal_std)
+{
+  const std::size_t n = scan.body.size();
+  scan.body.resize(n + 1);
+  const Vec3 beam = p.normalized();
+  scan.body.x[n] = static_cast<float>(p.x());
+  scan.body.y[n] = static_cast<float>(p.y());
+  scan.body.z[n] = static_cast<float>(p.z());
+  scan.body.ux[n] = static_cast<float>(beam.x());
+  scan.body.uy[n] = static_cast<float>(beam.y());
+  scan.body.uz[n] = static_cast<float>(beam.z());
+  PlaneMatch match;
+  match.nx = static_cast<float>(normal.x());
+  match.ny = static_cast<float>(normal.y());
+  match.nz = static_cast<float>(normal.z());
+  match.d = static_cast<float>(-normal.dot(p));
+  match.variance = 1e-4F;
+  match.normal_variance = static_cast<float>(2.0 * normal_std * normal_std);
+  match.plane = static_cast<std::uint32_t>(n / 5);
+  scan.matches.push_back(match);
+}
+
+/** A tunnel along x: walls, floor and ceiling with normals that are off by normal_std [rad], and
+ * \a end_points on a wall across at its end. */
+MatchedScan tunnel(double normal_std, int end_points)
+{
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> along(-15.0, 15.0), across(-2.0, 2.0);
+  MatchedScan scan;
+  const auto noisy = [&](const Vec3& n)
+  {
+    const Vec3 tilt(gauss(random), gauss(random), gauss(random));
+    return (n + normal_std * (tilt - n * n.dot(tilt))).normalized().eval();
+  };
+  for (int i = 0; i < 500; ++i)
+  {
+    const double side = i % 2 == 0 ? 2.0 : -2.0;
+    addPoint(scan, {along(random), side, across(random)}, noisy(Vec3::UnitY()), normal_std);
+    addPoint(scan, {along(random), across(random), side}, noisy(Vec3::UnitZ()), normal_std);
+  }
+  for (int i = 0; i < end_points; ++i)
+    addPoint(scan, {15.0, across(random), across(random)}, noisy(Vec3::UnitX()), normal_std);
+  return scan;
+}
+
+struct Analysis
+{
+  InformationSums sums;
+  ScanConstraints constraints;
+};
+
+Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
+{
+  ResidualModel model;
+  model.gate = 1e9;
+  const Pose pose;
+  Analysis a;
+  a.sums = accumulate(pose, scan.body, scan.matches, model, 0, scan.body.size());
+  const Matrix6 noise =
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size());
+  a.constraints = informationByDirection(a.sums.HtRinvH, noise);
+  std::vector<PlaneInformation> storage;
+  withoutStrongestPlanes(pose, scan.body, scan.matches, model, storage, a.constraints);
+  leaveOutUnconstrained(min_signal_to_noise, a.constraints);
+  return a;
+}
+
+TEST(Degeneracy, TheAxisOfATunnelIsFound)
+{
+  const Analysis a = analyse(tunnel(0.01, 0));
+  EXPECT_TRUE(mayBeDegenerate(a.sums.HtRinvH));
+  ASSERT_EQ(a.constraints.unconstrained, 1);
+  const auto motions = unconstrainedMotions(a.constraints);
+  ASSERT_EQ(motions.size(), 1U);
+  EXPECT_FALSE(motions[0].is_rotation);
+  EXPECT_GT(std::abs(motions[0].axis.x()), 0.99);
+}
+
+TEST(Degeneracy, NoiseOfTheNormalsIsWhatThereIsAlongTheTunnel)
+{
+  // The information along the axis is a sum of squares of what the noise made of the normals.
+  for (const double normal_std : {0.003, 0.01, 0.03})
+  {
+    const Analysis a = analyse(tunnel(normal_std, 0));
+    EXPECT_NEAR(a.constraints.information[0] / a.constraints.noise_information[0], 1.0, 0.25)
+        << normal_std;
+  }
+}
+
+TEST(Degeneracy, NoiseIsTheSumOfTheRowsCovariances)
+{
+  const MatchedScan scan = tunnel(0.01, 20);
+  const Pose pose{expSO3({0.3, -0.2, 1.1}), {1.0, -2.0, 0.5}};
+  ResidualModel model;
+  model.gate = 1e9;
+  Matrix6 expected = Matrix6::Zero();
+  for (std::size_t i = 0; i < scan.body.size(); ++i)
+  {
+    const PlaneMatch& match = scan.matches[i];
+    const Vec3 n(match.nx, match.ny, match.nz), p(scan.body.x[i], scan.body.y[i], scan.body.z[i]);
+    Eigen::Matrix<double, 6, 3> by_normal;
+    by_normal << skew(p) * pose.R.transpose(), Mat3::Identity();
+    const Mat3 covariance =
+        0.5 * static_cast<double>(match.normal_variance) * (Mat3::Identity() - n * n.transpose());
+    const double weight = 1.0 / planeMeasurement(pose, scan.body, i, match, model).variance;
+    expected += weight * by_normal * covariance * by_normal.transpose();
+  }
+  const std::size_t half = scan.body.size() / 2;
+  const Matrix6 parts =
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half) +
+      normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size());
+  EXPECT_LT((parts - expected).norm(), 1e-6 * expected.norm());
+}
+
+// A voxel at an edge can fit a plane that stands across the tunnel: much information, and wrong.
+TEST(Degeneracy, FewPlanesAcrossTheTunnelDoNotConstrainIt)
+{
+  MatchedScan scan = tunnel(0.01, 0);
+  for (int i = 0; i < 30; ++i)
+  {
+    addPoint(scan, {3.0, 0.1 * i, 1.9}, Vec3::UnitX(), 0.01);
+    scan.matches.back().plane = 10000U + static_cast<std::uint32_t>(i / 10);
+  }
+  const Analysis three = analyse(scan);
+  EXPECT_GT(three.constraints.information[0], 100.0 * three.constraints.noise_information[0]);
+  ASSERT_EQ(three.constraints.unconstrained, 1);
+  EXPECT_GT(std::abs(unconstrainedMotions(three.constraints)[0].axis.x()), 0.99);
+
+  for (std::size_t i = scan.matches.size() - 30; i < scan.matches.size(); ++i)
+    scan.matches[i].plane = 10000U + static_cast<std::uint32_t>(i % 6);
+  EXPECT_EQ(analyse(scan).constraints.unconstrained, 0) << "six planes agree";
+}
+
+TEST(Degeneracy, AWallAtTheEndConstrainsTheTunnel)
+{
+  const Analysis a = analyse(tunnel(0.01, 50));
+  EXPECT_EQ(a.constraints.unconstrained, 0);
+  EXPECT_EQ(a.constraints.projection, Matrix6::Identity());
+}
+
+TEST(Degeneracy, WhatIsLeftMovesTheOtherDirectionsOnly)
+{
+  const Analysis a = analyse(tunnel(0.01, 0));
+  const InformationSums left = constrainedSums(a.sums, a.constraints);
+  Vector6 axis = a.constraints.directions.col(0);
+  axis.head<3>() /= a.constraints.lever_arm;
+  EXPECT_LT((left.HtRinvH * axis).norm(), 1e-9 * left.HtRinvH.norm());
+  EXPECT_LT(
+      (a.constraints.projection * a.constraints.projection - a.constraints.projection).norm(),
+      1e-9);
+  const double across_before = a.sums.HtRinvH(4, 4), across_after = left.HtRinvH(4, 4);
+  EXPECT_NEAR(across_after / across_before, 1.0, 0.01);
+}
+
+TEST(Degeneracy, NothingIsLeftAloneWhereItIsSwitchedOff)
+{
+  EXPECT_EQ(analyse(tunnel(0.01, 0), 0.0).constraints.unconstrained, 0);
+}
+}  // namespace
+}  // namespace fastlio

@@ -1,0 +1,191 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "report_advice.h"
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
+#include <fastlio/plot/report_figure.h>
+#include <fastlio/report/report_page.h>
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+struct TableRow
+{
+  std::string name;   //!< text
+  std::string value;  //!< HTML
+};
+
+std::string tableOf(const std::vector<TableRow>& rows)
+{
+  std::string html = "<table>\n";
+  for (const TableRow& row : rows)
+    html += "<tr><th>" + htmlText(row.name) + "</th><td>" + row.value + "</td></tr>\n";
+  return html + "</table>\n";
+}
+
+/** A list that stays readable. \param items HTML \param where all of them are, as text */
+std::string listOfHtml(const std::vector<std::string>& items, const char* where)
+{
+  constexpr std::size_t kMost = 50;
+  std::string html = "<ul>\n";
+  for (std::size_t i = 0; i < std::min(kMost, items.size()); ++i)
+    html += "<li>" + items[i] + "</li>\n";
+  if (items.size() > kMost)
+    html += "<li>and " + std::to_string(items.size() - kMost) + " more: " + where + "</li>\n";
+  return html + "</ul>\n";
+}
+
+std::string listOf(const std::vector<std::string>& texts)
+{
+  std::vector<std::string> items;
+  items.reserve(texts.size());
+  for (const std::string& text : texts)
+    items.push_back(htmlText(text));
+  return listOfHtml(items, "summary.json");
+}
+
+std::string degenerateText(const DegenerateDirections& open)
+{
+  if (open.scans == 0) return "none";
+  const Vec3& axis = open.weakest.axis;
+  return std::to_string(open.scans) + " scans; the weakest is a " +
+         (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
+         fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) + "]";
+}
+
+std::string imuText(const ImuReport& imu)
+{
+  return fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
+         toString(imu.gyro_unit) + "; gaps: " + std::to_string(imu.gaps) +
+         ", samples missing: " + std::to_string(imu.missing) +
+         ", clipped: " + std::to_string(imu.saturated) + ", spikes: " + std::to_string(imu.spikes);
+}
+
+std::string vectorText(const Vec3& v, const Vec3& sigma, int decimals)
+{
+  std::string text;
+  for (int i = 0; i < 3; ++i)
+    text += (i == 0 ? "" : ", ") + fixedText(v[i], decimals) + " \u00b1 " +
+            fixedText(3.0 * sigma[i], decimals);
+  return text;
+}
+}  // namespace
+
+std::string factsHtml(const RunSummary& run)
+{
+  const RunStatistics& s = run.statistics;
+  const ExitStatus status = exitStatusOf(run);
+  const PointTotals& points = s.points();
+  return tableOf(
+      {{"Status", std::string(toString(status)) + " (exit status " +
+                      std::to_string(static_cast<int>(status)) + ")"},
+       {"Time", fixedText(s.duration(), 3) + " s, from " + secondsText(s.beginNs()) + " to " +
+                    secondsText(s.endNs())},
+       {"Scans", htmlText(scanCountsText(s))},
+       {"Poses",
+        std::to_string(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
+       {"Path", fixedText(s.pathLength(), 3) + " m"},
+       {"Points", std::to_string(points.in) + " delivered, " + std::to_string(points.downsampled) +
+                      " after downsampling, " + std::to_string(points.effective) + " matched"},
+       {"Health", "mean " + fixedText(s.health().mean(), 3) + ", worst " +
+                      fixedText(s.health().worst(), 3) + "; " +
+                      std::to_string(s.health().troubled()) + " of " +
+                      std::to_string(s.health().scans()) + " scans in trouble"},
+       {"Degenerate directions", htmlText(degenerateText(s.degenerateDirections()))},
+       {"Inertial data", htmlText(imuText(run.imu))}});
+}
+
+std::string untrustedHtml(const RunHealth& health)
+{
+  const auto stretches = health.untrusted();
+  if (stretches.empty()) return "<p>None.</p>\n";
+  std::vector<std::string> items;
+  items.reserve(stretches.size());
+  for (const UntrustedStretch& s : stretches)
+    items.push_back(
+        "<b>" + fixedText(s.begin_s, 1) + " to " + fixedText(s.end_s, 1) + " s</b> (" +
+        std::to_string(s.scans) + " scans), " + causeLink(s.cause) + ": " + htmlText(s.reason));
+  return listOfHtml(items, "untrusted.csv");
+}
+
+std::string lossesHtml(const RunSummary& run)
+{
+  std::vector<NamedCount> lost = losses(run.input_counts);
+  const PointTotals& points = run.statistics.points();
+  if (points.near > 0) lost.push_back({"points_too_near", points.near});
+  if (points.far > 0) lost.push_back({"points_too_far", points.far});
+  if (lost.empty()) return "<p>Nothing was dropped.</p>\n";
+  std::vector<TableRow> rows;
+  rows.reserve(lost.size());
+  for (const NamedCount& count : lost)
+    rows.push_back({count.name, std::to_string(count.count)});
+  return tableOf(rows);
+}
+
+std::string sensorsHtml(const RunSummary& run)
+{
+  std::vector<std::string> files;
+  for (const InputFile& file : run.inputs)
+    files.push_back(file.path + " (" + std::to_string(file.bytes) + " bytes)");
+  return "<h3>Recording</h3>\n" + listOf(files) + "<h3>Sensors and poses</h3>\n" +
+         listOf(run.sensors);
+}
+
+std::string calibrationHtml(const RunSummary& run)
+{
+  if (run.statistics.poses() == 0) return "<p>No scan has a pose.</p>\n";
+  const CalibrationCheck& check = run.statistics.calibration();
+  return tableOf(
+             {{"Extrinsic rotation, error [deg]",
+               vectorText(kDegPerRad * check.rotation, kDegPerRad * check.rotation_std, 3)},
+              {"Extrinsic translation, error [m]",
+               vectorText(check.translation, check.translation_std, 4)},
+              {"Innovations over their covariance", fixedText(check.innovation_scale, 3)},
+              {"Beams: common range error [m]", fixedText(check.range_offset, 4)},
+              {"Beams: common elevation error [deg]",
+               fixedText(kDegPerRad * check.elevation_offset, 4)}}) +
+         "<p class=\"note\">How wrong the calibration in use seems to be by the innovations of the "
+         "whole run, with three standard deviations. An error beyond them deserves a look at the "
+         "mounting.</p>\n";
+}
+
+std::string diagnosticsHtml(const RunSummary& run)
+{
+  if (run.diagnostics.empty()) return "<p>None.</p>\n";
+  std::vector<std::string> texts;
+  for (const Diagnostic& diagnostic : run.diagnostics)
+    texts.push_back(secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
+  return listOf(texts);
+}
+
+std::string measuredFactsHtml(const RunSummary& run)
+{
+  const ScanTimeSummary ms = run.statistics.scanTimes();
+  return tableOf(
+      {{"Computation per scan", fixedText(ms.median, 2) + " ms median, " + fixedText(ms.p99, 2) +
+                                    " ms p99, " + fixedText(ms.max, 2) + " ms max"},
+       {"Speed", fixedText(realTimeFactor(run), 1) + " x real time"},
+       {"Whole run", fixedText(run.wall_seconds, 2) + " s, of which " +
+                         fixedText(run.statistics.computeSeconds(), 2) + " s odometry"}});
+}
+
+std::string adviceHtml()
+{
+  std::string html;
+  for (const HealthCause cause : allHealthCauses())
+  {
+    const HealthAdvice advice = adviceOf(cause);
+    html += "<h3 id=\"" + anchorOf(cause) + "\">" + anchorOf(cause) + "</h3>\n<p>" +
+            htmlText(advice.meaning) + " <b>Try:</b> " + htmlText(advice.remedy) +
+            " <span class=\"note\">More: docs/troubleshooting.md#" + anchorOf(cause) +
+            "</span></p>\n";
+  }
+  return html;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,52 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file run_folder.h The folder that a run writes into: it holds one run. */
+#pragma once
+
+#include <fastlio/files/atomic_file.h>
+#include <fastlio/files/folder_lock.h>
+#include <fastlio/files/made_folders.h>
+
+#include <string>
+#include <vector>
+
+namespace fastlio
+{
+/** The files that a run is going to write into a folder. */
+struct RunFolderPlan
+{
+  std::string directory;
+  std::vector<std::string> files;  //!< names, without the folder
+  std::string record;              //!< the file among them that each complete run writes (JSON)
+  std::string record_key;          //!< a key that distinguishes such a file from others
+  bool overwrite = false;          //!< also files that no run wrote may be replaced
+};
+
+/** Checks, without making anything, that the folder can be written and that everything which the
+ * run would replace was written by an earlier run: the record lies beside it, or the lock file of a
+ * run that was killed. \exception std::runtime_error otherwise; the message names the file */
+void requireReplaceable(const RunFolderPlan& plan);
+
+/** A folder that belongs to this process until the end. A folder that it had to make goes again
+ * when it is empty in the end. */
+class RunFolder
+{
+ public:
+  /** Makes the folder when it is not there.
+   * \exception std::runtime_error another run holds it, or requireReplaceable() fails */
+  explicit RunFolder(RunFolderPlan plan);
+
+  /** Once the run is complete: removes the files that the run before has written, according to its
+   * record, and that this one has not; also what a killed run has left unfinished. Nothing else is
+   * touched, nor what is among \a kept, the inputs. */
+  void removeLeftovers(const std::vector<std::string>& kept) const;
+
+ private:
+  RunFolderPlan plan_;
+  MadeFolders made_;
+  FolderLock lock_;
+  std::vector<OutputFile> earlier_;  //!< what the record of the run before lists
+};
+
+}  // namespace fastlio

@@ -1,0 +1,20 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file scan_in_world.h The points of a scan where they were when they were measured. */
+#pragma once
+
+#include <fastlio/lidar/scan.h>
+#include <fastlio/run/output_map.h>
+#include <fastlio/run/pose_track.h>
+
+namespace fastlio
+{
+/** Every point of the scan with the pose of its own time; those without a pose are left out.
+ * \param track of the vehicle, or any other body, named by its frame */
+[[nodiscard]] OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track);
+
+/** The LiDAR's mounting on the track's body. */
+[[nodiscard]] Pose mountingOn(const PoseTrack& track, const LidarScan& scan);
+
+}  // namespace fastlio

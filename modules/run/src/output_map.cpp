@@ -1,0 +1,255 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/map/incremental_points_map.h>
+#include <fastlio/map/surface_map.h>
+#include <fastlio/run/output_map.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::string_view kTileFolder = "map-tiles-";
+constexpr std::string_view kUnique = "XXXXXX";  // for mkdtemp
+constexpr float kFarthest = 1e7F;               // [m]: tiles are numbered by int
+
+bool usable(float x, float y, float z)
+{
+  // False for what is not finite, too.
+  return std::abs(x) <= kFarthest && std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
+}
+
+void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
+{
+  to.x.push_back(from.x[i]);
+  to.y.push_back(from.y[i]);
+  to.z.push_back(from.z[i]);
+  to.intensity.push_back(from.intensity[i]);
+  to.stamp_ns.push_back(from.stamp_ns[i]);
+}
+
+template <typename T>
+void writeColumn(std::ofstream& out, const std::vector<T>& column)
+{
+  out.write(
+      reinterpret_cast<const char*>(column.data()),
+      static_cast<std::streamsize>(column.size() * sizeof(T)));
+}
+
+template <typename T>
+void readColumn(std::ifstream& in, std::vector<T>& column, std::size_t n)
+{
+  column.resize(n);
+  in.read(reinterpret_cast<char*>(column.data()), static_cast<std::streamsize>(n * sizeof(T)));
+}
+
+void writeTileFile(const std::string& path, const OutputPoints& points)
+{
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  writeColumn(out, points.x);
+  writeColumn(out, points.y);
+  writeColumn(out, points.z);
+  writeColumn(out, points.intensity);
+  writeColumn(out, points.stamp_ns);
+  out.close();
+  if (!out)
+    throw std::runtime_error(
+        "cannot write '" + path +
+        "', a piece of the map that is saved; check permissions and free space, or allow more "
+        "memory (output.map_memory)");
+}
+
+OutputPoints readTile(const std::string& path, std::size_t n)
+{
+  std::ifstream in(path, std::ios::binary);
+  OutputPoints points;
+  readColumn(in, points.x, n);
+  readColumn(in, points.y, n);
+  readColumn(in, points.z, n);
+  readColumn(in, points.intensity, n);
+  readColumn(in, points.stamp_ns, n);
+  if (!in)
+    throw std::runtime_error(
+        "cannot read '" + path + "', a piece of the map that is saved: was it removed?");
+  return points;
+}
+}  // namespace
+
+void OutputPoints::clear()
+{
+  x.clear();
+  y.clear();
+  z.clear();
+  intensity.clear();
+  stamp_ns.clear();
+}
+
+/** Either in memory (index) or in a file. */
+struct OutputMap::Tile
+{
+  std::unique_ptr<CIncrementalPointsMap> index;
+  OutputPoints points;
+  std::size_t size = 0;
+  std::uint64_t last_insertion = 0;
+  std::string path;
+};
+
+OutputMap::OutputMap(OutputMapOptions options) : options_(std::move(options))
+{
+  if (!(options_.spacing >= 0.0) || !(options_.tile_size > 0.0))
+    throw std::invalid_argument(
+        "OutputMap: the spacing must not be negative and the tile size must be positive; seen " +
+        std::to_string(options_.spacing) + " and " + std::to_string(options_.tile_size));
+}
+
+OutputMap::~OutputMap()
+{
+  std::error_code ignored;
+  if (!folder_.empty()) fs::remove_all(folder_, ignored);
+}
+
+std::map<OutputMap::Key, OutputPoints> OutputMap::byTile(const OutputPoints& points) const
+{
+  std::map<Key, OutputPoints> tiles;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (!usable(points.x[i], points.y[i], points.z[i])) continue;
+    const Key key(
+        static_cast<int>(std::floor(points.x[i] / options_.tile_size)),
+        static_cast<int>(std::floor(points.y[i] / options_.tile_size)));
+    append(tiles[key], points, i);
+  }
+  return tiles;
+}
+
+void OutputMap::insert(const OutputPoints& points)
+{
+  ++insertions_;
+  for (const auto& [key, part] : byTile(points))
+  {
+    auto& tile = tiles_[key];
+    if (!tile) tile = std::make_unique<Tile>();
+    tile->last_insertion = insertions_;
+    restore(*tile);
+    addTo(*tile, part);
+  }
+  keepWithinMemory();
+}
+
+void OutputMap::restore(Tile& tile)
+{
+  if (tile.index) return;
+  tile.index = std::make_unique<CIncrementalPointsMap>(options_.spacing);
+  if (tile.size == 0) return;
+  tile.points = readTile(tile.path, tile.size);
+  tile.index->insertPoints(
+      tile.points.x.data(), tile.points.y.data(), tile.points.z.data(), tile.size);
+  in_memory_ += tile.size;
+}
+
+void OutputMap::addTo(Tile& tile, const OutputPoints& points)
+{
+  const std::size_t before = tile.index->size();
+  tile.index->insertPoints(points.x.data(), points.y.data(), points.z.data(), points.size());
+  const auto& x = tile.index->getPointsBufferRef_x();
+  const auto& y = tile.index->getPointsBufferRef_y();
+  const auto& z = tile.index->getPointsBufferRef_z();
+  // The index keeps a part of the points, in their order.
+  std::size_t kept = before;
+  for (std::size_t i = 0; i < points.size() && kept < x.size(); ++i)
+  {
+    if (points.x[i] != x[kept] || points.y[i] != y[kept] || points.z[i] != z[kept]) continue;
+    append(tile.points, points, i);
+    ++kept;
+  }
+  tile.size = tile.points.size();
+  size_ += kept - before;
+  in_memory_ += kept - before;
+}
+
+std::string OutputMap::pathOf(const Key& key)
+{
+  if (folder_.empty())
+  {
+    const fs::path place =
+        options_.directory.empty() ? fs::temp_directory_path() : fs::path(options_.directory);
+    std::string name = (place / kTileFolder).string().append(kUnique);
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error(
+          "cannot make the folder '" + name +
+          "' for pieces of the map: " + std::generic_category().message(errno) +
+          "; check permissions and free space, or allow more memory (output.map_memory)");
+    folder_ = name;
+  }
+  return (fs::path(folder_) / (std::to_string(key.first) + "_" + std::to_string(key.second)))
+      .string();
+}
+
+void OutputMap::store(const Key& key, Tile& tile)
+{
+  tile.path = pathOf(key);
+  writeTileFile(tile.path, tile.points);
+  in_memory_ -= tile.size;
+  tile.points = {};
+  tile.index.reset();
+}
+
+void OutputMap::keepWithinMemory()
+{
+  while (in_memory_ > options_.points_in_memory)
+  {
+    auto oldest = tiles_.end();
+    for (auto it = tiles_.begin(); it != tiles_.end(); ++it)
+    {
+      const Tile& tile = *it->second;
+      if (!tile.index || tile.size == 0 || tile.last_insertion == insertions_) continue;
+      if (oldest == tiles_.end() || tile.last_insertion < oldest->second->last_insertion)
+        oldest = it;
+    }
+    if (oldest == tiles_.end()) return;
+    store(oldest->first, *oldest->second);
+  }
+}
+
+void OutputMap::forEachTile(const std::function<void(const OutputPoints&)>& use) const
+{
+  for (const auto& [key, tile] : tiles_)
+  {
+    if (tile->index)
+      use(tile->points);
+    else
+      use(readTile(tile->path, tile->size));
+  }
+}
+
+bool isTileFolder(const std::string& name)
+{
+  return name.size() == kTileFolder.size() + kUnique.size() &&
+         name.compare(0, kTileFolder.size(), kTileFolder) == 0;
+}
+
+OutputPoints outputPointsOf(const WorldPoints& points, const RegisteredFields& fields)
+{
+  OutputPoints output;
+  output.x = points.x;
+  output.y = points.y;
+  output.z = points.z;
+  output.intensity = fields.intensity;
+  output.stamp_ns = fields.stamp_ns;
+  return output;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,133 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/errormodel/map_error.h>
+#include <fastlio/math/time.h>
+#include <fastlio/run/pose_track.h>
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+
+double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
+{
+  return toSeconds(to_ns - from_ns);
+}
+
+/** The nearest matrix that is a covariance. */
+Matrix6 positivePart(const Matrix6& m)
+{
+  using Aligned = Eigen::Matrix<double, 6, 6>;
+  const Matrix6 symmetric = 0.5 * (m + m.transpose());
+  const Eigensystem6 system = symmetricEigensystem(symmetric);
+  const Aligned V = system.vectors;
+  return V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
+}
+
+/** Derivatives of the relative pose by the errors of a and b. */
+Matrix6 byFormer(const Pose& a, const Pose& T_a_b)
+{
+  Matrix6 J = Matrix6::Zero();
+  J.topLeftCorner<3, 3>() = -T_a_b.R.transpose();
+  J.bottomLeftCorner<3, 3>() = skew(T_a_b.p);
+  J.bottomRightCorner<3, 3>() = -a.R.transpose();
+  return J;
+}
+
+Matrix6 byLatter(const Pose& a)
+{
+  Matrix6 J = Matrix6::Identity();
+  J.bottomRightCorner<3, 3>() = a.R.transpose();
+  return J;
+}
+
+void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
+{
+  const double dt = secondsBetween(from.stamp_ns, to.stamp_ns);
+  if (dt <= 0.0) return;
+  const Pose& a = from.T_world_body;
+  const Pose& b = to.T_world_body;
+  pose.velocity = pose.T_world_body.R.transpose() * (b.p - a.p) / dt;
+  pose.angular_velocity = logSO3(a.R.transpose() * b.R) / dt;
+}
+}  // namespace
+
+RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
+{
+  RelativePose relative;
+  relative.T_a_b = a.T_world_body.inverse() * b.T_world_body;
+  const Matrix6 by_a = byFormer(a.T_world_body, relative.T_a_b);
+  const Matrix6 by_b = byLatter(a.T_world_body);
+  const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
+  const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
+  const TwistCovariance growth = positivePart(
+      twistCovariance(b.map_covariance, b.T_world_body) -
+      twistCovariance(a.map_covariance, a.T_world_body));
+  const Matrix6 of_b = own_b + poseCovariance(growth, b.T_world_body);
+  relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
+  return relative;
+}
+
+void PoseTrack::add(const ScanResult& result)
+{
+  if (!hasPose(result.status)) return;
+  const Pose& T_imu_body = frame_.T_imu_body;
+  const PoseEstimate estimate = poseEstimateOf(result.filter, T_imu_body);
+  TrackedPose pose;
+  pose.stamp_ns = result.stamp_ns;
+  pose.T_world_body = estimate.T_world_body;
+  pose.covariance = estimate.covariance;
+  pose.map_covariance =
+      poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
+  if (poses_.empty())
+    begin_ns_ = result.begin_ns;
+  else
+    setVelocity(pose, poses_.back(), pose);
+  poses_.push_back(pose);
+}
+
+std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
+{
+  if (poses_.empty() || stamp_ns < begin_ns_) return std::nullopt;
+  const auto next = std::lower_bound(
+      poses_.begin(), poses_.end(), stamp_ns,
+      [](const TrackedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+  if (next == poses_.end()) return std::nullopt;
+  if (next == poses_.begin() || next->stamp_ns == stamp_ns)
+  {
+    TrackedPose pose = *next;
+    pose.stamp_ns = stamp_ns;
+    return pose;
+  }
+  const TrackedPose& before = *std::prev(next);
+  const double gap = secondsBetween(before.stamp_ns, next->stamp_ns);
+  if (gap > kMaxGap) return std::nullopt;
+  const double fraction = secondsBetween(before.stamp_ns, stamp_ns) / gap;
+  const Pose& a = before.T_world_body;
+  const Pose& b = next->T_world_body;
+  TrackedPose pose;
+  pose.stamp_ns = stamp_ns;
+  pose.T_world_body = {
+      a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
+  pose.covariance = (1.0 - fraction) * before.covariance + fraction * next->covariance;
+  pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
+  setVelocity(pose, before, *next);
+  return pose;
+}
+
+bool KeyFrameRule::accept(const Pose& T_world_body)
+{
+  if (last_)
+  {
+    const double moved = (T_world_body.p - last_->p).norm();
+    const double turned = logSO3(last_->R.transpose() * T_world_body.R).norm();
+    if (moved < distance_ && turned < angle_) return false;
+  }
+  last_ = T_world_body;
+  return true;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,86 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/math/time.h>
+#include <fastlio/run/run_health.h>
+
+#include <algorithm>
+
+namespace fastlio
+{
+namespace
+{
+// Trouble that comes again within this time belongs to the same stretch.
+constexpr double kStretchGap = 1.0;  // [s]
+constexpr std::size_t kLeastScans = 3;
+}  // namespace
+
+void RunHealth::add(const ScanResult& result)
+{
+  if (seen_ == 0) begin_ns_ = result.begin_ns;
+  end_ns_ = result.stamp_ns;
+  const std::size_t index = seen_++;
+  if (scans_ == 0 && result.status == ScanStatus::Initializing) return;
+  ++scans_;
+  sum_ += result.health.value;
+  worst_ = std::min(worst_, result.health.value);
+  if (result.health.value >= kTroubledHealth) return;
+  ++troubled_;
+  ++causes_[result.health.cause];
+  extendStretch(result);
+  if (first_) return;
+  first_ = Trouble{index, result.stamp_ns, toSeconds(result.stamp_ns - begin_ns_), result.health};
+}
+
+void RunHealth::addLostEnd(std::int64_t until_ns, std::size_t scans, const std::string& reason)
+{
+  Growing& growing = stretchAt(end_ns_);
+  UntrustedStretch& stretch = growing.stretch;
+  stretch.end_ns = until_ns;
+  stretch.end_s = toSeconds(until_ns - begin_ns_);
+  stretch.scans += scans;
+  stretch.cause = HealthCause::ScanTiming;
+  stretch.reason = reason;
+}
+
+/** The stretch that goes on, or a new one. */
+RunHealth::Growing& RunHealth::stretchAt(std::int64_t stamp_ns)
+{
+  if (stretches_.empty() || toSeconds(stamp_ns - stretches_.back().stretch.end_ns) > kStretchGap)
+  {
+    stretches_.emplace_back();
+    stretches_.back().stretch.begin_ns = stamp_ns;
+    stretches_.back().stretch.begin_s = toSeconds(stamp_ns - begin_ns_);
+  }
+  return stretches_.back();
+}
+
+void RunHealth::extendStretch(const ScanResult& result)
+{
+  Growing& growing = stretchAt(result.stamp_ns);
+  UntrustedStretch& stretch = growing.stretch;
+  stretch.end_ns = result.stamp_ns;
+  stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);
+  ++stretch.scans;
+  if (++growing.causes[result.health.cause] > growing.causes[stretch.cause] ||
+      stretch.cause == HealthCause::None)
+    stretch.cause = result.health.cause;
+  if (result.health.value >= growing.worst) return;
+  growing.worst = result.health.value;
+  stretch.reason = result.health.reason;
+}
+
+std::vector<UntrustedStretch> RunHealth::untrusted() const
+{
+  std::vector<UntrustedStretch> stretches;
+  for (const Growing& growing : stretches_)
+    if (growing.stretch.scans >= kLeastScans) stretches.push_back(growing.stretch);
+  return stretches;
+}
+
+double RunHealth::mean() const
+{
+  return scans_ > 0 ? sum_ / static_cast<double>(scans_) : 0.0;
+}
+
+}  // namespace fastlio

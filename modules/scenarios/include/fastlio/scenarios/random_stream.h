@@ -1,0 +1,74 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file random_stream.h Independent random numbers per purpose, so that switching one source of
+ * noise on leaves all others as they were. */
+#pragma once
+
+#include <fastlio/math/so3.h>
+
+#include <cstdint>
+#include <random>
+
+namespace fastlio
+{
+/** The uses of random numbers. */
+enum class NoiseSource : std::uint32_t
+{
+  GyroBias = 1,
+  AccelBias,
+  GyroWhite,
+  AccelWhite,
+  GyroWalk,
+  AccelWalk,
+  StampJitter,
+  ImuDropout,
+  Vibration,
+  Range,
+  RangeDropout,
+  ImuErrors,
+  LaserRange,
+  LaserElevation,
+  Mounting,
+  CarrierVibration,
+  FalseReturn,
+  PacketLoss,
+  Outage,
+  GnssWhite,
+  GnssDrift,
+  GnssOutage,
+  GnssMultipath,
+  Wheels,
+  Session
+};
+
+/** A sequence that depends on seed, source and index only. */
+class RandomStream
+{
+ public:
+  RandomStream(std::uint64_t seed, NoiseSource source, std::uint64_t index = 0)
+  {
+    std::seed_seq sequence{
+        static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+        static_cast<std::uint32_t>(source), static_cast<std::uint32_t>(index),
+        static_cast<std::uint32_t>(index >> 32U)};
+    engine_.seed(sequence);
+  }
+
+  /** Standard normal. */
+  [[nodiscard]] double normal() { return normal_(engine_); }
+  /** In [0, 1). */
+  [[nodiscard]] double uniform() { return uniform_(engine_); }
+  [[nodiscard]] Vec3 normal3()
+  {
+    const double x = normal(), y = normal(), z = normal();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_;
+};
+
+}  // namespace fastlio

@@ -1,0 +1,62 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file world.h The world around the LiDAR: bodies at rest, ground and moving objects. */
+#pragma once
+
+#include <fastlio/worlds/height_field.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** A body that swings to and fro: its centre is at p + amplitude sin(w t + phase). */
+struct MovingObject
+{
+  Primitive body;                  //!< at the centre of its path
+  Vec3 amplitude = Vec3::Zero();   //!< [m]
+  double angular_frequency = 0.0;  //!< w [rad/s]
+  double phase = 0.0;              //!< [rad]
+
+  /** The body where it is at t [s]. */
+  [[nodiscard]] Primitive at(double t) const;
+};
+
+/** The parts of a world. */
+struct WorldDescription
+{
+  std::vector<Primitive> bodies;
+  std::vector<MovingObject> moving;
+  std::optional<HeightField> ground;
+};
+
+/** A world to cast rays into; immutable, usable from many threads at once. */
+class World
+{
+ public:
+  explicit World(WorldDescription description);
+
+  /** The nearest surface within max_range [m] along the ray at t [s]. */
+  [[nodiscard]] std::optional<RayHit> cast(const Ray& ray, double t, double max_range) const;
+
+  [[nodiscard]] const WorldDescription& description() const { return description_; }
+
+ private:
+  /** Node of the bounding volume hierarchy over the bodies: a leaf when count is not zero. */
+  struct Node
+  {
+    Bounds bounds;
+    std::uint32_t first = 0;  //!< leaf: first body; else: the right child (the left one follows)
+    std::uint32_t count = 0;
+  };
+
+  std::uint32_t build(std::uint32_t first, std::uint32_t last);
+  [[nodiscard]] std::optional<RayHit> castBodies(const Ray& ray, double max_range) const;
+
+  WorldDescription description_;
+  std::vector<Node> nodes_;
+  std::vector<Bounds> swept_;  //!< of the moving objects
+};
+
+}  // namespace fastlio

@@ -1,0 +1,189 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/worlds/primitive.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kNearestHit = 1e-6;
+constexpr double kNoHit = std::numeric_limits<double>::infinity();
+
+/** Distance along the ray and outward normal, both in the primitive's frame. */
+struct LocalHit
+{
+  double t = kNoHit;
+  Vec3 normal = Vec3::UnitZ();
+};
+
+void keepNearer(LocalHit& best, double t, const Vec3& normal)
+{
+  if (t > kNearestHit && t < best.t) best = {t, normal};
+}
+
+LocalHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
+{
+  const double t = -o.z() / d.z();
+  const Vec3 p = o + t * d;
+  LocalHit hit;
+  if (std::abs(p.x()) <= size.x() && std::abs(p.y()) <= size.y()) keepNearer(hit, t, Vec3::UnitZ());
+  return hit;
+}
+
+LocalHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
+{
+  double enter = -kNoHit, leave = kNoHit;
+  int enter_axis = 0, leave_axis = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const double inverse = 1.0 / d[i];
+    const double a = (-size[i] - o[i]) * inverse;
+    const double b = (size[i] - o[i]) * inverse;
+    if (std::min(a, b) > enter) enter = std::min(a, b), enter_axis = i;
+    if (std::max(a, b) < leave) leave = std::max(a, b), leave_axis = i;
+  }
+  LocalHit hit;
+  if (enter > leave) return hit;
+  keepNearer(hit, enter, Vec3::Unit(enter_axis));
+  keepNearer(hit, leave, Vec3::Unit(leave_axis));
+  return hit;
+}
+
+LocalHit hitSphere(const Vec3& o, const Vec3& d, double radius)
+{
+  const double b = o.dot(d);
+  const double discriminant = b * b - o.squaredNorm() + radius * radius;
+  LocalHit hit;
+  if (discriminant < 0.0) return hit;
+  const double root = std::sqrt(discriminant);
+  for (const double t : {-b - root, -b + root})
+    keepNearer(hit, t, (o + t * d) / radius);
+  return hit;
+}
+
+/** Whether there is a leaf in a cell: a fixed number per cell, since trees stand still. */
+bool holdsLeaf(const Vec3& p, double cell, double share)
+{
+  constexpr std::array<std::uint64_t, 3> kPrimes{73856093U, 19349663U, 83492791U};
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const double index = std::floor(p[static_cast<Eigen::Index>(i)] / cell);
+    hash ^= static_cast<std::uint64_t>(static_cast<std::int64_t>(index)) * kPrimes[i];
+  }
+  hash = (hash ^ (hash >> 31U)) * 0x9E3779B97F4A7C15U;
+  return static_cast<double>(hash >> 40U) < share * 16777216.0;
+}
+
+LocalHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
+{
+  constexpr double kLeaf = 0.1, kFreePath = 0.6;  // [m]
+  const double b = o.dot(d);
+  const double discriminant = b * b - o.squaredNorm() + radius * radius;
+  LocalHit hit;
+  if (discriminant < 0.0) return hit;
+  const double leave = -b + std::sqrt(discriminant);
+  for (double t = std::max(-b - std::sqrt(discriminant), 0.0) + 0.5 * kLeaf; t < leave; t += kLeaf)
+    if (holdsLeaf(o + t * d, kLeaf, kLeaf / kFreePath))
+    {
+      keepNearer(hit, t, -d);
+      return hit;
+    }
+  return hit;
+}
+
+LocalHit hitCylinder(const Vec3& o, const Vec3& d, const Vec3& size)
+{
+  LocalHit hit;
+  const double radius = size.x();
+  for (const double lid : {-size.z(), size.z()})
+  {
+    const double t = (lid - o.z()) / d.z();
+    const Vec3 p = o + t * d;
+    if (p.x() * p.x() + p.y() * p.y() <= radius * radius) keepNearer(hit, t, Vec3::UnitZ());
+  }
+  const double a = d.x() * d.x() + d.y() * d.y();
+  const double b = o.x() * d.x() + o.y() * d.y();
+  const double c = o.x() * o.x() + o.y() * o.y() - radius * radius;
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0.0 || a <= 0.0) return hit;
+  const double root = std::sqrt(discriminant);
+  for (const double t : {(-b - root) / a, (-b + root) / a})
+  {
+    const Vec3 p = o + t * d;
+    if (std::abs(p.z()) <= size.z()) keepNearer(hit, t, Vec3(p.x(), p.y(), 0.0) / radius);
+  }
+  return hit;
+}
+
+LocalHit hitShape(const Primitive& primitive, const Vec3& o, const Vec3& d)
+{
+  switch (primitive.shape)
+  {
+    case Primitive::Shape::Rectangle:
+      return hitRectangle(o, d, primitive.size);
+    case Primitive::Shape::Box:
+      return hitBox(o, d, primitive.size);
+    case Primitive::Shape::Cylinder:
+      return hitCylinder(o, d, primitive.size);
+    case Primitive::Shape::Sphere:
+      return hitSphere(o, d, primitive.size.x());
+    case Primitive::Shape::Foliage:
+      return hitFoliage(o, d, primitive.size.x());
+  }
+  return {};
+}
+
+Vec3 localHalfExtents(const Primitive& primitive)
+{
+  const Vec3& s = primitive.size;
+  switch (primitive.shape)
+  {
+    case Primitive::Shape::Rectangle:
+      return {s.x(), s.y(), 0.0};
+    case Primitive::Shape::Box:
+      return s;
+    case Primitive::Shape::Cylinder:
+      return {s.x(), s.x(), s.z()};
+    case Primitive::Shape::Sphere:
+    case Primitive::Shape::Foliage:
+      return Vec3::Constant(s.x());
+  }
+  return s;
+}
+}  // namespace
+
+std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)
+{
+  const Mat3& R = primitive.T_world_local.R;
+  const Vec3 o = R.transpose() * (ray.origin - primitive.T_world_local.p);
+  const Vec3 d = R.transpose() * ray.direction;
+  const LocalHit hit = hitShape(primitive, o, d);
+  if (!(hit.t < kNoHit)) return std::nullopt;
+  const Vec3 towards = hit.normal.dot(d) > 0.0 ? Vec3(-hit.normal) : hit.normal;
+  const bool flat =
+      primitive.shape == Primitive::Shape::Rectangle || primitive.shape == Primitive::Shape::Box;
+  return RayHit{hit.t, R * towards, primitive.reflectivity, flat};
+}
+
+void Bounds::include(const Bounds& other)
+{
+  min = min.cwiseMin(other.min);
+  max = max.cwiseMax(other.max);
+}
+
+Bounds boundsOf(const Primitive& primitive)
+{
+  const Vec3 half = primitive.T_world_local.R.cwiseAbs() * localHalfExtents(primitive) +
+                    Vec3::Constant(1e-9);  // rounding must not lose grazing hits
+  return {primitive.T_world_local.p - half, primitive.T_world_local.p + half};
+}
+
+}  // namespace fastlio
