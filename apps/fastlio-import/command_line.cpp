@@ -45,10 +45,16 @@ void addOutput(CLI::App& app, ImportArguments& arguments)
          "and "
          "tools of ROS")
       ->type_name("FILE");
+  auto* run = app.add_option(
+                     "--run", arguments.run,
+                     "Also write the results of this run into the MCAP: the output folder of "
+                     "fastlio-replay, with trajectory, covariance, map and diagnostics")
+                  ->type_name("DIR");
   app.add_option(
          "--trajectory", arguments.trajectory,
-         "Also write this trajectory of a run (--output-tum-path of fastlio-replay) into the MCAP")
-      ->type_name("FILE");
+         "Also write this trajectory only (--output-tum-path of fastlio-replay) into the MCAP")
+      ->type_name("FILE")
+      ->excludes(run);
   app.add_option(
          "--compression", arguments.output.compression,
          "Of the rawlog: gzip (every MRPT reads it), zstd (MRPT 2.15.7 and newer, and this "
@@ -129,8 +135,8 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
     app.parse(argc, argv);
     if (!arguments.list && arguments.output.path.empty())
       throw CLI::RequiredError("--output (or --list)");
-    if (!arguments.trajectory.empty() && !isMcapName(arguments.output.path))
-      throw CLI::ValidationError("--trajectory", "goes with an --output that ends in .mcap");
+    if (!(arguments.trajectory + arguments.run).empty() && !isMcapName(arguments.output.path))
+      throw CLI::ValidationError("--run, --trajectory", "go with an --output that ends in .mcap");
     if (isMcapName(arguments.output.path) &&
         (arguments.output.split_mib > 0 || arguments.output.split_seconds > 0))
       throw CLI::ValidationError("--split-size, --split-time", "are for rawlogs, not for MCAP");

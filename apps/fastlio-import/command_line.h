@@ -27,7 +27,7 @@ struct ImportArguments
   RawlogParts::Options output;
   bool overwrite = false, list = false, quiet = false;
   bool merge = false;                  //!< the inputs were recorded at the same time
-  std::string trajectory;              //!< to be written with it, MCAP only
+  std::string run, trajectory;         //!< folder or file to be written with it, MCAP only
   std::string lidar_topic, imu_topic;  //!< regular expressions; empty: all
   PointTimeReading point_times{PointTimeUnit::Auto, PointTimeReference::Auto};
 };

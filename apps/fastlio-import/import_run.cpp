@@ -39,10 +39,17 @@ struct Written
   std::int64_t first_ns = 0, last_ns = 0;
 };
 
+RunResults resultsOf(const ImportArguments& arguments)
+{
+  if (!arguments.run.empty()) return readRunFolder(arguments.run);
+  if (!arguments.trajectory.empty()) return readRunTrajectory(arguments.trajectory);
+  return {};
+}
+
 std::unique_ptr<ImportOutput> outputOf(const ImportArguments& arguments)
 {
   if (isMcapName(arguments.output.path))
-    return std::make_unique<McapOutput>(arguments.output.path, arguments.trajectory);
+    return std::make_unique<McapOutput>(arguments.output.path, resultsOf(arguments));
   return std::make_unique<RawlogParts>(arguments.output);
 }
 
@@ -144,6 +151,8 @@ void requireHarmlessOutput(const ImportArguments& arguments)
     inputs.push_back({file, "input"});
   if (!arguments.trajectory.empty()) inputs.push_back({arguments.trajectory, "--trajectory"});
   const std::string first = RawlogParts::pathOfPart(arguments.output, 0);
+  for (const char* name : {"covariance.csv", "trajectory.tum", "map.ply", "timing.csv"})
+    if (!arguments.run.empty()) inputs.push_back({arguments.run + "/" + name, "--run"});
   requireDistinctFiles(inputs, {{first, "--output"}});
   for (const std::string& input : arguments.input_files)
     if (std::filesystem::is_directory(input) && isBelow(first, input))

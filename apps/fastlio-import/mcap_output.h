@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file mcap_output.h Observations, and the trajectory of a run, as MCAP. */
+/** \file mcap_output.h Observations, and the results of a run, as MCAP. */
 #pragma once
 
 #include "rawlog_parts.h"
-#include <fastlio/evaluation/trajectory.h>
+#include "run_results.h"
 #include <fastlio/recordings/mcap_writer.h>
 
 #include <cstddef>
@@ -19,18 +19,17 @@ namespace fastlio
 class McapOutput : public ImportOutput
 {
  public:
-  /** \param trajectory of the vehicle, a file of fastlio-replay; empty: none
-   * \exception std::runtime_error it cannot be read, or the output cannot be opened */
-  McapOutput(const std::string& path, const std::string& trajectory);
+  /** \exception std::runtime_error the output cannot be opened */
+  McapOutput(const std::string& path, RunResults results);
 
   bool write(const mrpt::obs::CObservation& observation) override;
   [[nodiscard]] std::vector<OutputFile> finish() override;
 
  private:
-  void writePosesUntil(std::int64_t stamp_ns);
+  void writeResultsUntil(std::int64_t stamp_ns);
 
-  Trajectory trajectory_;
-  std::size_t next_pose_ = 0;
+  RunResults results_;
+  std::size_t next_pose_ = 0, next_diagnostic_ = 0;
   McapWriter writer_;
   bool anything_ = false;
 };

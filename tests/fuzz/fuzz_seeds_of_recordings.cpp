@@ -5,6 +5,7 @@
 #include "fuzz_targets.h"
 #include "ros2_writers.h"
 #include "test_files.h"
+#include "turning_lidars.h"
 #include "velodyne_packets.h"
 
 #include <fstream>
@@ -86,6 +87,28 @@ std::vector<Seed> messageSeeds()
   return seeds;
 }
 
+/** One of each layout of Hesai and RoboSense. */
+std::vector<SentPacket> turningPackets()
+{
+  TurningPacket packet;
+  packet.stamp_ns = kStart;
+  packet.azimuths = {0, 18, 36, 54, 72, 90, 108, 126};
+  std::vector<double> elevations(96);
+  for (std::size_t i = 0; i < elevations.size(); ++i)
+    elevations[i] = 0.5 * static_cast<double>(i);
+  std::vector<SentPacket> packets;
+  std::uint8_t sender = 1;
+  for (const std::string& bytes :
+       {xtPacket(packet), qtPacket(packet), pandar64Packet(packet), pandar40Packet(packet),
+        pandar128Packet(packet, 0x14), rs16Packet(packet), heliosPacket(packet), airyPacket(packet),
+        airyImuPacket(kStart, {1, 2, 3, 4, 5, 6}), m1Packet(kStart, 1)})
+  {
+    packets.push_back({kStart, 7788, devicePacket(elevations, 1e-2, 96), sender});
+    packets.push_back({kStart, 6699, bytes, sender++});
+  }
+  return packets;
+}
+
 std::vector<Seed> captureSeeds()
 {
   std::vector<SentPacket> packets{{kStart, 2368, seedPackets()[0]}};
@@ -96,7 +119,9 @@ std::vector<Seed> captureSeeds()
   packets.push_back({kStart, 60001, "\5" + std::string(8, '\0') + "\6" + std::string(32, '\1')});
   packets.push_back(
       {kStart, 56401, std::string("\0\x3C\0", 3) + std::string(33, '\0') + std::string(24, '\1')});
+  const std::vector<SentPacket> turning = turningPackets();
   return {
+      {"hesai-robosense", captureOf(turning)},
       {"pcap", captureOf(packets)},
       {"fragments", captureOf(packets, {400, true, false})},
       {"pcapng", captureOf(packets, {65000, false, true})}};

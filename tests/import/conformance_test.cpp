@@ -11,6 +11,7 @@
 
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace fastlio::testing
@@ -128,6 +129,24 @@ TEST_F(Conformance, OurMcapIsReadByMcapCore)
                        fixedText(forces, 3) + "\n/lidar sensor_msgs/msg/PointCloud2 " +
                        std::to_string(clouds) + " " + std::to_string(points) +
                        ".000\n/tf_static tf2_msgs/msg/TFMessage 2 2.000\n");
+}
+
+TEST_F(Conformance, ResultsOfARunAreReadByMcapCore)
+{
+  const char* modules = std::getenv("FASTLIO_NODE_MODULES");
+  if (modules == nullptr || run({"/usr/bin/env", "node", "--version"}).exit_status != 0)
+    GTEST_SKIP() << "needs node, and FASTLIO_NODE_MODULES, as OurMcapIsReadByMcapCore";
+  const std::string rawlog = rawlogOf(), walk = folder_.file("walk"), mcap = folder_.file("w.mcap");
+  ASSERT_EQ(run({FASTLIO_REPLAY_PROGRAM, rawlog, "-o", walk}).exit_status, 0);
+  ASSERT_EQ(run({FASTLIO_IMPORT_PROGRAM, rawlog, "-o", mcap, "--run", walk}).exit_status, 0);
+  const std::string poses = fastlio::testing::bytesOf(walk + "/trajectory.tum");
+  const std::string n = std::to_string(std::count(poses.begin(), poses.end(), '\n'));
+  const auto read = run({"/usr/bin/env", "node", script("read_mcap.cjs"), mcap});
+  for (const std::string& line :
+       {"/odometry nav_msgs/msg/Odometry " + n + " " + n + ".000\n",  // each with a covariance
+        std::string("/diagnostics diagnostic_msgs/msg/DiagnosticArray "),
+        std::string("/map sensor_msgs/msg/PointCloud2 1 ")})
+    EXPECT_NE(read.output.find(line), std::string::npos) << line << read.output;
 }
 }  // namespace
 }  // namespace fastlio::testing

@@ -15,7 +15,8 @@ const content = {
   "sensor_msgs/msg/Imu": (m) => m.linear_acceleration.z,
   "sensor_msgs/msg/PointCloud2": (m) => m.width,
   "velodyne_msgs/msg/VelodyneScan": (m) => m.packets.length,
-  "nav_msgs/msg/Odometry": (m) => m.pose.pose.position.x,
+  "nav_msgs/msg/Odometry": (m) => (m.pose.covariance[0] > 0 ? 1 : 0),
+  "diagnostic_msgs/msg/DiagnosticArray": (m) => m.status[0].values.length,
   "tf2_msgs/msg/TFMessage": (m) => m.transforms.length,
 };
 

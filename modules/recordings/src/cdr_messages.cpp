@@ -3,6 +3,7 @@
 
 #include "cdr_messages.h"
 
+#include "cdr_clouds.h"
 #include "point_grid.h"
 #include "velodyne_scans.h"
 #include <fastlio/math/time.h>
@@ -20,14 +21,6 @@ namespace
 {
 constexpr std::int64_t kNsInSecond = 1'000'000'000;
 constexpr double kLongestOffset = 4.0;  // that 32 bits of nanoseconds hold [s]
-
-/** A field of the clouds that are written. */
-struct WrittenField
-{
-  const char* name;
-  std::uint32_t offset;
-  PointFieldType type;
-};
 
 bool areOffsets(const std::vector<double>& times)
 {
@@ -142,26 +135,7 @@ std::string cloudMessageOf(
     fields.push_back({"t", kTimeAt, offsets ? kUint32 : kFloat64});
     step += offsets ? 4U : 8U;
   }
-  const auto n = static_cast<std::uint32_t>(columns.size());
-  CdrWriter out;
-  out.header(stamp_ns, frame);
-  out.number(std::uint32_t{1});
-  out.number(n);
-  out.number(static_cast<std::uint32_t>(fields.size()));
-  for (const WrittenField& field : fields)
-  {
-    out.text(field.name);
-    out.number(field.offset);
-    out.number(static_cast<std::uint8_t>(field.type));
-    out.number(std::uint32_t{1});
-  }
-  out.number(std::uint8_t{0});  // little endian
-  out.number(step);
-  out.number(n * step);
-  out.number(n * step);
-  out.raw(pointsOf(columns, offsets));
-  out.number(std::uint8_t{1});  // dense
-  return out.bytes();
+  return cloudMessage({stamp_ns, frame}, fields, step, columns.size(), pointsOf(columns, offsets));
 }
 
 std::string velodyneMessageOf(
@@ -195,18 +169,6 @@ std::string transformMessageOf(std::int64_t stamp_ns, const RosTransform& transf
   out.header(stamp_ns, transform.parent);
   out.text(transform.child);
   out.pose(transform.T_parent_child);
-  return out.bytes();
-}
-
-std::string odometryMessageOf(
-    std::int64_t stamp_ns, std::string_view frame, std::string_view child, const Pose& pose)
-{
-  constexpr std::size_t kCovariance = 36, kTwist = 6;
-  CdrWriter out;
-  out.header(stamp_ns, frame);
-  out.text(child);
-  out.pose(pose);
-  out.zeros(kCovariance + kTwist + kCovariance);
   return out.bytes();
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "ros_messages.h"
+#include <fastlio/recordings/mcap_writer.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/obs/CObservationIMU.h>
@@ -58,7 +59,16 @@ class CdrWriter
 
 [[nodiscard]] std::string transformMessageOf(std::int64_t stamp_ns, const RosTransform& transform);
 
+/** \param covariance as of McapWriter::writePose() */
 [[nodiscard]] std::string odometryMessageOf(
-    std::int64_t stamp_ns, std::string_view frame, std::string_view child, const Pose& pose);
+    std::int64_t stamp_ns, std::string_view frame, std::string_view child, const Pose& pose,
+    const std::optional<Matrix6>& covariance);
+
+/** Fields x, y, z. */
+[[nodiscard]] std::string mapMessageOf(
+    const std::vector<Vec3>& points, std::int64_t stamp_ns, std::string_view frame);
+
+[[nodiscard]] std::string diagnosticMessageOf(
+    std::int64_t stamp_ns, const DiagnosticStatus& status);
 
 }  // namespace fastlio

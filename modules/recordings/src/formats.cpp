@@ -32,7 +32,9 @@ const std::vector<RecordingFormat>& recordingFormats()
       {"rosbag2-sqlite", "bag of ROS 2 in SQLite (.db3)", isDb3, openMessages<Db3File>},
       {"rosbag2-zstd", "compressed file of a ROS 2 bag (.db3.zstd, .mcap.zstd)", isCompressedBag,
        openMessages<BagFolder>},
-      {"pcap", "capture of a network (.pcap, .pcapng) with Velodyne, Ouster or Livox", isCapture,
+      {"pcap",
+       "capture of a network (.pcap, .pcapng) with Velodyne, Ouster, Livox, Hesai or RoboSense",
+       isCapture,
        [](const std::string& path) -> std::unique_ptr<RecordingReader>
        { return std::make_unique<PcapRecording>(path); }},
       {"kitti-raw", "drive of KITTI's raw data (folder)", isKittiDrive, openKittiDrive},

@@ -5,6 +5,7 @@
 // communication protocol) and version 0 (HAP, Mid-360: Livox LiDAR communication protocol).
 
 #include "cloud_builder.h"
+#include "packet_numbers.h"
 #include "packet_sensor.h"
 #include "sensor_imu.h"
 #include <fastlio/math/angles.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 
 namespace fastlio
@@ -23,14 +23,6 @@ namespace
 constexpr std::int64_t kScanNs =
     100'000'000;  // the pattern does not repeat: Livox's own drivers do so
 constexpr std::size_t kMostPointsPerScan = 2'000'000;
-
-template <typename T>
-T numberAt(const std::uint8_t* bytes)
-{
-  T value{};
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
 
 enum class LivoxPoints : std::uint8_t
 {
@@ -89,7 +81,7 @@ std::int64_t fromUtc(const std::uint8_t* bytes)
   date.tm_mday = bytes[2];
   date.tm_hour = bytes[3];
   return std::int64_t{timegm(&date)} * 1'000'000'000 +
-         std::int64_t{numberAt<std::uint32_t>(bytes + 4)} * 1000;
+         std::int64_t{littleAt<std::uint32_t>(bytes + 4)} * 1000;
 }
 
 std::optional<LivoxPacket> firstGeneration(const UdpPacket& packet)
@@ -106,7 +98,7 @@ std::optional<LivoxPacket> firstGeneration(const UdpPacket& packet)
   const std::uint8_t* stamp = packet.data + kStamp;
   result.stamp_ns = packet.data[kStampType] == kUtc
                         ? fromUtc(stamp)
-                        : static_cast<std::int64_t>(numberAt<std::uint64_t>(stamp));
+                        : static_cast<std::int64_t>(littleAt<std::uint64_t>(stamp));
   result.lines = type < 2 ? 1 : 6;
   return result;
 }
@@ -115,18 +107,18 @@ std::optional<LivoxPacket> secondGeneration(const UdpPacket& packet)
 {
   constexpr std::size_t kHead = 36, kInterval = 3, kCount = 5, kType = 10, kStamp = 28;
   if (packet.size < kHead || packet.data[0] != 0) return std::nullopt;
-  if (numberAt<std::uint16_t>(packet.data + 1) != packet.size) return std::nullopt;
+  if (littleAt<std::uint16_t>(packet.data + 1) != packet.size) return std::nullopt;
   const std::uint8_t type = packet.data[kType];
   if (type >= kSecondGeneration.size()) return std::nullopt;
   LivoxPacket result;
   result.layout = kSecondGeneration.at(type);
-  const std::size_t n = numberAt<std::uint16_t>(packet.data + kCount);
+  const std::size_t n = littleAt<std::uint16_t>(packet.data + kCount);
   result.layout.count = result.layout.kind == LivoxPoints::Imu ? 1 : n;
   if (packet.size < kHead + result.layout.count * result.layout.bytes) return std::nullopt;
   result.data = packet.data + kHead;
-  result.stamp_ns = static_cast<std::int64_t>(numberAt<std::uint64_t>(packet.data + kStamp));
+  result.stamp_ns = static_cast<std::int64_t>(littleAt<std::uint64_t>(packet.data + kStamp));
   // From the first point of the packet to the last one, in 0.1 us.
-  const double span_ns = 100.0 * numberAt<std::uint16_t>(packet.data + kInterval);
+  const double span_ns = 100.0 * littleAt<std::uint16_t>(packet.data + kInterval);
   result.layout.interval_ns = n > 1 ? span_ns / static_cast<double>(n - 1) : 0.0;
   result.lines = 4;
   return result;
@@ -150,9 +142,9 @@ struct LivoxPoint
 
 LivoxPoint spherical(const std::uint8_t* at)
 {
-  const double range = 1e-3 * numberAt<std::uint32_t>(at);
-  const double zenith = 1e-2 * kRadPerDeg * numberAt<std::uint16_t>(at + 4);
-  const double azimuth = 1e-2 * kRadPerDeg * numberAt<std::uint16_t>(at + 6);
+  const double range = 1e-3 * littleAt<std::uint32_t>(at);
+  const double zenith = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 4);
+  const double azimuth = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 6);
   return {
       static_cast<float>(range * std::sin(zenith) * std::cos(azimuth)),
       static_cast<float>(range * std::sin(zenith) * std::sin(azimuth)),
@@ -162,9 +154,9 @@ LivoxPoint spherical(const std::uint8_t* at)
 LivoxPoint pointAt(const std::uint8_t* at, LivoxPoints kind)
 {
   const auto mm = [at](std::size_t i)
-  { return static_cast<float>(1e-3 * numberAt<std::int32_t>(at + 4 * i)); };
+  { return static_cast<float>(1e-3 * littleAt<std::int32_t>(at + 4 * i)); };
   const auto cm = [at](std::size_t i)
-  { return static_cast<float>(1e-2 * numberAt<std::int16_t>(at + 2 * i)); };
+  { return static_cast<float>(1e-2 * littleAt<std::int16_t>(at + 2 * i)); };
   if (kind == LivoxPoints::Cartesian) return {mm(0), mm(1), mm(2), at[12]};
   if (kind == LivoxPoints::Coarse) return {cm(0), cm(1), cm(2), at[6]};
   return spherical(at);
@@ -202,7 +194,7 @@ class LivoxSensor : public PacketSensor
   void takeImu(const LivoxPacket& packet, ObservationQueue& out) const
   {
     const auto value = [&](std::size_t i)
-    { return static_cast<double>(numberAt<float>(packet.data + 4 * i)); };
+    { return static_cast<double>(littleAt<float>(packet.data + 4 * i)); };
     out.push_back(makeImu(
         label_ + "_imu", packet.stamp_ns, Vec3(value(0), value(1), value(2)),
         kStandardGravity * Vec3(value(3), value(4), value(5))));
@@ -270,7 +262,7 @@ bool isLivoxImu(const UdpPacket& packet)
   return livox && livox->layout.kind == LivoxPoints::Imu;
 }
 
-std::unique_ptr<PacketSensor> makeLivoxSensor(const std::string& label)
+std::unique_ptr<PacketSensor> makeLivoxSensor(const std::string& label, const Sidecars&)
 {
   return std::make_unique<LivoxSensor>(label);
 }

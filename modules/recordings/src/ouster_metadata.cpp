@@ -111,11 +111,27 @@ void readBeams(const Json& all, OusterMetadata& metadata)
     metadata.beam_origin.x() = 1e-3 * beams.value("lidar_origin_to_beam_origin_mm", 0.0);
 }
 
+/** The profile of the IMU stands beside that of the LiDAR, or in the configuration. */
+void readImuFormat(const Json& all, OusterMetadata& metadata)
+{
+  const Json& format = part(all, "lidar_data_format");
+  const Json& config = part(all, "config_params");
+  const std::string profile =
+      format.value("udp_profile_imu", config.value("udp_profile_imu", "LEGACY"));
+  if (profile == "LEGACY") return;
+  if (profile != "ACCEL32_GYRO32_NMEA")
+    throw std::runtime_error(
+        "the profile '" + printable(profile) + "' of its inertial packets is not known");
+  metadata.imu_samples =
+      all.at("imu_data_format").at("imu_measurements_per_packet").get<std::size_t>();
+}
+
 void requireSane(const OusterMetadata& metadata)
 {
   constexpr std::size_t kMostPixels = 1024, kMostColumns = 65536, kMostPerPacket = 1024;
   const auto within = [](std::size_t n, std::size_t most) { return n > 0 && n <= most; };
-  if (!within(metadata.pixels, kMostPixels) || !within(metadata.columns_per_frame, kMostColumns) ||
+  if (metadata.imu_samples > kMostPerPacket || !within(metadata.pixels, kMostPixels) ||
+      !within(metadata.columns_per_frame, kMostColumns) ||
       !within(metadata.columns_per_packet, kMostPerPacket))
     throw std::runtime_error("its numbers of pixels or columns make no sense");
   if (metadata.altitude.size() != metadata.pixels || metadata.azimuth.size() != metadata.pixels)
@@ -171,6 +187,13 @@ std::size_t OusterMetadata::packetBytes() const
   return kHead + columns_per_packet * (kShort + column) + kFoot;
 }
 
+std::size_t OusterMetadata::imuBytes() const
+{
+  constexpr std::size_t kLegacy = 48, kFoot = 32;
+  if (imu_samples == 0) return kLegacy;
+  return kOusterImuHead + imu_samples * kOusterSampleBytes + kFoot;
+}
+
 OusterMetadata parseOusterMetadata(const std::string& text)
 try
 {
@@ -178,6 +201,7 @@ try
   OusterMetadata metadata;
   readBeams(all, metadata);
   readFormat(all, metadata);
+  readImuFormat(all, metadata);
   requireSane(metadata);
   metadata.T_sensor_lidar = poseIn(part(all, "lidar_intrinsics"), "lidar_to_sensor_transform");
   metadata.T_sensor_imu = poseIn(part(all, "imu_intrinsics"), "imu_to_sensor_transform");

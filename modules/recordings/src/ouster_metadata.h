@@ -37,14 +37,19 @@ struct OusterMetadata
   Vec3 beam_origin = Vec3::Zero();        //!< in the frame that turns with the beams
   Pose T_sensor_lidar, T_sensor_imu;
   std::uint16_t lidar_port = 0, imu_port = 0;  //!< 0: not given
+  std::size_t imu_samples = 0;  //!< in a packet of the newer profile; 0: the older one
 
   [[nodiscard]] bool isLegacy() const { return profile.name == "LEGACY"; }
   /** Of a packet without the heads of the network. */
   [[nodiscard]] std::size_t packetBytes() const;
+  [[nodiscard]] std::size_t imuBytes() const;
 };
 
-/** Of the IMU's packets. */
-inline constexpr std::size_t kOusterImuBytes = 48;
+/** \name The IMU's packets of the newer profile (ACCEL32_GYRO32_NMEA): a head, a sentence of a GNSS
+ * receiver, the samples, a foot.
+ * @{ */
+inline constexpr std::size_t kOusterImuHead = 32 + 100, kOusterSampleBytes = 36;
+/** @} */
 
 /** All forms since firmware 1.13. \a text comes from a file or from a topic.
  * \exception std::runtime_error it is not metadata, or of a profile that is not read */

@@ -6,13 +6,13 @@
 #include "ouster_sensor.h"
 
 #include "cloud_builder.h"
+#include "packet_numbers.h"
 #include "sensor_imu.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <cmath>
-#include <cstring>
 
 namespace fastlio
 {
@@ -21,13 +21,11 @@ namespace
 constexpr std::size_t kLegacyColumnHead = 16, kLegacyColumnFoot = 4;
 constexpr std::size_t kPacketHead = 32, kColumnHead = 12;
 
-template <typename T>
-T ousterNumber(const std::uint8_t* bytes)
+Vec3 vectorAt(const std::uint8_t* bytes)
 {
-  T value{};
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
+  return Vec3(littleAt<float>(bytes), littleAt<float>(bytes + 4), littleAt<float>(bytes + 8));
 }
+
 /** Clocks that have just begun are fine; others are damage. */
 bool isSane(std::int64_t stamp_ns)
 {
@@ -42,12 +40,12 @@ OusterSensor::OusterSensor(OusterMetadata metadata, std::string label)
 
 bool OusterSensor::isMine(const UdpPacket& packet) const
 {
-  return packet.size == metadata_.packetBytes() || packet.size == kOusterImuBytes;
+  return packet.size == metadata_.packetBytes() || packet.size == metadata_.imuBytes();
 }
 
 void OusterSensor::take(const UdpPacket& packet, ObservationQueue& out)
 {
-  if (packet.size == kOusterImuBytes)
+  if (packet.size == metadata_.imuBytes())
     takeImu(packet, out);
   else if (packet.size == metadata_.packetBytes())
     for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i)
@@ -56,19 +54,30 @@ void OusterSensor::take(const UdpPacket& packet, ObservationQueue& out)
 
 void OusterSensor::takeImu(const UdpPacket& packet, ObservationQueue& out) const
 {
-  constexpr std::size_t kGyroTime = 16, kAcceleration = 24, kRate = 36;
-  const auto vectorAt = [&](std::size_t at)
+  constexpr std::size_t kGyroTime = 16, kOldAcceleration = 24, kOldRate = 36;
+  constexpr std::size_t kStatus = 10, kAcceleration = 12, kRate = 24;
+  if (metadata_.imu_samples == 0)
   {
-    return Vec3(
-        ousterNumber<float>(packet.data + at), ousterNumber<float>(packet.data + at + 4),
-        ousterNumber<float>(packet.data + at + 8));
-  };
-  const auto stamp_ns =
-      static_cast<std::int64_t>(ousterNumber<std::uint64_t>(packet.data + kGyroTime));
+    addSample(
+        packet.data + kGyroTime, kRadPerDeg * vectorAt(packet.data + kOldRate),
+        kStandardGravity * vectorAt(packet.data + kOldAcceleration), out);
+    return;
+  }
+  for (std::size_t i = 0; i < metadata_.imu_samples; ++i)
+  {
+    const std::uint8_t* sample = packet.data + kOusterImuHead + i * kOusterSampleBytes;
+    const bool valid = (littleAt<std::uint16_t>(sample + kStatus) & 1U) != 0;
+    if (valid) addSample(sample, vectorAt(sample + kRate), vectorAt(sample + kAcceleration), out);
+  }
+}
+
+void OusterSensor::addSample(
+    const std::uint8_t* stamp, const Vec3& rate, const Vec3& acceleration,
+    ObservationQueue& out) const
+{
+  const auto stamp_ns = static_cast<std::int64_t>(littleAt<std::uint64_t>(stamp));
   if (!isSane(stamp_ns)) return;
-  auto imu = makeImu(
-      label_ + "_imu", stamp_ns, kRadPerDeg * vectorAt(kRate),
-      kStandardGravity * vectorAt(kAcceleration));
+  auto imu = makeImu(label_ + "_imu", stamp_ns, rate, acceleration);
   imu->setSensorPose(toMrptPose(metadata_.T_sensor_imu));
   out.push_back(imu);
 }
@@ -82,12 +91,12 @@ OusterSensor::Column OusterSensor::columnAt(const std::uint8_t* packet, std::siz
   const std::uint8_t* at = metadata_.isLegacy()
                                ? packet + index * (kLegacyColumnHead + pixels + kLegacyColumnFoot)
                                : packet + kPacketHead + index * (kColumnHead + pixels);
-  column.stamp_ns = static_cast<std::int64_t>(ousterNumber<std::uint64_t>(at));
-  column.id = ousterNumber<std::uint16_t>(at + kId);
+  column.stamp_ns = static_cast<std::int64_t>(littleAt<std::uint64_t>(at));
+  column.id = littleAt<std::uint16_t>(at + kId);
   column.pixels = at + (metadata_.isLegacy() ? kLegacyColumnHead : kColumnHead);
   column.valid = metadata_.isLegacy()
-                     ? ousterNumber<std::uint32_t>(column.pixels + pixels) == kLegacyValid
-                     : (ousterNumber<std::uint16_t>(at + kStatus) & 1U) != 0;
+                     ? littleAt<std::uint32_t>(column.pixels + pixels) == kLegacyValid
+                     : (littleAt<std::uint16_t>(at + kStatus) & 1U) != 0;
   column.valid = column.valid && column.id < metadata_.columns_per_frame && isSane(column.stamp_ns);
   return column;
 }
@@ -109,9 +118,8 @@ void OusterSensor::takeColumn(const Column& column, ObservationQueue& out)
   for (std::size_t i = 0; i < metadata_.pixels; ++i)
   {
     const std::uint8_t* pixel = column.pixels + i * profile.bytes;
-    const auto range = [&](std::size_t at) {
-      return (ousterNumber<std::uint32_t>(pixel + at) & profile.range_mask) << profile.range_shift;
-    };
+    const auto range = [&](std::size_t at)
+    { return (littleAt<std::uint32_t>(pixel + at) & profile.range_mask) << profile.range_shift; };
     const std::uint32_t first = range(0);
     add(first, pixel[profile.reflectivity], i, encoder, time);
     if (profile.second == 0) continue;

@@ -36,6 +36,9 @@ class OusterSensor : public PacketSensor
 
   [[nodiscard]] Column columnAt(const std::uint8_t* packet, std::size_t index) const;
   void takeImu(const UdpPacket& packet, ObservationQueue& out) const;
+  void addSample(
+      const std::uint8_t* stamp, const Vec3& rate, const Vec3& acceleration,
+      ObservationQueue& out) const;
   void takeColumn(const Column& column, ObservationQueue& out);
   void add(
       std::uint32_t range_mm, std::uint8_t reflectivity, std::size_t pixel, double encoder,

@@ -27,29 +27,63 @@ bool maybeOuster(std::size_t size)
       if (size == kHeads + 16 * beams * pixel) return true;
   return false;
 }
+
+std::string velodyneContent(const UdpPacket& /*packet*/)
+{
+  return "LiDAR, raw packets";
+}
+
+std::string livoxContent(const UdpPacket& packet)
+{
+  return isLivoxImu(packet) ? "IMU" : "LiDAR, scans of 0.1 s";
+}
+
+std::string hesaiContent(const UdpPacket& /*packet*/)
+{
+  return "LiDAR";
+}
+
+/** A row: a maker whose packets are recognised by their content. */
+struct PacketMaker
+{
+  const char* name;
+  const char* label;  //!< the address of the sender follows
+  bool (*recognises)(const UdpPacket&);
+  std::string (*content)(const UdpPacket&);  //!< for people
+  std::unique_ptr<PacketSensor> (*make)(const std::string& label, const Sidecars&);
+};
+
+constexpr std::array<PacketMaker, 4> kMakers{{
+    {"Velodyne", "velodyne_", isVelodynePacket, velodyneContent, makeVelodyneSensor},
+    {"Livox", "livox_", isLivoxPacket, livoxContent, makeLivoxSensor},
+    {"Hesai", "hesai_", isHesaiPacket, hesaiContent, makeHesaiSensor},
+    {"RoboSense", "robosense_", isRoboSensePacket, robosenseContent, makeRoboSenseSensor},
+}};
 }  // namespace
 
-PacketStreams::PacketStreams(const std::string& metadata)
+PacketStreams::PacketStreams(const std::string& metadata) : files_(std::make_unique<Sidecars>())
 {
   if (metadata.empty())
-    ouster_trouble_ = "the sensor's metadata is not given";
+    files_->ouster_trouble = "the sensor's metadata is not given";
   else
-    ouster_ = std::make_unique<OusterMetadata>(parseOusterMetadata(metadata));
+    files_->ouster = std::make_unique<OusterMetadata>(parseOusterMetadata(metadata));
 }
 
 PacketStreams PacketStreams::ofCapture(const std::string& path)
 {
   PacketStreams streams;
-  streams.ouster_trouble_ =
+  Sidecars& files = *streams.files_;
+  files.hesai_angles = hesaiAnglesBeside(path);
+  files.ouster_trouble =
       "put the sensor's metadata beside the capture, with its name and .json instead of .pcap";
   try
   {
     if (auto metadata = ousterMetadataBeside(path))
-      streams.ouster_ = std::make_unique<OusterMetadata>(std::move(*metadata));
+      files.ouster = std::make_unique<OusterMetadata>(std::move(*metadata));
   }
   catch (const std::runtime_error& e)
   {
-    streams.ouster_trouble_ = e.what();
+    files.ouster_trouble = e.what();
   }
   return streams;
 }
@@ -70,50 +104,53 @@ void PacketStreams::take(const UdpPacket& packet, ObservationQueue& out)
   if (stream.sensor == nullptr) return;
   if (stream.type == "Velodyne" && !isVelodynePacket(packet)) return;
   stream.sensor->take(packet, out);
+  note(*stream.sensor);
   ++stream.taken;
+}
+
+void PacketStreams::note(PacketSensor& sensor)
+{
+  if (std::string problem = sensor.takeProblem(); !problem.empty())
+    problems_.push_back(std::move(problem));
 }
 
 void PacketStreams::flush(ObservationQueue& out)
 {
   for (const auto& [label, sensor] : sensors_)
+  {
     sensor->flush(out);
-}
-
-PacketSensor* PacketStreams::sensorOf(
-    const std::string& label, std::unique_ptr<PacketSensor> (*make)(const std::string&))
-{
-  auto& sensor = sensors_[label];
-  if (!sensor) sensor = make(label);
-  return sensor.get();
+    note(*sensor);
+  }
 }
 
 void PacketStreams::recognise(const UdpPacket& packet, Stream& stream)
 {
-  if (isVelodynePacket(packet))
+  const auto maker = std::find_if(
+      kMakers.begin(), kMakers.end(),
+      [&packet](const PacketMaker& row) { return row.recognises(packet); });
+  if (maker == kMakers.end())
   {
-    stream.type = "Velodyne";
-    stream.reason = "LiDAR, raw packets";
-    stream.sensor = sensorOf("velodyne_" + packet.source, makeVelodyneSensor);
-  }
-  else if (isLivoxPacket(packet))
-  {
-    stream.type = "Livox";
-    stream.reason = isLivoxImu(packet) ? "IMU" : "LiDAR, scans of 0.1 s";
-    stream.sensor = sensorOf("livox_" + packet.source, makeLivoxSensor);
-  }
-  else
     recogniseOuster(packet, stream);
+    return;
+  }
+  const std::string label = maker->label + packet.source;
+  auto& sensor = sensors_[label];
+  if (!sensor) sensor = maker->make(label, *files_);
+  stream.type = maker->name;
+  stream.reason = maker->content(packet);
+  stream.sensor = sensor.get();
 }
 
 void PacketStreams::recogniseOuster(const UdpPacket& packet, Stream& stream)
 {
-  const bool imu = packet.size == kOusterImuBytes;
-  if (ouster_ && (packet.size == ouster_->packetBytes() ||
-                  (imu && (ouster_->imu_port == 0 || ouster_->imu_port == packet.port))))
+  const auto& ouster = files_->ouster;
+  const bool imu = ouster && packet.size == ouster->imuBytes();
+  if (ouster && (packet.size == ouster->packetBytes() ||
+                 (imu && (ouster->imu_port == 0 || ouster->imu_port == packet.port))))
   {
     const std::string label = "ouster_" + packet.source;
     auto& sensor = sensors_[label];
-    if (!sensor) sensor = std::make_unique<OusterSensor>(*ouster_, label);
+    if (!sensor) sensor = std::make_unique<OusterSensor>(*ouster, label);
     stream.type = "Ouster";
     stream.reason = imu ? "IMU, converted to rad/s and m/s^2" : "LiDAR";
     stream.sensor = sensor.get();
@@ -122,9 +159,9 @@ void PacketStreams::recogniseOuster(const UdpPacket& packet, Stream& stream)
   const bool first = stream.reason.empty();
   stream.reason = "not read: no LiDAR that this program knows";
   if (!maybeOuster(packet.size)) return;
-  const std::string why = ouster_ ? "the metadata ask for packets of " +
-                                        std::to_string(ouster_->packetBytes()) + " bytes"
-                                  : ouster_trouble_;
+  const std::string why =
+      ouster ? "the metadata ask for packets of " + std::to_string(ouster->packetBytes()) + " bytes"
+             : files_->ouster_trouble;
   stream.reason = "not read: packets of an Ouster, it seems; " + why;
   if (first)
     problems_.push_back(

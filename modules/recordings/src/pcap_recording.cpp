@@ -40,6 +40,7 @@ NextRecorded PcapRecording::end()
 {
   finished_ = true;
   streams_.flush(queue_);
+  problems_ = streams_.takeProblems();
   if (!capture_.failure().empty())
     return problem(
         ReadProblemKind::Truncated, "the capture cannot be read on (" +

@@ -17,7 +17,7 @@ struct Definition
   std::array<std::string_view, 4> parts;
 };
 
-constexpr std::array<Definition, 16> kDefinitions{{
+constexpr std::array<Definition, 19> kDefinitions{{
     {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n", {}},
     {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n", {}},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n", {}},
@@ -58,6 +58,14 @@ constexpr std::array<Definition, 16> kDefinitions{{
      "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
      "geometry_msgs/TwistWithCovariance twist\n",
      {"std_msgs/Header", "geometry_msgs/PoseWithCovariance", "geometry_msgs/TwistWithCovariance"}},
+    {"diagnostic_msgs/KeyValue", "string key\nstring value\n", {}},
+    {"diagnostic_msgs/DiagnosticStatus",
+     "byte OK=0\nbyte WARN=1\nbyte ERROR=2\nbyte STALE=3\nbyte level\nstring name\n"
+     "string message\nstring hardware_id\ndiagnostic_msgs/KeyValue[] values\n",
+     {"diagnostic_msgs/KeyValue"}},
+    {"diagnostic_msgs/DiagnosticArray",
+     "std_msgs/Header header\ndiagnostic_msgs/DiagnosticStatus[] status\n",
+     {"std_msgs/Header", "diagnostic_msgs/DiagnosticStatus"}},
     {"velodyne_msgs/VelodyneScan",
      "std_msgs/Header header\nvelodyne_msgs/VelodynePacket[] packets\n",
      {"std_msgs/Header"}},

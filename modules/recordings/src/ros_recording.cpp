@@ -62,6 +62,14 @@ bool tellsOfOthers(const RosTopic& topic)
   return topic.trouble.empty() && (role == RosRole::Transforms || role == RosRole::Text);
 }
 
+std::optional<PacketMessage> packetsOf(RosRole role)
+{
+  if (role == RosRole::FixedPackets) return PacketMessage::Fixed;
+  if (role == RosRole::VariedPackets) return PacketMessage::Varied;
+  if (role == RosRole::SinglePackets) return PacketMessage::Single;
+  return std::nullopt;
+}
+
 bool isStatic(const RosTopic& topic)
 {
   return topic.name.find("static") != std::string::npos;
@@ -122,6 +130,7 @@ NextRecorded RosRecording::next()
     if (std::holds_alternative<EndOfRecording>(next))
     {
       ouster_.flush(queue_);
+      packets_.flush(queue_);
       if (queue_.empty()) return EndOfRecording{};
       continue;
     }
@@ -156,6 +165,8 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
     const RosType& type = rosTypeOf(topic.type);
     if (type.role == RosRole::OusterPackets)
       ouster_.takePacket(topic.name, in, queue_);
+    else if (const auto kind = packetsOf(type.role))
+      takePackets(topic, *kind, in);
     else
     {
       RosObservation result = type.read(in, topic.name);
@@ -173,6 +184,14 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
   {
     return problemOf(message, e.what());
   }
+}
+
+void RosRecording::takePackets(const RosTopic& topic, PacketMessage kind, WireReader& in)
+{
+  const std::size_t before = queue_.size();
+  const std::string frame = packets_.take(topic.name, kind, in, queue_);
+  for (std::size_t i = before; i < queue_.size(); ++i)
+    if (queue_[i]->sensorLabel == topic.name) setPose(*queue_[i], frame);  // the IMU has its own
 }
 
 ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string& what) const

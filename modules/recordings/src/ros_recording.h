@@ -6,6 +6,7 @@
 
 #include "byte_source.h"
 #include "ouster_topics.h"
+#include "packet_topics.h"
 #include "transform_tree.h"
 #include "wire_reader.h"
 #include <fastlio/recordings/recording_reader.h>
@@ -83,6 +84,7 @@ class RosRecording : public RecordingReader
   void lookAt(const RosMessage& message);
   [[nodiscard]] std::optional<ReadProblem> convert(const RosMessage& message);
   [[nodiscard]] ReadProblem problemOf(const RosMessage& message, const std::string& what) const;
+  void takePackets(const RosTopic& topic, PacketMessage kind, WireReader& in);
   void setPose(mrpt::obs::CObservation& observation, const std::string& frame);
 
   std::string path_;
@@ -90,6 +92,7 @@ class RosRecording : public RecordingReader
   std::unique_ptr<RosMessageSource> messages_;
   TransformTree transforms_;
   OusterTopics ouster_;
+  PacketTopics packets_;
   ObservationQueue queue_;                     // read, and not given yet
   std::string vehicle_;                        // the frame that poses refer to; empty: none known
   std::map<std::string, std::string> frames_;  // by label: the frame and what is known of its pose

@@ -10,8 +10,9 @@ namespace fastlio
 namespace
 {
 constexpr const char* kLidar = "LiDAR, points and their times as recorded";
+constexpr const char* kPackets = "packets of a LiDAR, and of its IMU";
 
-const std::array<RosType, 13> kRosTypes{{
+const std::array<RosType, 17> kRosTypes{{
     {"sensor_msgs/Imu", "IMU, units as recorded", readImu},
     {"sensor_msgs/PointCloud2", kLidar, readPointCloud2},
     {"livox_ros_driver/CustomMsg", kLidar, readLivoxCustom},
@@ -24,6 +25,10 @@ const std::array<RosType, 13> kRosTypes{{
     {"ouster_ros/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr, RosRole::OusterPackets},
     {"ouster_sensor_msgs/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr,
      RosRole::OusterPackets},
+    {"pandar_msgs/PandarScan", kPackets, nullptr, RosRole::FixedPackets},
+    {"hesai_lidar/PandarScan", kPackets, nullptr, RosRole::FixedPackets},
+    {"nebula_msgs/NebulaPackets", kPackets, nullptr, RosRole::VariedPackets},
+    {"rslidar_msg/RslidarPacket", kPackets, nullptr, RosRole::SinglePackets},
     {"std_msgs/String", "text: metadata of an Ouster, if it is that", nullptr, RosRole::Text},
     {"tf/tfMessage", "transforms: poses of sensors", nullptr, RosRole::Transforms},
 }};

@@ -17,6 +17,9 @@ enum class RosRole
   Transforms,     //!< where frames are
   Text,           //!< metadata, perhaps
   OusterPackets,  //!< a part of a scan, or an inertial sample
+  FixedPackets,   //!< packets that tell their sensor, PacketMessage::Fixed
+  VariedPackets,  //!< PacketMessage::Varied
+  SinglePackets,  //!< PacketMessage::Single
 };
 
 /** A row: a type and what is made of it. */
@@ -29,7 +32,11 @@ struct RosType
   RosRole role = RosRole::Observation;
 
   /** Its messages become observations. */
-  [[nodiscard]] bool isTaken() const { return read != nullptr || role == RosRole::OusterPackets; }
+  [[nodiscard]] bool isTaken() const
+  {
+    return read != nullptr ||
+           (role != RosRole::Observation && role != RosRole::Transforms && role != RosRole::Text);
+  }
 };
 
 /** The row of a type, in the form of ROS 1 ("sensor_msgs/Imu"), of ROS 2 ("sensor_msgs/msg/Imu") or

@@ -55,7 +55,7 @@ bool isVelodynePacket(const UdpPacket& packet)
          (packet.data[1] == 0xEE || packet.data[1] == 0xDD);
 }
 
-std::unique_ptr<PacketSensor> makeVelodyneSensor(const std::string& label)
+std::unique_ptr<PacketSensor> makeVelodyneSensor(const std::string& label, const Sidecars&)
 {
   return std::make_unique<VelodyneSensor>(label);
 }

@@ -165,6 +165,36 @@ TEST_F(Captures, OusterFollowsItsMetadata)
   }
 }
 
+TEST_F(Captures, OusterSamplesOfTheNewerProfileAreInSiAndSeveralInAPacket)
+{
+  WireWriter packet = little();
+  packet.raw(std::string(132, '\0'));
+  for (int i = 0; i < 4; ++i)
+  {
+    packet.number(static_cast<std::uint64_t>(kStart + i * 1'500'000));
+    packet.number(static_cast<std::uint16_t>(i)).number(static_cast<std::uint16_t>(i != 2));
+    for (const float value : {0.5F, 0.0F, 9.75F, 0.0F, 0.25F, 0.0F})
+      packet.number(value);
+  }
+  packet.raw(std::string(32, '\0'));
+  std::string metadata = metadataOf("RNG19_RFL8_SIG16_NIR16");
+  metadata.insert(
+      1, R"("imu_data_format":{"imu_measurements_per_packet":4,"imu_packets_per_frame":16},)");
+  const std::string port = "\"udp_port_imu\"";
+  metadata.insert(metadata.find(port), R"("udp_profile_imu":"ACCEL32_GYRO32_NMEA",)");
+  write(folder_.file("walk.json"), metadata);
+  const Recorded capture =
+      readRecording(fileOf(captureOf({{kStart, 7503, packet.bytes()}}), "walk.pcap"));
+  EXPECT_TRUE(capture.problems.empty());
+  ASSERT_EQ(capture.observations.size(), 3U);  // one is not valid
+  const auto& imu = dynamic_cast<const CObservationIMU&>(*capture.observations[2]);
+  EXPECT_EQ(toNanoseconds(imu.timestamp), kStart + 3 * 1'500'000);
+  EXPECT_NEAR(imu.get(mrpt::obs::IMU_Z_ACC), 9.75, 1e-9);
+  EXPECT_NEAR(imu.get(mrpt::obs::IMU_WY), 0.25, 1e-9);
+  metadata.replace(metadata.find("ACCEL32"), 7, "ACCEL99");
+  EXPECT_THROW((void)parseOusterMetadata(metadata), std::runtime_error);
+}
+
 TEST_F(Captures, AnOusterWithoutMetadataIsReported)
 {
   const std::vector<SentPacket> packets(5, {kStart, 7502, ousterPacket(kStart, 0)});

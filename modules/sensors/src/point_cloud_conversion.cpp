@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace
 {
@@ -30,23 +32,45 @@ bool isUsable(const CloudColumns& cloud, std::size_t i)
   return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && !at_origin;
 }
 
-void copyUsablePoints(const CloudColumns& cloud, CloudConversion& result)
+// As toNanoseconds(), which calls llround() for each point.
+std::int32_t nanoseconds(double seconds)
 {
+  const double exact = seconds * kNsPerSecond;
+  const auto whole = static_cast<std::int32_t>(exact);
+  const double rest = exact - whole;
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
+}
+
+// Moves usable points to the front of the columns, which become those of the result.
+void takeUsablePoints(CloudColumns& cloud, CloudConversion& result)
+{
+  const std::size_t n = cloud.size();
   const bool timed = result.times == PointTimes::PerPoint;
-  result.points.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
+  std::vector<std::int32_t> offsets(n, 0);
+  cloud.intensity.resize(n, 0.0F);
+  cloud.ring.resize(n, 0);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i)
   {
-    const double time_s = timed ? cloud.time[i] : 0.0;
-    if (!isUsable(cloud, i) || !std::isfinite(time_s))
+    if (!isUsable(cloud, i) || (timed && !std::isfinite(cloud.time[i]))) continue;
+    if (timed) offsets[kept] = nanoseconds(cloud.time[i]);
+    if (kept != i)
     {
-      ++result.dropped_invalid;
-      continue;
+      cloud.x[kept] = cloud.x[i];
+      cloud.y[kept] = cloud.y[i];
+      cloud.z[kept] = cloud.z[i];
+      cloud.intensity[kept] = cloud.intensity[i];
+      cloud.ring[kept] = cloud.ring[i];
     }
-    result.points.push_back(
-        cloud.x[i], cloud.y[i], cloud.z[i], cloud.intensity.empty() ? 0.0F : cloud.intensity[i],
-        static_cast<std::int32_t>(toNanoseconds(time_s)),
-        cloud.ring.empty() ? std::uint16_t{0} : cloud.ring[i]);
+    ++kept;
   }
+  result.dropped_invalid += n - kept;
+  for (auto* column : {&cloud.x, &cloud.y, &cloud.z, &cloud.intensity})
+    column->resize(kept);
+  cloud.ring.resize(kept);
+  offsets.resize(kept);
+  result.points = {std::move(cloud.x),         std::move(cloud.y), std::move(cloud.z),
+                   std::move(cloud.intensity), std::move(offsets), std::move(cloud.ring)};
 }
 }  // namespace
 
@@ -62,7 +86,7 @@ CloudConversion toTimedPoints(CloudColumns cloud, std::int64_t stamp_ns, const C
 {
   CloudConversion result;
   result.times = readTimes(cloud, stamp_ns, timing);
-  copyUsablePoints(cloud, result);
+  takeUsablePoints(cloud, result);
   if (result.times != PointTimes::PerPoint && timing.sweep)
   {
     assignSweepTimes(result.points, *timing.sweep);

@@ -134,3 +134,31 @@ TEST(PointCloud, MissingAndUnusableTimesAreReported)
   }
   EXPECT_EQ(toTimedPoints({}, 0).points.size(), 0U);
 }
+
+TEST(PointCloud, TimesAreRoundedAndWhatIsUnusableIsLeftOut)
+{
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  CloudColumns cloud;
+  for (const double time :
+       {0.0, 0.5e-9, -0.5e-9, 1.5e-9, -2.5e-9, 0.1, -0.05, 1.999999999, -1.9999999985, 3.3e-7})
+  {
+    const auto i = static_cast<float>(cloud.size());
+    cloud.ring.insert(cloud.ring.end(), 3, static_cast<std::uint16_t>(cloud.size()));
+    cloud.x.insert(cloud.x.end(), {i, 0.0F, kNan});  // a point, no echo, damage
+    cloud.y.insert(cloud.y.end(), {i + 0.5F, 0.0F, 1.0F});
+    cloud.z.insert(cloud.z.end(), {i + 0.25F, 0.0F, 1.0F});
+    cloud.intensity.insert(cloud.intensity.end(), {i, 1.0F, 1.0F});
+    cloud.time.insert(cloud.time.end(), 3, time);
+  }
+  const CloudConversion result = toTimedPoints(cloud, 0);
+  ASSERT_EQ(result.points.size(), 10U);
+  EXPECT_EQ(result.dropped_invalid, 20U);
+  for (std::size_t i = 0; i < 10; ++i)
+  {
+    EXPECT_EQ(result.points.x[i], cloud.x[3 * i]);
+    EXPECT_EQ(result.points.z[i], cloud.z[3 * i]);
+    EXPECT_EQ(result.points.intensity[i], cloud.intensity[3 * i]);
+    EXPECT_EQ(result.points.ring[i], cloud.ring[3 * i]);
+    EXPECT_EQ(result.points.time_offset_ns[i], std::lround(1e9 * cloud.time[3 * i])) << i;
+  }
+}

@@ -22,8 +22,8 @@ namespace fastlio
 [[nodiscard]] mrpt::obs::CObservation::Ptr sampleOfText(
     std::string_view line, std::int64_t arrival_ns, const std::string& label);
 
-/** Velodyne, Livox and Ouster as PacketStreams reads them. A Velodyne has no IMU, and its packets
- * give the time within the hour: they get stamps of this machine by an ArrivalClock. Packets to the
+/** LiDARs as PacketStreams reads them. A Velodyne's packets give the time within
+ * the hour: they get stamps of this machine by an ArrivalClock. Packets to the
  * port of the inertial samples are text, a sample in each line. */
 class LiveSensors
 {

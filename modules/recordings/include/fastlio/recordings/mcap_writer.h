@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/pose.h>
 
 #include <mrpt/obs/CObservation.h>
@@ -12,10 +13,27 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace fastlio
 {
+/** How something is, for tools that show the diagnostics of a robot. */
+struct DiagnosticStatus
+{
+  enum class Level : std::uint8_t
+  {
+    Ok,
+    Warning,
+    Error
+  };
+  Level level = Level::Ok;
+  std::string name, message;
+  std::vector<std::pair<std::string, std::string>> values;  //!< names and what they are
+};
+
 /** Writes what tools of ROS 2 and Foxglove open. The file gets its name when it is complete. */
 class McapWriter
 {
@@ -34,8 +52,18 @@ class McapWriter
   bool write(const mrpt::obs::CObservation& observation);
 
   /** A pose of the vehicle, as nav_msgs/Odometry on \a topic and as a transform from odom to
-   * base_link. */
-  void writePose(const std::string& topic, std::int64_t stamp_ns, const Pose& T_odom_base);
+   * base_link. \param covariance (rx, ry, rz, px, py, pz): attitude error [rad] in the frame of the
+   * vehicle, position error [m] in odom; nothing: zeros */
+  void writePose(
+      const std::string& topic, std::int64_t stamp_ns, const Pose& T_odom_base,
+      const std::optional<Matrix6>& covariance = {});
+
+  /** Points in odom [m] as one sensor_msgs/PointCloud2. Coordinates are in 64 bits where they are
+   * far from zero, as those of the earth are. */
+  void writeMap(const std::string& topic, std::int64_t stamp_ns, const std::vector<Vec3>& points);
+
+  /** As diagnostic_msgs/DiagnosticArray on /diagnostics. */
+  void writeDiagnostic(std::int64_t stamp_ns, const DiagnosticStatus& status);
 
   /** \exception std::runtime_error the bytes did not reach the disk, or the rename failed */
   OutputFile commit();

@@ -20,7 +20,7 @@
 namespace fastlio
 {
 class PacketSensor;
-struct OusterMetadata;
+struct Sidecars;
 
 /** One packet. */
 struct UdpPacket
@@ -38,15 +38,16 @@ struct UdpPacket
 using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
 
 /** Recognises sensors by their packets. Each sender is a sensor; its kind and address make the
- * label. An Ouster needs its metadata. Memory is bounded: a scan for each of at most 64 sensors. */
+ * label. An Ouster needs its metadata, a Pandar128 its table of angles. Memory is bounded: a scan
+ * for each of at most 64 sensors. */
 class PacketStreams
 {
  public:
   /** \param metadata JSON of an Ouster; empty: none
    * \exception std::runtime_error it is not such metadata */
   explicit PacketStreams(const std::string& metadata = {});
-  /** With the metadata beside a capture, if there is any. Metadata that cannot be used are reported
-   * when packets of an Ouster come. */
+  /** With the metadata and the table of angles beside a capture, if there are any. Metadata that
+   * cannot be used are reported when packets of an Ouster come. */
   [[nodiscard]] static PacketStreams ofCapture(const std::string& path);
   ~PacketStreams();
   PacketStreams(PacketStreams&&) noexcept;
@@ -78,11 +79,9 @@ class PacketStreams
 
   void recognise(const UdpPacket& packet, Stream& stream);
   void recogniseOuster(const UdpPacket& packet, Stream& stream);
-  PacketSensor* sensorOf(
-      const std::string& label, std::unique_ptr<PacketSensor> (*make)(const std::string&));
+  void note(PacketSensor& sensor);
 
-  std::unique_ptr<OusterMetadata> ouster_;
-  std::string ouster_trouble_;                                       // why there is no metadata
+  std::unique_ptr<Sidecars> files_;
   std::map<std::string, std::unique_ptr<PacketSensor>> sensors_;     // by label
   std::map<std::pair<std::string, std::uint16_t>, Stream> streams_;  // by sender and port
   std::vector<std::string> problems_;
