@@ -77,21 +77,19 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   x.R = pose.R;
   x.p = pose.p;
   x.v = turn * x.v;
-  TrackedPose here;
-  here.stamp_ns = result.stamp_ns;
-  here.T_world_body = odometry;
-  here.covariance = result.filter.P.topLeftCorner<6, 6>();
-  here.map_covariance = result.map_covariance;
+  const TrackedPose here = mappingPoseOf(result);
   const Node& node = *place.before;
   Matrix6 covariance = carried(node.corrected, node.covariance, relativePose(node.odometry, here));
   if (place.after != nullptr)
     covariance = (1.0 - place.fraction) * covariance + place.fraction * place.after->covariance;
-  covariance += extrinsicCovariance(first_, pose, extrinsic_moment_);
+  const Matrix6 by_extrinsic = extrinsicCovariance(first_, pose, extrinsic_moment_);
+  covariance += by_extrinsic;
   // What the pose shares with the rest of the state is not known any more.
   moved.filter.P.topRows<6>().setZero();
   moved.filter.P.leftCols<6>().setZero();
   moved.filter.P.topLeftCorner<6, 6>() = covariance;
   moved.map_covariance = covariance;
+  moved.calibration_covariance = by_extrinsic;
   return moved;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "graph_factors.h"
+#include "mapper_parts.h"
 #include <fastlio/mapping/gnss.h>
 #include <fastlio/math/statistics.h>
 
@@ -154,11 +155,12 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   graph.nodes = estimate.nodes;
   graph.T_earth_world = estimate.T_earth_world;
   estimate = optimize(graph);
-  outcome.used = true;
-  outcome.T_enu_world = *estimate.T_earth_world;
-  outcome.covariance = estimate.earth_covariance;
   result.graph = std::move(graph);
   result.estimate = std::move(estimate);
+  makeLevel(result);
+  outcome.used = true;
+  outcome.T_enu_world = *result.estimate.T_earth_world;
+  outcome.covariance = result.estimate.earth_covariance;
   result.corrected = true;
   return outcome;
 }

@@ -3,6 +3,7 @@
 
 #include "graph_factors.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace fastlio
@@ -29,19 +30,25 @@ EdgeError errorOf(const RelativePose& measured, const Pose& a, const Pose& b)
   return error;
 }
 
-TiltError errorOf(const TiltFactor& factor, const Pose& node)
+Across acrossOf(const Vec3& direction)
 {
-  // The heading that both have in common is taken out: R = Rz(heading) R_measured Exp(...) would
-  // leave the same tilt. Gravity's direction in the body frame determines the tilt alone.
-  const Vec3 up = Vec3::UnitZ();
-  const Vec3 measured = factor.R_world_body.transpose() * up;
-  const Vec3 seen = node.R * measured;  // where the node has what was up
+  Eigen::Index least = 0;
+  direction.cwiseAbs().minCoeff(&least);
+  Across across;
+  across.col(0) = direction.cross(Vec3(Vec3::Unit(least))).normalized();
+  across.col(1) = direction.cross(Vec3(across.col(0)));
+  return across;
+}
+
+TiltError errorOf(const TiltFactor& factor, const Pose& node, const Vec3& up, const Vec3& bias)
+{
+  const Across across = acrossOf(factor.up);
+  const Vec3 seen = node.R.transpose() * up;
   TiltError error;
-  // About the world's axes: up x seen.
-  error.value << -seen.y(), seen.x();
-  const Mat3 by_attitude = -node.R * skew(measured);
-  error.by_attitude.row(0) = -by_attitude.row(1);
-  error.by_attitude.row(1) = by_attitude.row(0);
+  error.value = across.transpose() * (seen + factor.by_bias * bias);
+  error.by_attitude = across.transpose() * skew(seen);
+  error.by_bias = across.transpose() * factor.by_bias;
+  error.by_up = across.transpose() * node.R.transpose() * acrossOf(up);
   return error;
 }
 

@@ -18,12 +18,20 @@ struct EdgeError
 };
 [[nodiscard]] EdgeError errorOf(const RelativePose& measured, const Pose& a, const Pose& b);
 
+/** Two directions across a direction, and across each other. */
+using Across = Eigen::Matrix<double, 3, 2>;
+[[nodiscard]] Across acrossOf(const Vec3& direction);
+
 struct TiltError
 {
-  Eigen::Vector2d value;  //!< about the world's x and y axes
+  Eigen::Vector2d value;  //!< across the measured direction
   Eigen::Matrix<double, 2, 3> by_attitude;
+  Eigen::Matrix2d by_up;  //!< by a step of it along acrossOf(up)
+  Eigen::Matrix<double, 2, 3> by_bias;
 };
-[[nodiscard]] TiltError errorOf(const TiltFactor& factor, const Pose& node);
+/** \param up against gravity in the world \param bias of the accelerometer, over gravity */
+[[nodiscard]] TiltError errorOf(
+    const TiltFactor& factor, const Pose& node, const Vec3& up, const Vec3& bias);
 
 struct PositionError
 {

@@ -42,7 +42,9 @@ SessionOutcome addSession(
       mapper.add(std::move(*submap));
     return !isInterrupted(hooks);
   };
-  outcome.pass = session.run(use, progressOf(hooks, session.name() + ": odometry"));
+  outcome.pass = session.run(
+      use, progressOf(hooks, session.name() + ": odometry"),
+      [&submaps](const ImuSample& sample) { submaps.addImu(sample); });
   if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
   if (calibration) mapper.setExtrinsicMoment(number, extrinsicMoment(*calibration));
   return outcome;

@@ -3,6 +3,7 @@
 
 #include "mapper_parts.h"
 #include <fastlio/mapping/mapper.h>
+#include <fastlio/math/statistics.h>
 
 #include <mrpt/core/format.h>
 
@@ -15,28 +16,68 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kWidestDoubt = 8.0;  // submaps farther apart are not compared [m]
-constexpr std::size_t kApart = 3;     // candidates of one pass are so many submaps apart
-// Errors of tilts that follow each other are nearly the same: so many count as one.
-constexpr double kTiltsPerMeasurement = 4.0;
+constexpr double kWidestDoubt = 8.0;   // submaps farther apart are not compared [m]
+constexpr std::size_t kApart = 3;      // candidates of one pass are so many submaps apart
 constexpr double kTiltFloor = 0.0003;  // [rad]
 // The graph is optimised anew when it has grown by this part.
 constexpr double kGrowth = 0.02;
 constexpr double kAnchorAttitude = 0.02;  // of a session that was found, to begin with [rad]
 constexpr double kAnchorPosition = 0.5;   // [m]
+// Lasers that are off move a scan this way on one surface and that way on another.
+constexpr double kScanAttitude = 2e-4;   // [rad]
+constexpr double kScanPosition = 0.002;  // [m]
+// Drift of an odometry before loops and gravity show it: lasers whose elevation is off by 0.1 deg
+// bend a road by some mdeg a metre; lengths are right, as ranges are.
+constexpr double kDriftRotation = 1e-4;     // [rad/m]
+constexpr double kDriftTranslation = 2e-4;  // [m/m]
+constexpr double kUsualBias = 0.02;         // of the accelerometer, over gravity
 
-TiltFactor tiltOf(const TrackedPose& pose, std::size_t node)
+/** What the filter does not know of the error of a motion between two scans. */
+Matrix6 ofBeams()
 {
-  const Mat3& R = pose.T_world_body.R;
-  const Mat3 in_world = R * pose.covariance.topLeftCorner<3, 3>() * R.transpose();
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.diagonal().head<3>().setConstant(kScanAttitude * kScanAttitude);
+  covariance.diagonal().tail<3>().setConstant(kScanPosition * kScanPosition);
+  return covariance;
+}
+
+SensorErrors usualErrors()
+{
+  SensorErrors errors;
+  errors.drift_covariance.setZero();
+  errors.drift_covariance.diagonal().head<3>().setConstant(kDriftRotation * kDriftRotation);
+  errors.drift_covariance.diagonal().tail<3>().setConstant(kDriftTranslation * kDriftTranslation);
+  errors.bias_covariance = kUsualBias * kUsualBias * Mat3::Identity();
+  return errors;
+}
+
+TiltFactor tiltOf(const Submap& submap, std::size_t node)
+{
+  const double magnitude = submap.gravity->force.norm();
   TiltFactor tilt;
   tilt.node = node;
-  tilt.R_world_body = R;
-  tilt.covariance = kTiltsPerMeasurement * in_world.topLeftCorner<2, 2>() +
-                    kTiltFloor * kTiltFloor * Eigen::Matrix2d::Identity();
+  tilt.sensor = submap.session;
+  tilt.up = submap.gravity->force / magnitude;
+  tilt.by_bias = submap.gravity->by_bias;
+  tilt.covariance = submap.gravity->covariance / (magnitude * magnitude) +
+                    kTiltFloor * kTiltFloor * Mat3::Identity();
   return tilt;
 }
 
+/** How much larger the squared errors of closures are than their covariances say: surfaces that are
+ * seen by other beams bend otherwise, and a registration does not know of that. */
+double closureExcess(const PoseGraph& graph, const GraphEstimate& estimate)
+{
+  constexpr double kMedian = 5.348;  // of chi-square, 6 degrees of freedom
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i)
+  {
+    const GraphEdge& edge = graph.edges[i];
+    if (edge.robust && estimate.edge_weights[i] >= 0.5)
+      errors.push_back(squaredError(edge, estimate.nodes[edge.a], estimate.nodes[edge.b]));
+  }
+  return median(std::move(errors)) / kMedian;
+}
 }  // namespace
 
 std::size_t MappingResult::accepted() const
@@ -77,49 +118,56 @@ void Mapper::join(Submap submap)
     if (closure.verdict == ClosureVerdict::Accepted)
     {
       result_.graph.edges.push_back({a, b, closure.registration.motion, true});
-      unsettled_closures_ = true;
     }
     result_.closures.push_back(std::move(closure));
   }
   const auto grown = static_cast<double>(result_.submaps.size() - settled_submaps_);
-  if (unsettled_closures_ && grown >= kGrowth * static_cast<double>(settled_submaps_)) settle();
+  if (grown >= kGrowth * static_cast<double>(settled_submaps_)) settle();
 }
 
 /** The new submap's node, its edge to the one before and its tilt. */
 void Mapper::addOdometry()
 {
   const std::size_t b = result_.submaps.size() - 1;
-  const TrackedPose& pose = result_.submaps.back().reference;
   const Submap& latest = result_.submaps.back();
-  const Pose guess = result_.anchors[latest.session].T_world_session * pose.T_world_body;
-  result_.graph.nodes.push_back(guess);
-  if (b > 0 && latest.session != result_.submaps[b - 1].session)
+  PoseGraph& graph = result_.graph;
+  if (latest.gravity) graph.tilts.push_back(tiltOf(latest, b));
+  if (graph.sensors.size() <= latest.session)
+    graph.sensors.resize(latest.session + 1, usualErrors());
+  const bool begins = b == 0 || latest.session != result_.submaps[b - 1].session;
+  if (begins) return beginSession(latest, b);
+  const Submap& earlier = result_.submaps[b - 1];
+  RelativePose motion = relativePose(earlier.reference, latest.reference);
+  motion.covariance += ofBeams();
+  const double travel = latest.travel - earlier.travel;
+  graph.edges.push_back({b - 1, b, motion, false, travel, latest.session});
+  chain_.advance(motion, travel);
+  graph.nodes.push_back(chain_.pose());
+  poses_.push_back(chain_.pose());
+  covariances_.emplace_back(chain_.covariance());
+}
+
+/** The first submap of all holds; that of another session is where it was found. */
+void Mapper::beginSession(const Submap& first, std::size_t b)
+{
+  PoseGraph& graph = result_.graph;
+  const Pose guess = result_.anchors[first.session].T_world_session * first.reference.T_world_body;
+  Matrix6 covariance = Matrix6::Zero();
+  if (b == 0)
+    graph.first_covariance = withFloor(covariance);
+  else
   {
-    poses_.push_back(guess);
-    Matrix6 covariance = Matrix6::Zero();
     covariance.diagonal().head<3>().setConstant(kAnchorAttitude * kAnchorAttitude);
     covariance.diagonal().tail<3>().setConstant(kAnchorPosition * kAnchorPosition);
-    covariances_.push_back(covariance);
     // A weak edge to the first submap holds the session until it has closures.
-    Matrix6 weak = 4.0 * covariance;
-    result_.graph.edges.push_back(GraphEdge{0, b, {poses_.front().inverse() * guess, weak}, false});
-    result_.graph.tilts.push_back(tiltOf(pose, b));
-    return;
+    const Matrix6 weak = 4.0 * covariance;
+    graph.edges.push_back(GraphEdge{0, b, {poses_.front().inverse() * guess, weak}});
   }
-  if (b == 0)
-  {
-    result_.graph.first_covariance = withFloor(Matrix6::Zero());
-    poses_.push_back(pose.T_world_body);
-    covariances_.emplace_back(Matrix6::Zero());
-    return;
-  }
-  const TrackedPose& before = result_.submaps[b - 1].reference;
-  RelativePose motion = relativePose(before, pose);
-  motion.covariance = withFloor(motion.covariance);
-  result_.graph.edges.push_back({b - 1, b, motion, false});
-  result_.graph.tilts.push_back(tiltOf(pose, b));
-  poses_.push_back(poses_[b - 1] * motion.T_a_b);
-  covariances_.emplace_back(carried(poses_[b - 1], covariances_[b - 1], motion));
+  graph.nodes.push_back(guess);
+  poses_.push_back(guess);
+  covariances_.push_back(covariance);
+  chain_ = OdometryChain(
+      guess, covariance, Vector6::Zero(), graph.sensors[first.session].drift_covariance);
 }
 
 /** Earlier submaps nearby, the nearest of each pass. */
@@ -191,10 +239,13 @@ RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 void Mapper::settle()
 {
   const GraphEstimate estimate = optimize(result_.graph);
-  poses_ = estimate.nodes;
+  poses_ = result_.graph.nodes = estimate.nodes;
   covariances_ = estimate.covariances;
   settled_submaps_ = result_.submaps.size();
-  unsettled_closures_ = false;
+  const std::size_t session = result_.submaps.back().session;
+  chain_ = OdometryChain(
+      poses_.back(), covariances_.back(), estimate.drifts[session],
+      estimate.drift_covariances[session]);
 }
 
 Matrix6 extrinsicMoment(const CalibrationCheck& check)
@@ -217,6 +268,13 @@ MappingResult Mapper::finish()
 {
   PoseGraph& graph = result_.graph;
   result_.estimate = optimize(graph);
+  const double excess = closureExcess(graph, result_.estimate);
+  if (excess > 1.0)
+  {
+    for (GraphEdge& edge : graph.edges)
+      if (edge.robust) edge.measured.covariance *= excess;
+    result_.estimate = optimize(graph);
+  }
   std::size_t edge = 0;
   for (Closure& closure : result_.closures)
   {
@@ -228,6 +286,10 @@ MappingResult Mapper::finish()
     closure.reason += "; all other measurements exclude it";
   }
   result_.corrected = result_.accepted() > 0;
+  if (result_.corrected)
+    makeLevel(result_);
+  else
+    stayAsOdometry(result_);
   return std::move(result_);
 }
 

@@ -47,6 +47,17 @@ struct Shortcoming
  * in the body frame, position in the world. To first order. */
 [[nodiscard]] Matrix6 carried(const Pose& a, const Matrix6& covariance, const RelativePose& motion);
 
+/** The pose of a scan with covariances that hold for a map of the LiDAR: without what a wrong
+ * calibration makes of all poses alike. */
+[[nodiscard]] TrackedPose mappingPoseOf(const ScanResult& result);
+
+/** Without anything that corrects it, a map is that of the odometry; covariances stay. */
+void stayAsOdometry(MappingResult& result);
+
+/** Turns a result about its first node so that the estimated vertical is z. Covariances are
+ * relative to the first node and turn with it. */
+void makeLevel(MappingResult& result);
+
 /** Points that count from an origin, after a motion: single precision only in the end. */
 void moved(const WorldPoints& points, const Vec3& origin, const Pose& motion, WorldPoints& result);
 

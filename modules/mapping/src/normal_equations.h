@@ -5,6 +5,7 @@
  * equations (internal). */
 #pragma once
 
+#include "graph_factors.h"
 #include <fastlio/mapping/pose_graph.h>
 
 #include <Eigen/Cholesky>
@@ -32,6 +33,8 @@ struct Informations
 {
   std::vector<Eigen::Matrix<double, 6, 6>> edges;
   std::vector<Eigen::Matrix2d> tilts;
+  std::vector<Eigen::Matrix<double, 6, 6>> drifts;
+  std::vector<Mat3> biases;
   std::vector<Mat3> positions;
   Eigen::Matrix<double, 6, 6> first;
 };
@@ -44,6 +47,13 @@ inline void requireNode(const PoseGraph& graph, std::size_t node)
         std::to_string(node));
 }
 
+[[nodiscard]] inline std::invalid_argument noSensor(const PoseGraph& graph, std::size_t sensor)
+{
+  return std::invalid_argument(
+      "a pose graph with " + std::to_string(graph.sensors.size()) + " sensors has no sensor " +
+      std::to_string(sensor));
+}
+
 [[nodiscard]] inline Informations informationsOf(const PoseGraph& graph)
 {
   Informations all;
@@ -51,13 +61,24 @@ inline void requireNode(const PoseGraph& graph, std::size_t node)
   {
     requireNode(graph, edge.a);
     requireNode(graph, edge.b);
+    if (edge.travel != 0.0 && edge.sensor >= graph.sensors.size())
+      throw noSensor(graph, edge.sensor);
     all.edges.push_back(
         inverseCovariance<Eigen::Matrix<double, 6, 6>>(edge.measured.covariance, "an edge"));
   }
   for (const TiltFactor& tilt : graph.tilts)
   {
     requireNode(graph, tilt.node);
-    all.tilts.push_back(inverseCovariance<Eigen::Matrix2d>(tilt.covariance, "a tilt"));
+    if (tilt.sensor >= graph.sensors.size()) throw noSensor(graph, tilt.sensor);
+    const Across across = acrossOf(tilt.up);
+    all.tilts.push_back(inverseCovariance<Eigen::Matrix2d>(
+        across.transpose() * tilt.covariance * across, "a tilt"));
+  }
+  for (const SensorErrors& sensor : graph.sensors)
+  {
+    all.drifts.push_back(
+        inverseCovariance<Eigen::Matrix<double, 6, 6>>(sensor.drift_covariance, "a drift"));
+    all.biases.push_back(inverseCovariance<Mat3>(sensor.bias_covariance, "a bias"));
   }
   if (!graph.positions.empty() && !graph.T_earth_world)
     throw std::invalid_argument("a pose graph with positions needs a pose of their frame");
@@ -70,6 +91,16 @@ inline void requireNode(const PoseGraph& graph, std::size_t node)
       inverseCovariance<Eigen::Matrix<double, 6, 6>>(graph.first_covariance, "the first node");
   return all;
 }
+
+/** The derivative of a measurement by one of its unknowns. */
+template <typename Jacobian>
+struct PartOf
+{
+  int begin;  //!< of the unknown
+  Jacobian by;
+};
+template <typename Jacobian>
+PartOf(int, Jacobian) -> PartOf<Jacobian>;
 
 /** The normal equations of one iteration. */
 class NormalEquations
@@ -85,29 +116,17 @@ class NormalEquations
         if (row + i >= column + j) entries_.emplace_back(row + i, column + j, block(i, j));
   }
 
-  /** One measurement of one unknown, beginning at \a at. */
-  template <typename Error, typename Jacobian, typename Information>
-  void add(int at, const Error& error, const Jacobian& J, const Information& information)
+  /** One measurement of some unknowns. \param parts where each begins, with the Jacobian by it */
+  template <typename Error, typename Information, typename... Parts>
+  void add(const Error& error, const Information& information, const Parts&... parts)
   {
-    addBlock(at, at, (J.transpose() * information * J).eval());
-    gradient_.segment(at, J.cols()) += J.transpose() * information * error;
-    cost_ += error.dot(information * error);
-  }
-
-  /** One measurement of two unknowns. */
-  template <typename Error, typename JacobianA, typename JacobianB, typename Information>
-  void add(
-      int a, const JacobianA& by_a, int b, const JacobianB& by_b, const Error& error,
-      const Information& information)
-  {
-    addBlock(a, a, (by_a.transpose() * information * by_a).eval());
-    addBlock(b, b, (by_b.transpose() * information * by_b).eval());
-    if (a > b)
-      addBlock(a, b, (by_a.transpose() * information * by_b).eval());
-    else
-      addBlock(b, a, (by_b.transpose() * information * by_a).eval());
-    gradient_.segment(a, by_a.cols()) += by_a.transpose() * information * error;
-    gradient_.segment(b, by_b.cols()) += by_b.transpose() * information * error;
+    const auto addRow = [&](const auto& part)
+    {
+      const auto weighted = (part.by.transpose() * information).eval();
+      gradient_.segment(part.begin, part.by.cols()) += weighted * error;
+      (addProduct(part, weighted, parts), ...);
+    };
+    (addRow(parts), ...);
     cost_ += error.dot(information * error);
   }
 
@@ -122,6 +141,12 @@ class NormalEquations
   }
 
  private:
+  template <typename Row, typename Weighted, typename Column>
+  void addProduct(const Row& row, const Weighted& weighted, const Column& column)
+  {
+    if (row.begin >= column.begin) addBlock(row.begin, column.begin, (weighted * column.by).eval());
+  }
+
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd gradient_;
   double cost_ = 0.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "graph_factors.h"
-#include "normal_equations.h"
+#include "linearized_graph.h"
 #include <fastlio/mapping/pose_graph.h>
 
 #include <Eigen/Cholesky>
@@ -22,21 +22,24 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Aligned6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kNode = 6;
+constexpr int kNode = GraphLayout::kNode;
 constexpr double kEdgeQuantile = 22.46;      // chi-square, 6 degrees of freedom, 99.9 %
 constexpr double kPositionQuantile = 16.27;  // 3 degrees of freedom
 constexpr int kMostIterations = 30;          // of Gauss-Newton
 constexpr int kMostStages = 60;              // of graduated non-convexity
 constexpr double kConvexityFactor = 1.4;     // by the paper
 constexpr double kSmallStep = 1e-9;          // [rad, m]
-constexpr double kEarthTilt = 0.02;          // gravity is the same for both [rad]
 
 class Optimizer
 {
  public:
-  explicit Optimizer(const PoseGraph& graph) : graph_(graph), informations_(informationsOf(graph))
+  explicit Optimizer(const PoseGraph& graph)
+      : graph_(graph), informations_(informationsOf(graph)), layout_(graph)
   {
     estimate_.nodes = graph.nodes;
+    estimate_.up = graph.up;
+    estimate_.drifts.assign(graph.sensors.size(), Vector6::Zero());
+    estimate_.biases.assign(graph.sensors.size(), Vec3::Zero());
     estimate_.T_earth_world = graph.T_earth_world;
     estimate_.edge_weights.assign(graph.edges.size(), 1.0);
     estimate_.position_weights.assign(graph.positions.size(), 1.0);
@@ -52,57 +55,6 @@ class Optimizer
   }
 
  private:
-  [[nodiscard]] bool hasEarth() const { return estimate_.T_earth_world.has_value(); }
-  [[nodiscard]] int earthAt() const { return static_cast<int>(graph_.nodes.size()) * kNode; }
-  [[nodiscard]] int size() const { return earthAt() + (hasEarth() ? kNode : 0); }
-  static int at(std::size_t node) { return static_cast<int>(node) * kNode; }
-
-  [[nodiscard]] NormalEquations linearized() const
-  {
-    NormalEquations equations(size());
-    const EdgeError first = errorOf(RelativePose{graph_.nodes.front(), {}}, Pose{}, node(0));
-    equations.add(0, first.value, first.by_b, informations_.first);
-    for (std::size_t i = 0; i < graph_.edges.size(); ++i)
-    {
-      const GraphEdge& edge = graph_.edges[i];
-      if (estimate_.edge_weights[i] <= 0.0) continue;
-      const EdgeError error = errorOf(edge.measured, node(edge.a), node(edge.b));
-      equations.add(
-          at(edge.a), error.by_a, at(edge.b), error.by_b, error.value,
-          (estimate_.edge_weights[i] * informations_.edges[i]).eval());
-    }
-    for (std::size_t i = 0; i < graph_.tilts.size(); ++i)
-    {
-      const TiltError error = errorOf(graph_.tilts[i], node(graph_.tilts[i].node));
-      equations.add(
-          at(graph_.tilts[i].node), error.value, error.by_attitude, informations_.tilts[i]);
-    }
-    addPositions(equations);
-    return equations;
-  }
-
-  void addPositions(NormalEquations& equations) const
-  {
-    if (!hasEarth()) return;
-    const Pose& T_earth_world = *estimate_.T_earth_world;
-    for (std::size_t i = 0; i < graph_.positions.size(); ++i)
-    {
-      const PositionFactor& factor = graph_.positions[i];
-      if (estimate_.position_weights[i] <= 0.0) continue;
-      const PositionError error = errorOf(factor, node(factor.node), T_earth_world);
-      equations.add(
-          at(factor.node), error.by_node, earthAt(), error.by_earth, error.value,
-          (estimate_.position_weights[i] * informations_.positions[i]).eval());
-    }
-    // Both z axes point up.
-    const TiltError tilt = errorOf(TiltFactor{0, Mat3::Identity(), {}}, T_earth_world);
-    equations.add(
-        earthAt(), tilt.value, tilt.by_attitude,
-        (Eigen::Matrix2d::Identity() / (kEarthTilt * kEarthTilt)).eval());
-    // Keeps the system solvable where positions do not determine the heading.
-    equations.addBlock(earthAt(), earthAt(), (1e-9 * Aligned6::Identity()).eval());
-  }
-
   [[nodiscard]] const Pose& node(std::size_t i) const { return estimate_.nodes[i]; }
 
   static void move(Pose& pose, const Vector& step, int begin)
@@ -111,18 +63,32 @@ class Optimizer
     pose.p += step.segment<3>(begin + 3);
   }
 
+  void moveCommon(const Vector& step)
+  {
+    if (layout_.hasUp())
+      estimate_.up =
+          (estimate_.up + acrossOf(estimate_.up) * step.segment<GraphLayout::kUp>(layout_.upAt()))
+              .normalized();
+    for (std::size_t i = 0; i < estimate_.drifts.size(); ++i)
+    {
+      estimate_.drifts[i] += step.segment<kNode>(layout_.driftAt(i));
+      estimate_.biases[i] += step.segment<GraphLayout::kBias>(layout_.biasAt(i));
+    }
+    if (layout_.hasEarth()) move(*estimate_.T_earth_world, step, layout_.earthAt());
+  }
+
   /** To the optimum of the weights that there are. */
   void settle()
   {
     estimate_.converged = false;
     for (int i = 0; i < kMostIterations && !estimate_.converged; ++i)
     {
-      const NormalEquations equations = linearized();
+      const NormalEquations equations = linearized(graph_, informations_, estimate_, layout_);
       factorize(equations.matrix());
       const Vector step = -solver_.solve(equations.gradient());
       for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
-        move(estimate_.nodes[n], step, at(n));
-      if (hasEarth()) move(*estimate_.T_earth_world, step, earthAt());
+        move(estimate_.nodes[n], step, layout_.at(n));
+      moveCommon(step);
       estimate_.cost = equations.cost();
       estimate_.converged = step.lpNorm<Eigen::Infinity>() < kSmallStep * std::max(1.0, scale());
       ++estimate_.iterations;
@@ -219,7 +185,7 @@ class Optimizer
     Matrix6 covariance;
     for (int column = 0; column < kNode; ++column)
     {
-      Vector unit = Vector::Zero(size());
+      Vector unit = Vector::Zero(layout_.size());
       unit(begin + column) = 1.0;
       const Vector solution = solver_.solve(unit);
       covariance.col(column) = solution.segment<kNode>(begin);
@@ -229,14 +195,17 @@ class Optimizer
 
   void findCovariances()
   {
-    factorize(linearized().matrix());
+    factorize(linearized(graph_, informations_, estimate_, layout_).matrix());
     for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
-      estimate_.covariances.push_back(covarianceAt(at(n)));
-    if (hasEarth()) estimate_.earth_covariance = covarianceAt(earthAt());
+      estimate_.covariances.push_back(covarianceAt(layout_.at(n)));
+    for (std::size_t i = 0; i < graph_.sensors.size(); ++i)
+      estimate_.drift_covariances.push_back(covarianceAt(layout_.driftAt(i)));
+    if (layout_.hasEarth()) estimate_.earth_covariance = covarianceAt(layout_.earthAt());
   }
 
   const PoseGraph& graph_;
   Informations informations_;
+  GraphLayout layout_;
   GraphEstimate estimate_;
   Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver_;
 };

@@ -24,7 +24,8 @@ Session::Session(
 
 SessionPass Session::run(
     const std::function<bool(const ScanResult&, const Odometry&)>& use,
-    const std::function<void(double share)>& progress) const
+    const std::function<void(double share)>& progress,
+    const std::function<void(const ImuSample&)>& imu) const
 {
   SessionPass pass;
   DecodeAheadSource source(RawlogSource(files_), ObservationBridge(selection_, plan_.bridge));
@@ -39,7 +40,10 @@ SessionPass Session::run(
     auto input = source.next();
     if (!input) break;
     if (auto* sample = std::get_if<ImuSample>(&input->data))
+    {
       odometry.addImu(*sample);
+      if (imu) imu(*sample);
+    }
     else
     {
       auto& scan = std::get<LidarScan>(input->data);

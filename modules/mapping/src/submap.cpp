@@ -18,17 +18,6 @@ constexpr double kShortest = 3.0,
                  kLongest = 12.0;  // of a submap, where the rule leaves it open [m]
 constexpr double kLengthOverRange = 0.5;
 
-TrackedPose trackedPoseOf(const ScanResult& result)
-{
-  const PoseEstimate estimate = poseEstimateOf(result.filter, Pose{});
-  TrackedPose pose;
-  pose.stamp_ns = result.stamp_ns;
-  pose.T_world_body = estimate.T_world_body;
-  pose.covariance = estimate.covariance;
-  pose.map_covariance = result.map_covariance;
-  return pose;
-}
-
 double medianRange(const WorldPoints& points, const Vec3& sensor)
 {
   std::vector<double> ranges;
@@ -71,9 +60,10 @@ std::optional<Submap> SubmapBuilder::add(
     const ScanResult& result, const WorldPoints& registered, const Vec3& origin)
 {
   if (!hasPose(result.status)) return std::nullopt;
-  const TrackedPose pose = trackedPoseOf(result);
+  const TrackedPose pose = mappingPoseOf(result);
   if (last_.stamp_ns != 0) travel_ += (pose.T_world_body.p - last_.T_world_body.p).norm();
   last_ = pose;
+  gravity_.addScan(result);
   std::optional<Submap> ended;
   const Pose& reference = current_.reference.T_world_body;
   const bool is_full = travel_ - current_.travel >= length_ ||
@@ -93,6 +83,7 @@ std::optional<Submap> SubmapBuilder::finish()
 {
   if (current_.scans == 0) return std::nullopt;
   Submap ended = std::move(current_);
+  ended.gravity = gravity_.take();
   ended.planes = surfaces_->bestPlanes();
   current_ = {};
   return ended;

@@ -190,6 +190,7 @@ WheelOutcome WheelFactors::applyTo(MappingResult& result) const
   result.graph.nodes = result.estimate.nodes;
   result.graph.edges.insert(result.graph.edges.end(), edges.begin(), edges.end());
   result.estimate = optimize(result.graph);
+  makeLevel(result);
   result.corrected = true;
   return outcome;
 }

@@ -80,10 +80,12 @@ void Estimator::report(ScanResult& result) const
   const CalibrationEstimate& calibration = calibration_.estimate();
   result.filter = state_.filter;
   result.filter.P *= calibration.innovation_scale;
-  const StateMatrix systematic = calibration.innovation_scale * map_.error().addition() +
-                                 map_.calibrationError().addition(calibration.second_moment);
+  const StateMatrix by_calibration = map_.calibrationError().addition(calibration.second_moment);
+  const StateMatrix systematic =
+      calibration.innovation_scale * map_.error().addition() + by_calibration;
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
+  result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
   result.statistics.calibration = checkOf(calibration, beams_);
 }
 

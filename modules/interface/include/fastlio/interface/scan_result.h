@@ -152,6 +152,9 @@ struct ScanResult
   /** The part of filter.P's pose block that comes from the errors of map and calibration: nearly
    * the same for scans that follow each other, so it says little about the motion between them. */
   Matrix6 map_covariance = Matrix6::Zero();
+  /** The part of map_covariance that comes from the calibration: it moves all poses alike,
+   * whichever way leads to them, so closures of loops do not show it. */
+  Matrix6 calibration_covariance = Matrix6::Zero();
   ScanStatistics statistics;
   ScanHealth health;
   StageTimings milliseconds;

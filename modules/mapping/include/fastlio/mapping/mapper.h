@@ -5,6 +5,7 @@
  * likely. */
 #pragma once
 
+#include <fastlio/mapping/odometry_chain.h>
 #include <fastlio/mapping/place_recognition.h>
 #include <fastlio/mapping/pose_graph.h>
 #include <fastlio/mapping/registration.h>
@@ -132,6 +133,7 @@ class Mapper
   void searchAnchor();
   [[nodiscard]] std::optional<Hypothesis> recognised(const Submap& query) const;
   void addOdometry();
+  void beginSession(const Submap& first, std::size_t b);
   [[nodiscard]] std::vector<std::size_t> candidatesOf(std::size_t b) const;
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
@@ -147,7 +149,7 @@ class Mapper
   std::vector<Hypothesis> hypotheses_;  //!< where it may be
   std::unique_ptr<PlaceIndex> places_;  //!< of the sessions before
   std::size_t settled_submaps_ = 0;     //!< when the graph was optimised last
-  bool unsettled_closures_ = false;
+  OdometryChain chain_;                 //!< to the latest submap
 };
 
 }  // namespace fastlio

@@ -23,14 +23,30 @@ struct GraphEdge
   std::size_t a = 0, b = 0;
   RelativePose measured;
   bool robust = false;  //!< it may be wrong: the optimiser may turn it off
+  /** Way from a to b, along which the drift of sensor number \a sensor adds up [m]; 0: the
+   * measurement does not drift. */
+  double travel = 0.0;
+  std::size_t sensor = 0;
 };
 
-/** A measured attitude with respect to gravity. */
+/** Errors that all measurements of a session have in common, because its sensors are off by the
+ * same in every scan; before the graph shows them their mean is zero. */
+struct SensorErrors
+{
+  /** Odometry measures T_a_b with travel * (rotation [rad/m], translation [m/m]) too much. */
+  Matrix6 drift_covariance = Matrix6::Identity();
+  /** Bias of the accelerometer over gravity. */
+  Mat3 bias_covariance = Mat3::Identity();
+};
+
+/** Where a node's body has the direction against gravity. */
 struct TiltFactor
 {
   std::size_t node = 0;
-  Mat3 R_world_body = Mat3::Identity();  //!< its heading does not matter
-  Eigen::Matrix2d covariance;            //!< of the error about the world's x and y axes [rad^2]
+  Vec3 up = Vec3::UnitZ();             //!< frame of the body
+  Mat3 by_bias = Mat3::Zero();         //!< its derivative by that of the sensor
+  Mat3 covariance = Mat3::Identity();  //!< across it [rad^2]
+  std::size_t sensor = 0;
 };
 
 /** A measured position, of GNSS for instance, in a frame whose pose is estimated too. */
@@ -47,9 +63,11 @@ struct PoseGraph
 {
   std::vector<Pose> nodes;  //!< T_world_body: where the search starts
   std::vector<GraphEdge> edges;
+  std::vector<SensorErrors> sensors;
   std::vector<TiltFactor> tilts;
-  std::vector<PositionFactor> positions;                   //!< all are robust
-  std::optional<Pose> T_earth_world;                       //!< start; needed for positions
+  Vec3 up = Vec3::UnitZ();                //!< against gravity, frame of the world: start
+  std::vector<PositionFactor> positions;  //!< all are robust
+  std::optional<Pose> T_earth_world;      //!< start; needed for positions
   Matrix6 first_covariance = Matrix6::Identity() * 1e-12;  //!< of the first node, which is held
 };
 
@@ -60,6 +78,10 @@ struct GraphEstimate
   std::vector<Matrix6> covariances;  //!< of each node, given that the first one holds
   std::vector<double> edge_weights;  //!< of robust edges: 1 they agree, 0 they were turned off
   std::vector<double> position_weights;
+  Vec3 up = Vec3::UnitZ();                 //!< that of the graph where nothing determines it
+  std::vector<Vector6> drifts;             //!< of the sensors [rad/m, m/m]
+  std::vector<Matrix6> drift_covariances;  //!< of them
+  std::vector<Vec3> biases;                //!< of the sensors, over gravity
   std::optional<Pose> T_earth_world;
   Matrix6 earth_covariance = Matrix6::Zero();
   double cost = 0.0;  //!< sum of squared normalized errors, with the weights
@@ -67,7 +89,8 @@ struct GraphEstimate
   bool converged = false;
 };
 
-/** Squared normalized error of an edge: chi-square with 6 degrees of freedom when it is right. */
+/** Squared normalized error of an edge: chi-square with 6 degrees of freedom when it is right. Of
+ * one that does not drift. */
 [[nodiscard]] double squaredError(const GraphEdge& edge, const Pose& a, const Pose& b);
 
 /** Gauss-Newton on the manifold with a sparse factorisation; robust factors by graduated

@@ -40,10 +40,12 @@ class Session
       const std::function<bool(std::string_view)>& is_given);
 
   /** Runs the odometry. \param use every result, with the odometry that made it; false: stop
-   * \param share how much of the recording has been read, 0 to 1; may be empty */
+   * \param share how much of the recording has been read, 0 to 1; may be empty
+   * \param imu every sample, before the scans that need it; may be empty */
   SessionPass run(
       const std::function<bool(const ScanResult&, const Odometry&)>& use,
-      const std::function<void(double share)>& progress = {}) const;
+      const std::function<void(double share)>& progress = {},
+      const std::function<void(const ImuSample&)>& imu = {}) const;
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }

@@ -8,6 +8,7 @@
 #include <fastlio/interface/scan_result.h>
 #include <fastlio/map/plane_voxel.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/mapping/gravity_reading.h>
 #include <fastlio/run/pose_track.h>
 
 #include <cstddef>
@@ -23,10 +24,13 @@ class VoxelPlaneMap;
 /** The surfaces that the scans of a stretch saw. */
 struct Submap
 {
-  std::size_t session = 0;   //!< which run
-  TrackedPose reference;     //!< of the IMU at the first scan, as the odometry has it
-  std::int64_t last_ns = 0;  //!< end of the last scan
-  double travel = 0.0;       //!< of the run, up to the reference [m]
+  std::size_t session = 0;  //!< which run
+  /** Of the IMU at the first scan, as the odometry has it; covariances without what a wrong
+   * calibration makes of all poses alike. */
+  TrackedPose reference;
+  std::optional<GravityReading> gravity;  //!< over the stretch, in the frame of the reference
+  std::int64_t last_ns = 0;               //!< end of the last scan
+  double travel = 0.0;                    //!< of the run, up to the reference [m]
   std::size_t scans = 0;
   std::vector<VoxelPlane> planes;  //!< each surface once; frame of the reference [m]
 };
@@ -49,6 +53,9 @@ class SubmapBuilder
   SubmapBuilder(SubmapBuilder&&) noexcept;
   SubmapBuilder& operator=(SubmapBuilder&&) noexcept;
 
+  /** Takes a sample of the IMU, in time order; they measure gravity. */
+  void addImu(const ImuSample& sample) { gravity_.addImu(sample); }
+
   /** Takes one scan, in time order; those without a pose are left out.
    * \param registered its points in the world, counted from \a origin
    * \return a submap that has ended before this scan */
@@ -69,6 +76,7 @@ class SubmapBuilder
   TrackedPose last_;
   std::unique_ptr<VoxelPlaneMap> surfaces_;  //!< of the current one
   WorldPoints local_;
+  GravityMeter gravity_;
 };
 
 }  // namespace fastlio
