@@ -6,10 +6,15 @@
 #include <fastlio/exporters/mrpt_poses.h>
 #include <fastlio/exporters/pose_output.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/gzip_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/initializer.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <stdexcept>
 
 IMPLEMENTS_MRPT_OBJECT(MolaLidarInertialOdometry, mola::FrontEndBase, fastlio)
 
@@ -56,12 +61,16 @@ void MolaLidarInertialOdometry::spinOnce()
 {
   const mola::ProfilerEntry timing(profiler_, "spinOnce");
   while (const auto observation = takeOne())
+  {
+    const std::lock_guard lock(odometry_mutex_);
     odometry_.onNewObservation(observation);
+  }
 }
 
 void MolaLidarInertialOdometry::onQuit()
 {
   spinOnce();
+  const std::lock_guard lock(odometry_mutex_);
   odometry_.finish();
   writeTrajectory();
 }
@@ -86,6 +95,7 @@ void MolaLidarInertialOdometry::writeTrajectory()
 
 void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
 {
+  note(estimate.result);
   if (!estimate.vehicle) return;
   const TrackedPose& vehicle = *estimate.vehicle;
   LocalizationUpdate update;
@@ -107,5 +117,38 @@ void MolaLidarInertialOdometry::advertiseMap(std::int64_t stamp_ns)
   update.map = odometry_.map();
   advertiseUpdatedMap(update);
 }
+
+#if FASTLIO_MOLA_HAS_MAP_SERVER
+mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_save(const std::string& path)
+{
+  ReturnStatus status;
+  try
+  {
+    mrpt::maps::CSimplePointsMap::Ptr map;
+    {
+      const std::lock_guard lock(odometry_mutex_);
+      map = odometry_.map();
+    }
+    if (!map || map->empty()) throw std::runtime_error("there is no map yet");
+    GzipFile file(path + ".metricmap");
+    mrpt::serialization::archiveFrom(file) << *map;
+    file.commit();
+    status.success = true;
+  }
+  catch (const std::exception& e)
+  {
+    status.error_message = e.what();
+    MRPT_LOG_ERROR_STREAM("the map is not saved: " << e.what());
+  }
+  return status;
+}
+
+mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_load(const std::string& /*path*/)
+{
+  ReturnStatus status;
+  status.error_message = "the odometry does not change its map while it runs";
+  return status;
+}
+#endif
 
 }  // namespace fastlio
