@@ -63,6 +63,7 @@ void MolaLidarInertialOdometry::spinOnce()
   while (const auto observation = takeOne())
   {
     const std::lock_guard lock(odometry_mutex_);
+    keyframes_.keep(observation);
     odometry_.onNewObservation(observation);
   }
 }
@@ -105,6 +106,7 @@ void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
   update.pose = toMrptPose(vehicle.T_world_body).asTPose();
   update.cov = mrptCovariance(vehicle.T_world_body, vehicle.covariance);
   advertiseUpdatedLocalization(update);
+  offerKeyframe(estimate);
   if (map_every_n_scans_ > 0 && scans_++ % map_every_n_scans_ == 0) advertiseMap(vehicle.stamp_ns);
 }
 
@@ -117,6 +119,25 @@ void MolaLidarInertialOdometry::advertiseMap(std::int64_t stamp_ns)
   update.map = odometry_.map();
   advertiseUpdatedMap(update);
 }
+
+#if FASTLIO_MOLA_HAS_KEYFRAME_MAP
+void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& estimate)
+{
+  if (!keyframes_.isDue(estimate.vehicle->T_world_body)) return;
+  const auto sinks = findService<mola::SharedKeyframeMap>();
+  if (sinks.empty()) return;
+  const auto request = keyframes_.take(estimate, odometry_);
+  if (!request) return;
+  for (const auto& sink : sinks)
+    if (!std::dynamic_pointer_cast<mola::SharedKeyframeMap>(sink)->requestInsertKeyframe(*request))
+      MRPT_LOG_WARN_STREAM("the mapper rejected a keyframe");
+}
+#else
+void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& /*estimate*/)
+{
+  // This MOLA has no mapper that takes keyframes.
+}
+#endif
 
 #if FASTLIO_MOLA_HAS_MAP_SERVER
 mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_save(const std::string& path)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "MolaDiagnostics.h"
+#include "MolaKeyframes.h"
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <deque>
@@ -91,6 +92,7 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
  private:
   void advertise(const OdometryEstimate& estimate);
   void advertiseMap(std::int64_t stamp_ns);
+  void offerKeyframe(const OdometryEstimate& estimate);
   void writeTrajectory();
   [[nodiscard]] mrpt::obs::CObservation::ConstPtr takeOne();
 
@@ -100,6 +102,7 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
   std::size_t scans_ = 0;
   std::recursive_mutex odometry_mutex_;  // who is told of a pose may ask for the map at once
   CLidarInertialOdometry odometry_;
+  MolaKeyframes keyframes_;
   std::mutex queue_mutex_;
   std::deque<mrpt::obs::CObservation::ConstPtr> queue_;
 };
