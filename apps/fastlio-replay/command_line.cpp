@@ -75,8 +75,8 @@ void addInputOptions(
       ->allow_extra_args(false)  // what follows is a recording
       ->type_name("KEY=VALUE");
   app.add_option(
-         "--input-rawlog", arguments.input_files,
-         "A recording, too; repeated: the parts of a split one, in order")
+         "--input-rawlog,--input-rosbag2", arguments.input_files,
+         "A recording, too, of any format; repeated: the parts of a split one, in order")
       ->allow_extra_args(false)
       ->type_name("FILE");
   app.add_option(

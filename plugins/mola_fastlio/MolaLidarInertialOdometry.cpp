@@ -4,12 +4,17 @@
 #include "MolaLidarInertialOdometry.h"
 
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/gzip_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/initializer.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <stdexcept>
 
 IMPLEMENTS_MRPT_OBJECT(MolaLidarInertialOdometry, mola::FrontEndBase, fastlio)
 
@@ -56,12 +61,17 @@ void MolaLidarInertialOdometry::spinOnce()
 {
   const mola::ProfilerEntry timing(profiler_, "spinOnce");
   while (const auto observation = takeOne())
+  {
+    const std::lock_guard lock(odometry_mutex_);
+    keyframes_.keep(observation);
     odometry_.onNewObservation(observation);
+  }
 }
 
 void MolaLidarInertialOdometry::onQuit()
 {
   spinOnce();
+  const std::lock_guard lock(odometry_mutex_);
   odometry_.finish();
   writeTrajectory();
 }
@@ -86,6 +96,7 @@ void MolaLidarInertialOdometry::writeTrajectory()
 
 void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
 {
+  note(estimate.result);
   if (!estimate.vehicle) return;
   const TrackedPose& vehicle = *estimate.vehicle;
   LocalizationUpdate update;
@@ -95,6 +106,7 @@ void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
   update.pose = toMrptPose(vehicle.T_world_body).asTPose();
   update.cov = mrptCovariance(vehicle.T_world_body, vehicle.covariance);
   advertiseUpdatedLocalization(update);
+  offerKeyframe(estimate);
   if (map_every_n_scans_ > 0 && scans_++ % map_every_n_scans_ == 0) advertiseMap(vehicle.stamp_ns);
 }
 
@@ -107,5 +119,57 @@ void MolaLidarInertialOdometry::advertiseMap(std::int64_t stamp_ns)
   update.map = odometry_.map();
   advertiseUpdatedMap(update);
 }
+
+#if FASTLIO_MOLA_HAS_KEYFRAME_MAP
+void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& estimate)
+{
+  if (!keyframes_.isDue(estimate.vehicle->T_world_body)) return;
+  const auto sinks = findService<mola::SharedKeyframeMap>();
+  if (sinks.empty()) return;
+  const auto request = keyframes_.take(estimate, odometry_);
+  if (!request) return;
+  for (const auto& sink : sinks)
+    if (!std::dynamic_pointer_cast<mola::SharedKeyframeMap>(sink)->requestInsertKeyframe(*request))
+      MRPT_LOG_WARN_STREAM("the mapper rejected a keyframe");
+}
+#else
+void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& /*estimate*/)
+{
+  // This MOLA has no mapper that takes keyframes.
+}
+#endif
+
+#if FASTLIO_MOLA_HAS_MAP_SERVER
+mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_save(const std::string& path)
+{
+  ReturnStatus status;
+  try
+  {
+    mrpt::maps::CSimplePointsMap::Ptr map;
+    {
+      const std::lock_guard lock(odometry_mutex_);
+      map = odometry_.map();
+    }
+    if (!map || map->empty()) throw std::runtime_error("there is no map yet");
+    GzipFile file(path + ".metricmap");
+    mrpt::serialization::archiveFrom(file) << *map;
+    file.commit();
+    status.success = true;
+  }
+  catch (const std::exception& e)
+  {
+    status.error_message = e.what();
+    MRPT_LOG_ERROR_STREAM("the map is not saved: " << e.what());
+  }
+  return status;
+}
+
+mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_load(const std::string& /*path*/)
+{
+  ReturnStatus status;
+  status.error_message = "the odometry does not change its map while it runs";
+  return status;
+}
+#endif
 
 }  // namespace fastlio

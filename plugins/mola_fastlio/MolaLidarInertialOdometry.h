@@ -4,6 +4,8 @@
 /** \file MolaLidarInertialOdometry.h The odometry as a front-end of MOLA; built where MOLA is. */
 #pragma once
 
+#include "MolaDiagnostics.h"
+#include "MolaKeyframes.h"
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <deque>
@@ -13,8 +15,24 @@
 #include <mola_kernel/interfaces/MapSourceBase.h>
 #include <mutex>
 
+#if __has_include(<mola_kernel/interfaces/MapServer.h>)
+#define FASTLIO_MOLA_HAS_MAP_SERVER 1
+#include <mola_kernel/interfaces/MapServer.h>
+#else
+#define FASTLIO_MOLA_HAS_MAP_SERVER 0
+#endif
+
 namespace fastlio
 {
+/** Saves the map when MOLA asks for it, where MOLA does. */
+#if FASTLIO_MOLA_HAS_MAP_SERVER
+using MolaMapServer = mola::MapServer;
+#else
+class MolaMapServer
+{
+};
+#endif
+
 /** The type of the only argument of a method: MOLA's consumers take pointers to observations or to
  * constant ones, depending on the version. */
 template <typename Method>
@@ -25,7 +43,7 @@ struct ArgumentOf<void (Class::*)(Argument)>
   using type = Argument;
 };
 
-/** Takes observations of the modules in `raw_data_source`, and advertises pose and map:
+/** Takes observations of the modules in `raw_data_source`, and advertises pose, map and health:
  *
  *     modules:
  *       - name: odometry
@@ -44,7 +62,9 @@ struct ArgumentOf<void (Class::*)(Argument)>
  * observation that was sent is used. */
 class MolaLidarInertialOdometry : public mola::FrontEndBase,
                                   public mola::LocalizationSourceBase,
-                                  public mola::MapSourceBase
+                                  public mola::MapSourceBase,
+                                  public MolaDiagnostics,
+                                  public MolaMapServer
 {
   DEFINE_MRPT_OBJECT(MolaLidarInertialOdometry, fastlio)
 
@@ -59,12 +79,20 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
   /** Before the data sources (50), which would drop what they send until somebody listens. */
   int launchOrderPriority() const override { return 40; }
 
+#if FASTLIO_MOLA_HAS_MAP_SERVER
+  /** Writes `path`.metricmap, which `--map-in` of the programs takes. From any thread. */
+  ReturnStatus map_save(const std::string& path) override;
+  /** Not while it runs: MOLA gets the reason. */
+  ReturnStatus map_load(const std::string& path) override;
+#endif
+
  protected:
   void initialize_frontend(const mola::Yaml& cfg) override;
 
  private:
   void advertise(const OdometryEstimate& estimate);
   void advertiseMap(std::int64_t stamp_ns);
+  void offerKeyframe(const OdometryEstimate& estimate);
   void writeTrajectory();
   [[nodiscard]] mrpt::obs::CObservation::ConstPtr takeOne();
 
@@ -72,7 +100,9 @@ class MolaLidarInertialOdometry : public mola::FrontEndBase,
   std::size_t map_every_n_scans_ = 10;
   std::string output_tum_path_;
   std::size_t scans_ = 0;
+  std::recursive_mutex odometry_mutex_;  // who is told of a pose may ask for the map at once
   CLidarInertialOdometry odometry_;
+  MolaKeyframes keyframes_;
   std::mutex queue_mutex_;
   std::deque<mrpt::obs::CObservation::ConstPtr> queue_;
 };

@@ -6,6 +6,7 @@
 
 #include <mrpt/core/initializer.h>
 #include <mrpt/maps/CPointsMap.h>
+#include <mrpt/system/datetime.h>
 
 #include <chrono>
 #include <cstdio>
@@ -15,11 +16,24 @@
 #include <mola_kernel/interfaces/MapSourceBase.h>
 #include <mutex>
 
+#if __has_include(<mola_kernel/interfaces/SharedKeyframeMap.h>)
+#define FASTLIO_TEST_NEWER 1
+#include <mola_kernel/interfaces/DiagnosticsProvider.h>
+#include <mola_kernel/interfaces/MapServer.h>
+#include <mola_kernel/interfaces/SharedKeyframeMap.h>
+using KeyframeSink = mola::SharedKeyframeMap;
+#else
+#define FASTLIO_TEST_NEWER 0
+struct KeyframeSink
+{
+};
+#endif
+
 namespace fastlio_test
 {
 /** Parameters: `output`, a file with a line per pose and per map; `stop_after`, poses after which
  * the system is asked to end (0: when none has come for three seconds). */
-class MolaListener : public mola::ExecutableBase
+class MolaListener : public mola::ExecutableBase, public KeyframeSink
 {
   DEFINE_MRPT_OBJECT(MolaListener, fastlio_test)
 
@@ -29,7 +43,8 @@ class MolaListener : public mola::ExecutableBase
   void initialize(const mola::Yaml& cfg) override
   {
     const auto params = mola::Yaml(cfg["params"]);
-    out_.open(params["output"].as<std::string>());
+    output_ = params["output"].as<std::string>();
+    out_.open(output_);
     stop_after_ = params.getOrDefault<std::size_t>("stop_after", 0);
     for (const auto& source : findService<mola::LocalizationSourceBase>())
       std::dynamic_pointer_cast<mola::LocalizationSourceBase>(source)
@@ -41,16 +56,66 @@ class MolaListener : public mola::ExecutableBase
 
   void spinOnce() override
   {
-    const std::lock_guard lock(mutex_);
-    if (poses_ == 0) return;
-    const auto silence = std::chrono::steady_clock::now() - latest_;
-    if (stop_after_ > 0 ? poses_ >= stop_after_ : silence > std::chrono::seconds(3))
-      requestShutdown();
+    if (!isOver()) return;
+    askForMore();
+    requestShutdown();
   }
 
-  int launchOrderPriority() const override { return 45; }  // after the odometry
+#if FASTLIO_TEST_NEWER
+  std::optional<KeyFrameID> requestInsertKeyframe(const KeyframeInsertRequest& request) override
+  {
+    const std::lock_guard lock(mutex_);
+    char line[200];
+    std::snprintf(
+        line, sizeof line, "keyframe %.6f %.3f %.3f %.3f %zu %.3f %.3f %s\n",
+        mrpt::Clock::toDouble(request.timestamp), request.pose_in_source.mean.x(),
+        request.pose_in_source.mean.y(), request.pose_in_source.mean.z(),
+        request.observations.size(), request.quality,
+        mrpt::system::timeDifference(
+            request.observations.getObservationByIndex(0)->timestamp, request.timestamp),
+        request.source_frame_id.c_str());
+    out_ << line << std::flush;
+    return keyframes_++;
+  }
+#endif
+
+  int launchOrderPriority() const override
+  {
+    return 45;
+  }  // after the odometry
 
  private:
+  [[nodiscard]] bool isOver()
+  {
+    const std::lock_guard lock(mutex_);
+    if (poses_ == 0) return false;
+    const auto silence = std::chrono::steady_clock::now() - latest_;
+    return stop_after_ > 0 ? poses_ >= stop_after_ : silence > std::chrono::seconds(3);
+  }
+
+  // What newer versions of MOLA's bridge ask of the odometry.
+  void askForMore()
+  {
+#if FASTLIO_TEST_NEWER
+    for (const auto& module : findService<mola::DiagnosticsProvider>())
+    {
+      std::vector<mola::DiagnosticStatusMsg> all;
+      std::dynamic_pointer_cast<mola::DiagnosticsProvider>(module)->getDiagnostics(all);
+      for (const auto& status : all)
+        out_ << "diagnostic " << static_cast<int>(status.level) << ' ' << status.values.size()
+             << ' ' << status.message << '\n';
+    }
+    for (const auto& module : findService<mola::MapServer>())
+    {
+      const auto server = std::dynamic_pointer_cast<mola::MapServer>(module);
+      out_ << "saved " << server->map_save(output_).success << ' '
+           << server->map_save("/nowhere/map").success << ' ' << server->map_load(output_).success
+           << '\n';
+    }
+    out_ << std::flush;
+#endif
+  }
+
   void note(const mola::LocalizationSourceBase::LocalizationUpdate& update)
   {
     const std::lock_guard lock(mutex_);
@@ -71,9 +136,10 @@ class MolaListener : public mola::ExecutableBase
     out_ << "map " << (points ? points->size() : 0) << '\n' << std::flush;
   }
 
+  std::string output_;
   std::ofstream out_;
   std::mutex mutex_;
-  std::size_t poses_ = 0, stop_after_ = 0;
+  std::size_t poses_ = 0, stop_after_ = 0, keyframes_ = 0;
   std::chrono::steady_clock::time_point latest_;
 };
 }  // namespace fastlio_test

@@ -2,10 +2,12 @@
 # mrpt_fastlio: mola-cli replays a recording through our module: the trajectory is that of fastlio-replay, to the bit.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: run_mola.sh MOLA_PREFIX PROGRAMS_DIR MODULE_DIR LISTENER_DIR WORK_DIR
+# Usage: run_mola.sh MOLA_PREFIX PROGRAMS_DIR MODULE_DIR LISTENER_DIR WORK_DIR [NEWER_DIR]
+# NEWER_DIR: module and listener with interfaces that this MOLA does not have yet.
 set -euo pipefail
 
 prefix=$(realpath "$1"); programs=$(realpath "$2"); modules=$(realpath "$3"):$(realpath "$4"); work=$5
+newer=${6:+$(realpath "$6")}
 rm -rf "$work" && mkdir -p "$work" && cd "$work"
 fail() { echo "FAILED: $1"; tail -n 30 mola.log; exit 1; }
 
@@ -63,6 +65,21 @@ lines=$(wc -l <part.tum)
 # The last scan may reach beyond the inertial data that had come.
 cmp <(head -n $((lines - 1)) part.tum) <(head -n $((lines - 1)) replay/trajectory.tum) ||
   fail 'an early end changes what came before'
+
+# Interfaces that are newer than the kernel: the module and the listener are built with them once more.
+if [ -n "${newer:-}" ]; then
+  modules=$newer
+  launch newer 0
+  cmp newer.tum replay/trajectory.tum || fail 'with the newer interfaces the trajectory is another one'
+  # One scan each, which ends at the keyframe.
+  awk '$1 == "keyframe" { ++n; if ($6 != 1 || $7 <= 0.5 || $8 < 0.09 || $8 > 0.11 || $9 != "lidar_inertial_keyframes") bad = 1 }
+    END { exit bad || n < 5 }' newer.txt || fail 'keyframes do not arrive, or are others'
+  grep -q '^diagnostic 0 6 tracking$' newer.txt || fail 'the health is not told'
+  grep -q '^saved 1 0 0$' newer.txt || fail 'the map is not saved, or nonsense is not refused'
+  "$programs/fastlio-replay" walk.rawlog -o again --set map.voxel_size=0.3 --map-in newer.txt.metricmap --export trajectory --quiet ||
+    fail 'the saved map is not one to start in'
+  echo "newer interfaces: $(grep -c '^keyframe' newer.txt) keyframes, health, map"
+fi
 
 # The tools of mp2p_icp, where they are (MRPT 2.11.5 and newer).
 if [ -x "$prefix/bin/sm-cli" ]; then
