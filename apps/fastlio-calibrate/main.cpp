@@ -74,7 +74,8 @@ Json trialJson(const CalibrationTrial& trial)
       {"innovation_after", trial.after.innovation()},
       {"map_thickness_before_m", trial.before.mapThickness()},
       {"map_thickness_after_m", trial.after.mapThickness()},
-      {"better", trial.better()}};
+      {"better", trial.better()},
+      {"worth_using", trial.worthUsing()}};
 }
 
 std::string jsonText(
@@ -166,7 +167,7 @@ CalibrateStatus run(const CalibrateArguments& arguments)
       std::cout << calibrationTable(calibrator.given(), estimate) << '\n'
                 << (trial ? describe(*trial) + "\n" : std::string())
                 << "Written: " << arguments.output << '\n';
-    return trial && !trial->better() ? CalibrateStatus::NotBetter : CalibrateStatus::Ok;
+    return trial && !trial->worthUsing() ? CalibrateStatus::NotBetter : CalibrateStatus::Ok;
   }
   catch (const Failure&)
   {

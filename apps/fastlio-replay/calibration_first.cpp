@@ -20,9 +20,9 @@ std::string calibrateFirst(const std::vector<std::string>& files, Config& config
   const Calibrator calibrator({{name, files}}, config, kPasses);
   const RigEstimate estimate = calibrator.calibrate();
   const CalibrationTrial trial = calibrator.tryOut();
-  if (trial.better()) config = calibrator.configWith(estimate.rig);
+  if (trial.worthUsing()) config = calibrator.configWith(estimate.rig);
   return "Calibration (--calibrate): " + describe(trial) +
-         (trial.better() ? "" : " The run keeps what was given.");
+         (trial.worthUsing() ? "" : " The run keeps what was given.");
 }
 
 }  // namespace fastlio

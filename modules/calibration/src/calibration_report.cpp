@@ -90,6 +90,49 @@ CalibrationRow timeRow(const Rig& given, const RigEstimate& estimate)
   return row;
 }
 
+/** A noise density, in thousandths of its unit. */
+CalibrationRow noiseRow(
+    const char* name, const char* unit, double given, const MeasuredDensity& found,
+    const std::string& advice)
+{
+  constexpr double kThousandths = 1e3;
+  CalibrationRow row;
+  row.name = name;
+  row.unit = unit;
+  row.given = kThousandths * given;
+  row.found = kThousandths * (found.determined ? found.value : given);
+  row.std = found.determined ? kThousandths * found.std : 0.0;
+  if (!found.determined) row.advice = advice;
+  return row;
+}
+
+void addNoiseRows(const RigEstimate& estimate, std::vector<CalibrationRow>& rows)
+{
+  constexpr double kRestForWhite = 5.0;  // [s]
+  const InertialNoise& found = estimate.noise;
+  const ImuNoise& given = estimate.given_noise;
+  const auto advice = [](const SensorNoise& noise, double seconds)
+  {
+    const bool moved = noise.white.value > 0.0 && !noise.still;
+    return mrpt::format(
+        moved ? "the rig was not still: lay it down for %.0f s" : "lay the rig down for %.0f s",
+        seconds);
+  };
+  const auto add = [&](const SensorNoise& noise, double white, double walk, const char* white_name,
+                       const char* white_unit, const char* walk_name, const char* walk_unit)
+  {
+    rows.push_back(
+        noiseRow(white_name, white_unit, white, noise.white, advice(noise, kRestForWhite)));
+    const double density = noise.white.determined ? noise.white.value : white;
+    rows.push_back(noiseRow(
+        walk_name, walk_unit, walk, noise.walk, advice(noise, restForWalk(density, walk))));
+  };
+  add(found.gyro, given.gyro_noise_density, given.gyro_bias_walk, "imu.gyro_noise_density",
+      "1e-3 rad/s/sqrt(Hz)", "imu.gyro_bias_walk", "1e-3 rad/s^2/sqrt(Hz)");
+  add(found.accel, given.accel_noise_density, given.accel_bias_walk, "imu.accel_noise_density",
+      "1e-3 m/s^2/sqrt(Hz)", "imu.accel_bias_walk", "1e-3 m/s^3/sqrt(Hz)");
+}
+
 /** Text as lines of a YAML comment. */
 std::string commented(const std::string& text)
 {
@@ -103,7 +146,7 @@ std::string commented(const std::string& text)
 
 bool CalibrationRow::determined() const
 {
-  return prior_std == 0.0 || std < kDetermined * prior_std;
+  return advice.empty() && (prior_std == 0.0 || std < kDetermined * prior_std);
 }
 
 std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate& estimate)
@@ -134,6 +177,7 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
         element(kAccelMatrixError + 4 * axis), 1.0,
         ofAxis("hold the IMU's %s axis up for some seconds, then down", axis)));
   rows.push_back(timeRow(given, estimate));
+  addNoiseRows(estimate, rows);
   return rows;
 }
 
@@ -150,6 +194,7 @@ std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
         before.c_str(), row.unit.c_str(),
         row.determined() ? "" : ("  not determined: " + row.advice).c_str());
   }
+  text += mrpt::format("\nnoise densities: %.1f s at rest\n", estimate.noise.rest_seconds);
   text += mrpt::format(
       "\n%-36s %10s %10s %10s %10s\n", "beams by elevation [deg]", "range [mm]", "std",
       "elev. [deg]", "std");
@@ -166,6 +211,12 @@ std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
 
 std::string describe(const CalibrationTrial& trial)
 {
+  const std::string verdict =
+      trial.worthUsing() ? "use it."
+      : trial.better()
+          ? "it cannot be trusted, because scans err more than they say. Calibrate where there are "
+            "walls rather than leaves, and where little moves."
+          : "it is not better than what was given.";
   return mrpt::format(
              "On %.0f s of data that it was not fitted to, the normalised innovations go from %.2f "
              "to "
@@ -173,7 +224,7 @@ std::string describe(const CalibrationTrial& trial)
              trial.seconds, trial.before.innovation(), trial.after.innovation(),
              kMillimetres * trial.before.mapThickness(),
              kMillimetres * trial.after.mapThickness()) +
-         (trial.better() ? "use it." : "it is not better than what was given.");
+         verdict;
 }
 
 std::string calibrationYaml(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/calibration/calibration_run.h>
+#include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/math/time.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/rawlog/decode_ahead_source.h>
@@ -122,6 +123,32 @@ CalibrationRunResult calibrationRun(
   for (const ReadProblem& problem : source.problems())
     result.problems.push_back(recording.name + ": " + problem.message);
   return result;
+}
+
+std::vector<ImuSample> inertialSamples(const CalibrationRecording& recording, const Config& config)
+{
+  DecodeAheadSource source = openedSource(recording, config);
+  ImuConditioner conditioner(config.odometry.imu, config.odometry.initialization.gravity);
+  std::vector<ImuSample> samples;
+  const auto take = [&samples](const std::vector<ConditionedSample>& ready)
+  {
+    for (const ConditionedSample& next : ready)
+    {
+      if (next.rescale_gyro != 1.0)
+        for (ImuSample& earlier : samples)
+          earlier.gyro *= next.rescale_gyro;
+      samples.push_back(next.sample);
+    }
+  };
+  while (const auto input = source.next())
+  {
+    const auto* raw = std::get_if<ImuSample>(&input->data);
+    if (raw != nullptr && raw->gyro.allFinite() && raw->accel.allFinite())
+      take(conditioner.add(*raw));
+  }
+  source.stop();
+  take(conditioner.finish());
+  return samples;
 }
 
 }  // namespace fastlio

@@ -58,6 +58,12 @@ bool CalibrationTrial::better() const
          after.mapThickness() < kThickness * before.mapThickness();
 }
 
+bool CalibrationTrial::explained() const
+{
+  constexpr double kTwice = 4.0;  // as squares
+  return after.innovation() < kTwice;
+}
+
 Calibrator::Calibrator(
     std::vector<CalibrationRecording> recordings, Config config, int passes,
     CalibrationProgress progress)
@@ -65,8 +71,17 @@ Calibrator::Calibrator(
       config_(std::move(config)),
       passes_(passes),
       progress_(std::move(progress)),
-      given_(rigIn(recordings_.at(0), config_))
+      given_(rigIn(recordings_.at(0), config_)),
+      given_noise_(config_.odometry.imu.noise)
 {
+  for (const CalibrationRecording& recording : recordings_)
+  {
+    const InertialNoise noise = measureInertialNoise(inertialSamples(recording, config_));
+    if (noise.rest_seconds > noise_.rest_seconds) noise_ = noise;
+  }
+  // From the first pass on, and in the trial before and after: else the innovations would show the
+  // noise densities, not the rig.
+  config_.odometry.imu.noise = noise_.appliedTo(given_noise_);
   // The evidence about the extrinsic is collected beside the filter, which takes it for true.
   config_.odometry.calibration.estimate_extrinsic = false;
 }
@@ -143,6 +158,8 @@ RigEstimate Calibrator::estimateAt(
          stdOf(step.covariance, unknowns.beamIndex(i) + 1)});
   estimate.innovation_scale = step.innovation_scale;
   estimate.passes = passes_;
+  estimate.given_noise = given_noise_;
+  estimate.noise = noise_;
   return estimate;
 }
 

@@ -95,22 +95,23 @@ CalibrationStep CalibrationUnknowns::step(const PassFindings& pass, const Eigen:
   step.covariance = Eigen::MatrixXd::Zero(size(), size());
   step.step.head<kCalibrationErrorDim>() = errors.mean;
   step.covariance.topLeftCorner<kCalibrationErrorDim, kCalibrationErrorDim>() = errors.covariance;
+  // Surfaces that make the innovations large, like leaves, do the same to the residuals of beams.
+  const double inflation = kSystematic * errors.innovation_scale;
   const bool timed = pass.time_information > 0.0;
   step.step[kTimeOffsetIndex] = timed ? pass.time_weighted / pass.time_information : 0.0;
   step.covariance(kTimeOffsetIndex, kTimeOffsetIndex) =
-      timed ? kSystematic * errors.innovation_scale / pass.time_information
-            : std::pow(kUnknownTimeStd, 2);
+      timed ? inflation / pass.time_information : std::pow(kUnknownTimeStd, 2);
   const Eigen::Vector2d prior_information(std::pow(kRangeStd, -2), std::pow(kElevationStd, -2));
   for (std::size_t i = 0; i < elevations_.size(); ++i)
   {
     const auto found = pass.beams.find(elevations_[i]);
     const BeamSums sums = found == pass.beams.end() ? BeamSums{} : found->second;
-    Eigen::Matrix2d information = sums.information / kSystematic;
+    Eigen::Matrix2d information = sums.information / inflation;
     information.diagonal() += prior_information;
     const Eigen::Vector2d pull = prior_information.cwiseProduct(x.segment<2>(beamIndex(i)));
     const Eigen::Matrix2d covariance = information.inverse();
     step.step.segment<2>(beamIndex(i)) =
-        covariance * (Eigen::Vector2d(sums.weighted) / kSystematic - pull);
+        covariance * (Eigen::Vector2d(sums.weighted) / inflation - pull);
     step.covariance.block<2, 2>(beamIndex(i), beamIndex(i)) = covariance;
   }
   const std::vector<std::size_t> known = knownBeams(step);

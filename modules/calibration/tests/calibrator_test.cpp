@@ -110,6 +110,33 @@ TEST_F(CalibratorTest, IsTriedOutOnOtherData)
   EXPECT_FALSE(right.better()) << "there is nothing to gain: " << describe(right);
 }
 
+TEST(CalibrationTrial, RefusesWhatDoesNotExplainTheData)
+{
+  CalibrationTrial trial;
+  trial.before = {1700.0, 100.0, 1.0, 1000.0};
+  trial.after = {1400.0, 100.0, 1.0, 1000.0};  // as measured among leaves
+  EXPECT_TRUE(trial.better());
+  EXPECT_FALSE(trial.worthUsing());
+  EXPECT_NE(describe(trial).find("cannot be trusted"), std::string::npos);
+  trial.after.innovation_squares = 120.0;
+  EXPECT_TRUE(trial.worthUsing());
+  trial.before = trial.after;
+  EXPECT_FALSE(trial.worthUsing());
+  EXPECT_NE(describe(trial).find("not better"), std::string::npos);
+}
+
+TEST_F(CalibratorTest, TellsTheNoiseThatTheRestShows)
+{
+  const Calibrator calibrator({record("walk", 6.0, 1)}, config_, 2);
+  const RigEstimate estimate = calibrator.calibrate();
+  const std::vector<CalibrationRow> rows = calibrationRows(calibrator.given(), estimate);
+  const double density = 1e3 * config_.odometry.imu.noise.gyro_noise_density;  // the simulator's
+  EXPECT_NEAR(valueOf(rows, "imu.gyro_noise_density"), density, 0.3 * density);
+  EXPECT_NE(
+      calibrationTable(calibrator.given(), estimate).find("not determined: lay the rig down"),
+      std::string::npos);
+}
+
 TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 {
   const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyGiven(), 2);

@@ -78,6 +78,13 @@ void CalibrationErrorModel::recordInsertion(
   insertions_.push_back({scan, 0.0, product(twistJacobian(T_world_scan), ofScan(by_state))});
 }
 
+StateVector CalibrationErrorModel::withoutExtrinsicError(const Vector6& error) const
+{
+  StateVector change = -(S_.middleCols<6>(kExtrinsicError) * error);
+  change.segment<6>(kExtrinsicRotation) = -error;
+  return change;
+}
+
 StateMatrix CalibrationErrorModel::addition(const CalibrationErrorMatrix& moment) const
 {
   return productByTransposed(product(S_, moment), S_);

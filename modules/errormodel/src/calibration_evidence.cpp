@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/errormodel/calibration_evidence.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -18,6 +19,14 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 constexpr int kScansSolvedEach = 20;
 constexpr int kScansPerSolution = 10;
 
+// What the model lacks is the same in many scans: their innovations contain so many times less than
+// their covariance says. The value is that of fastlio-calibrate (docs/calibration.md).
+constexpr double kSystematic = 2.5 * 2.5;
+// An error of six components that is none exceeds it once in 20 times.
+constexpr double kSignificant = 50.0;
+// A correction begins a new map, so there are few: each waits 1.5 times as long as the one before.
+constexpr double kFirstCorrection = 8.0, kNextCorrection = 1.5;  // [s], factor
+
 bool isPositive(const Eigen::LDLT<Square6>& ldlt)
 {
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 0.0;
@@ -25,6 +34,7 @@ bool isPositive(const Eigen::LDLT<Square6>& ldlt)
 }  // namespace
 
 CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
+    : estimates_extrinsic_(options.estimate_extrinsic), next_correction_(kFirstCorrection)
 {
   const auto matrix = [&](int first)
   {
@@ -35,11 +45,8 @@ CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
   };
   matrix(kGyroMatrixError);
   matrix(kAccelMatrixError);
-  const bool estimated = options.estimate_extrinsic;  // by the filter itself
-  prior_.std.segment<3>(kExtrinsicError)
-      .setConstant(estimated ? 0.0 : options.extrinsic_rotation_std);
-  prior_.std.segment<3>(kExtrinsicError + 3)
-      .setConstant(estimated ? 0.0 : options.extrinsic_translation_std);
+  prior_.std.segment<3>(kExtrinsicError).setConstant(options.extrinsic_rotation_std);
+  prior_.std.segment<3>(kExtrinsicError + 3).setConstant(options.extrinsic_translation_std);
   estimate_ = solve(sums_, prior_);
 }
 
@@ -65,6 +72,38 @@ void CalibrationEvidence::add(
   ++scans_;
   if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0)
     estimate_ = solve(sums_, prior_);
+}
+
+std::optional<Vector6> CalibrationEvidence::dueCorrection(std::int64_t now_ns)
+{
+  if (!estimates_extrinsic_) return std::nullopt;
+  if (begin_ns_ == 0) begin_ns_ = now_ns;
+  const double seconds = toSeconds(now_ns - begin_ns_);
+  if (seconds < next_correction_) return std::nullopt;
+  next_correction_ = kNextCorrection * seconds;
+  const CalibrationEstimate estimate = solve(sums_, prior_, kSystematic);
+  const Vec6 error = estimate.mean.segment<6>(kExtrinsicError);
+  const Square6 covariance = estimate.covariance.block<6, 6>(kExtrinsicError, kExtrinsicError);
+  const Eigen::LDLT<Square6> ldlt(covariance);
+  if (!isPositive(ldlt) || error.dot(ldlt.solve(error)) < kSignificant) return std::nullopt;
+  return Vector6(error);
+}
+
+void CalibrationEvidence::takeOff(const Vector6& error)
+{
+  CalibrationErrorVector taken = CalibrationErrorVector::Zero();
+  taken.segment<6>(kExtrinsicError) = error;
+  const CalibrationErrorVector pull = sums_.information * taken;
+  sums_.squares += taken.dot(pull) - 2.0 * taken.dot(sums_.weighted);
+  sums_.weighted -= pull;
+  prior_.mean -= taken;
+  estimate_ = solve(sums_, prior_);
+}
+
+Matrix6 CalibrationEvidence::extrinsicCovariance() const
+{
+  if (!estimates_extrinsic_) return Matrix6::Zero();
+  return solve(sums_, prior_, kSystematic).covariance.block<6, 6>(kExtrinsicError, kExtrinsicError);
 }
 
 Matrix6 CalibrationEvidence::byPrior(const PoseByCalibration& pose) const

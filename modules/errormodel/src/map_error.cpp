@@ -172,6 +172,13 @@ void MapErrorModel::update(
   Y_poses_ = kept_poses + in_poses;
 }
 
+void MapErrorModel::forgetMap()
+{
+  Y_planes_.setZero();
+  Y_poses_.setZero();
+  insertions_.clear();
+}
+
 StateMatrix MapErrorModel::addition() const
 {
   return 0.5 * (addition_ + addition_.transpose());

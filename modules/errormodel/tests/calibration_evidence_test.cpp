@@ -119,13 +119,48 @@ TEST(CalibrationEvidence, HasNoneForWhatIsKnownExactly)
   EXPECT_EQ(evidence.estimate().second_moment.norm(), 0.0);
 }
 
-TEST(CalibrationEvidence, LeavesTheExtrinsicToAFilterThatEstimatesIt)
+/** calibration.estimate_extrinsic, after a first scan at 1 s. */
+CalibrationEvidence estimatingEvidence()
 {
   CalibrationOptions options;
   options.estimate_extrinsic = true;
-  const CalibrationEvidence evidence(options);
-  EXPECT_EQ((evidence.estimate().covariance.topLeftCorner<6, 6>().norm()), 0.0);
-  EXPECT_GT(evidence.estimate().covariance.norm(), 0.0);
+  CalibrationEvidence evidence(options);
+  EXPECT_FALSE(evidence.dueCorrection(1'000'000'000));
+  return evidence;
+}
+
+constexpr std::int64_t kSoonNs = 5'000'000'000, kLaterNs = 11'000'000'000;
+
+TEST(CalibrationEvidence, TakesALargeErrorOffTheExtrinsicAfterAWhile)
+{
+  CalibrationEvidence evidence = estimatingEvidence();
+  const CalibrationErrorVector theta = someError(0.01);
+  RandomScans(6).feed(evidence, theta, 200, 1.0);
+  EXPECT_FALSE(evidence.dueCorrection(kSoonNs)) << "too early";
+  const auto error = evidence.dueCorrection(kLaterNs);
+  ASSERT_TRUE(error);
+  EXPECT_LT((*error - theta.head<6>()).norm(), 0.1 * theta.head<6>().norm());
+  EXPECT_FALSE(evidence.dueCorrection(kLaterNs + 1)) << "the next one waits longer";
+  evidence.takeOff(*error);
+  CalibrationErrorVector left = theta;
+  left.head<6>() -= *error;
+  EXPECT_LT((evidence.estimate().mean - left).norm(), 0.05 * theta.norm());
+  EXPECT_FALSE(evidence.dueCorrection(10 * kLaterNs)) << "there is nothing left";
+  // The evidence on the extrinsic in use adds to that on the one before.
+  RandomScans(7).feed(evidence, left, 200, 1.0);
+  EXPECT_LT((evidence.estimate().mean - left).norm(), 0.05 * theta.norm());
+  EXPECT_NEAR(evidence.estimate().innovation_scale, 1.0, 0.15);
+}
+
+TEST(CalibrationEvidence, LeavesTheExtrinsicWhereNoErrorShows)
+{
+  CalibrationEvidence right = estimatingEvidence();
+  RandomScans(8).feed(right, someError(0.0), 200, 1.0);
+  EXPECT_FALSE(right.dueCorrection(kLaterNs));
+  CalibrationEvidence not_asked{CalibrationOptions{}};
+  RandomScans(6).feed(not_asked, someError(0.01), 200, 1.0);
+  EXPECT_FALSE(not_asked.dueCorrection(1'000'000'000));
+  EXPECT_FALSE(not_asked.dueCorrection(kLaterNs));
 }
 }  // namespace
 }  // namespace fastlio

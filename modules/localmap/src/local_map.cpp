@@ -53,6 +53,18 @@ LocalMap::LocalMap(
   error_.recordInsertion(0, InsertionError{}, Pose{});
 }
 
+LocalMap LocalMap::successor(
+    const OdometryOptions& options, std::shared_ptr<const Workers> workers) const
+{
+  LocalMap next(options, std::move(workers));
+  next.error_ = error_;
+  next.error_.forgetMap();
+  next.calibration_ = calibration_;
+  next.calibration_.forgetMap();
+  next.succeeds_ = true;
+  return next;
+}
+
 void LocalMap::propagateError(const ErrorTransition& transition)
 {
   error_.propagate(transition);
@@ -93,7 +105,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
 {
   if (candidate.status == ScanStatus::Initializing || (given_ && !update_given_)) return false;
   if (candidate.resting_time > kMaxRestingTime) return false;
-  if (empty() && candidate.status != ScanStatus::FirstScan) return false;
+  if (empty() && candidate.status != ScanStatus::FirstScan && !succeeds_) return false;
   if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
   if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
     return true;

@@ -71,6 +71,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   noteSupport(match, work, result);
   applyZeroVelocityUpdate(statusOf(work.outcome, options_) == ScanStatus::Tracking, result);
   classifier_.classify(work.outcome, imu.inflations(), result);
+  correctExtrinsic(result);
   insertIntoMap(work, result);  // eq. 21
   result.statistics.map_points = map_.surfaces().pointCount();
   widenAfterFirstScan(result.status);

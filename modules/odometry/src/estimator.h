@@ -126,6 +126,7 @@ class Estimator
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);
   void applyZeroVelocityUpdate(bool matched, ScanResult& result);
   void changeMode(ScanStatus status);
+  void correctExtrinsic(ScanResult& result);
   void insertIntoMap(const Work& work, const ScanResult& result);
   void widenAfterFirstScan(ScanStatus status);
   void releaseTimeOffset(const ScanResult& result, std::size_t points);

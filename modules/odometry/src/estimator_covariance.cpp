@@ -86,7 +86,25 @@ void Estimator::report(ScanResult& result) const
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
+  result.filter.P.block<6, 6>(kExtrinsicRotation, kExtrinsicRotation) =
+      calibration_.extrinsicCovariance();
   result.statistics.calibration = checkOf(calibration, beams_);
+}
+
+/** calibration.estimate_extrinsic: takes off the error that the innovations show. The filter itself
+ * does not estimate it, because it takes the innovations for independent. The map was made with
+ * that error and would go on pulling, so a new one begins. */
+void Estimator::correctExtrinsic(ScanResult& result)
+{
+  const bool tracks = std::holds_alternative<Tracking>(mode_) && run().consistent;
+  if (!tracks || result.status != ScanStatus::Tracking || map_.isGiven()) return;
+  const std::optional<Vector6> error = calibration_.dueCorrection(state_.stamp_ns);
+  if (!error) return;
+  state_.filter.x = boxplus(state_.filter.x, map_.calibrationError().withoutExtrinsicError(*error));
+  calibration_.takeOff(*error);
+  map_ = map_.successor(options_, workers_);
+  agreement_.restart();
+  report(result);
 }
 
 StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const

@@ -44,7 +44,7 @@ void Estimator::start(
   const std::optional<Pose> T_map_imu =
       initializing != nullptr ? initializing->T_map_imu : std::nullopt;
   const FilterState placed = T_map_imu ? placedInMap(state, *T_map_imu) : state;
-  state_ = {withCalibrationPrior(placed, options_.calibration), stamp_ns};
+  state_ = {placed, stamp_ns};
   map_.startCalibrationError(placed.x, options_.initialization.align_with_gravity);
   if (T_map_imu)
     mode_ = EnteringMap{std::move(run), *T_map_imu};

@@ -57,4 +57,9 @@ struct ScanRange
 [[nodiscard]] CalibrationRunResult calibrationRun(
     const CalibrationRecording& recording, const Config& config, const ScanRange& range = {});
 
+/** The inertial samples of a recording in SI units, without those that the odometry drops.
+ * \exception std::runtime_error as calibrationRun() */
+[[nodiscard]] std::vector<ImuSample> inertialSamples(
+    const CalibrationRecording& recording, const Config& config);
+
 }  // namespace fastlio

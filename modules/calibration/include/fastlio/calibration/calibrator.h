@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/calibration/calibration_run.h>
+#include <fastlio/calibration/inertial_noise.h>
 #include <fastlio/calibration/rig.h>
 
 #include <functional>
@@ -35,6 +36,8 @@ struct RigEstimate
   /** How many times the squares of the innovations exceed their covariance; 1: as they should. */
   double innovation_scale = 1.0;
   int passes = 0;
+  ImuNoise given_noise;               //!< densities before
+  InertialNoise noise;                //!< by the longest rest
   std::vector<std::string> problems;  //!< of reading, for people: the rest was used
 };
 
@@ -45,6 +48,10 @@ struct CalibrationTrial
   double seconds = 0.0;  //!< of those data
   /** Innovations are smaller by a twentieth, and the map is not thicker by as much. */
   [[nodiscard]] bool better() const;
+  /** With the calibration, scans err no more than twice as much as they say: else the data are of
+   * another kind than what was fitted to them, as among leaves. */
+  [[nodiscard]] bool explained() const;
+  [[nodiscard]] bool worthUsing() const { return better() && explained(); }
 };
 
 /** A part of the work begins: what it is, for people. */
@@ -71,7 +78,7 @@ class Calibrator
 
   /** The rig as it was given. */
   [[nodiscard]] const Rig& given() const { return given_; }
-  /** The configuration with another rig. */
+  /** The configuration with another rig, and with the noise densities that the rest determines. */
   [[nodiscard]] Config configWith(const Rig& rig) const;
 
  private:
@@ -89,6 +96,8 @@ class Calibrator
   int passes_;
   CalibrationProgress progress_;
   Rig given_;
+  ImuNoise given_noise_;
+  InertialNoise noise_;
 };
 
 }  // namespace fastlio

@@ -56,6 +56,11 @@ class CalibrationErrorModel
   void recordInsertion(
       std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state);
 
+  /** There is no map any more; the state's error stays. */
+  void forgetMap() { insertions_.clear(); }
+  /** How the state changes when an error of the extrinsic is taken off: for boxplus(). */
+  [[nodiscard]] StateVector withoutExtrinsicError(const Vector6& error) const;
+
   /** S M S^T for the second moment M of theta. */
   [[nodiscard]] StateMatrix addition(const CalibrationErrorMatrix& moment) const;
   /** The same, some way after the last scan. */

@@ -11,6 +11,9 @@
 #include <fastlio/filter/update.h>
 #include <fastlio/interface/odometry_options.h>
 
+#include <cstdint>
+#include <optional>
+
 namespace fastlio
 {
 /** Least squares for theta, with a prior. */
@@ -28,11 +31,23 @@ class CalibrationEvidence
 
   /** Covariance of a pose that depends on theta, by the prior of the extrinsic. */
   [[nodiscard]] Matrix6 byPrior(const PoseByCalibration& pose) const;
+  /** With calibration.estimate_extrinsic: the error of the extrinsic in use (kExtrinsicError), when
+   * the scans show that there is one and it is time to take it off. What the motion does not
+   * determine stays as given. \param now_ns the instant of the latest scan */
+  [[nodiscard]] std::optional<Vector6> dueCorrection(std::int64_t now_ns);
+  /** The extrinsic in use no longer has that error. */
+  void takeOff(const Vector6& error);
+  /** Covariance of the extrinsic in use, as far as it is estimated. */
+  [[nodiscard]] Matrix6 extrinsicCovariance() const;
+
   /** The estimate from all scans so far. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
   [[nodiscard]] const CalibrationSums& sums() const { return sums_; }
 
  private:
+  bool estimates_extrinsic_ = false;
+  std::int64_t begin_ns_ = 0;     // of the evidence; 0: none yet
+  double next_correction_ = 0.0;  // after the begin [s]
   CalibrationPrior prior_;
   CalibrationSums sums_;
   int scans_ = 0;

@@ -82,6 +82,9 @@ class MapErrorModel
       const LinearizedUpdate& update, const GroupedMeasurements& scan,
       const Matrix6& beam_errors = Matrix6::Zero());
 
+  /** There is no map any more; the state's error stays. */
+  void forgetMap();
+
   /** The covariance to be added to the filter's own: the map's error, less the part of it that
    * the filter has counted as noise of the points. */
   [[nodiscard]] StateMatrix addition() const;

@@ -44,6 +44,10 @@ class LocalMap
       const OdometryOptions& options, std::shared_ptr<const Workers> workers,
       const SavedMap& saved);
 
+  /** An empty map that the next scan joins: the pose goes on from this one, with its errors. */
+  [[nodiscard]] LocalMap successor(
+      const OdometryOptions& options, std::shared_ptr<const Workers> workers) const;
+
   [[nodiscard]] const SurfaceMap& surfaces() const { return *surfaces_; }
   [[nodiscard]] const EdgeMap& edges() const { return edges_; }
   [[nodiscard]] MatchedMaps matched() const { return {*surfaces_, edges_}; }
@@ -99,6 +103,7 @@ class LocalMap
   double usual_inlier_ratio_ = 0.0;
   int ratios_ = 0;  // that it is the mean of
   bool given_ = false;
+  bool succeeds_ = false;    // another one: the pose is known while this one is empty
   WorldPoints world_edges_;  // reused between scans
 };
 
