@@ -29,33 +29,14 @@ constexpr std::array<std::string_view, 4> kIntensityNames{
     "intensity", "reflectivity", "i", "signal"};
 
 template <typename T>
-double valueAt(const std::uint8_t* bytes, bool swap)
+T valueAt(const std::uint8_t* bytes, bool swap)
 {
   std::array<std::uint8_t, sizeof(T)> raw{};
-  for (std::size_t i = 0; i < sizeof(T); ++i)
-    raw[i] = bytes[swap ? sizeof(T) - 1 - i : i];
+  std::memcpy(raw.data(), bytes, sizeof(T));
+  if (swap) std::reverse(raw.begin(), raw.end());
   T value{};
   std::memcpy(&value, raw.data(), sizeof(T));
-  return static_cast<double>(value);
-}
-
-using ValueReader = double (*)(const std::uint8_t*, bool);
-
-ValueReader valueReaderOf(std::uint8_t type)
-{
-  constexpr std::array<ValueReader, 11> kReaders{
-      nullptr,
-      valueAt<std::int8_t>,
-      valueAt<std::uint8_t>,
-      valueAt<std::int16_t>,
-      valueAt<std::uint16_t>,
-      valueAt<std::int32_t>,
-      valueAt<std::uint32_t>,
-      valueAt<float>,
-      valueAt<double>,
-      valueAt<std::int64_t>,
-      valueAt<std::uint64_t>};
-  return kReaders.at(type);
+  return value;
 }
 
 /** Numbers of lines may be stored in any type; what is no such number is line 0. */
@@ -67,19 +48,38 @@ Wanted as(double value)
   return static_cast<Wanted>(value);
 }
 
-template <typename Wanted>
-std::vector<Wanted> columnOf(const PointGrid& grid, const PointField& field)
+/** One loop for each type that is stored: clouds have millions of values a second. */
+template <typename Stored, typename Wanted>
+std::vector<Wanted> columnFrom(const PointGrid& grid, const PointField& field)
 {
-  const ValueReader read = valueReaderOf(field.type);
-  std::vector<Wanted> values;
-  values.reserve(grid.width * grid.height);
+  std::vector<Wanted> values(grid.width * grid.height);
+  std::size_t next = 0;
   for (std::size_t row = 0; row < grid.height; ++row)
   {
     const std::uint8_t* point = grid.data + row * grid.row_step + field.offset;
     for (std::size_t i = 0; i < grid.width; ++i, point += grid.step)
-      values.push_back(as<Wanted>(read(point, grid.swap)));
+      values[next++] = as<Wanted>(static_cast<double>(valueAt<Stored>(point, grid.swap)));
   }
   return values;
+}
+
+template <typename Wanted>
+std::vector<Wanted> columnOf(const PointGrid& grid, const PointField& field)
+{
+  using Reader = std::vector<Wanted> (*)(const PointGrid&, const PointField&);
+  constexpr std::array<Reader, 11> kReaders{
+      nullptr,
+      columnFrom<std::int8_t, Wanted>,
+      columnFrom<std::uint8_t, Wanted>,
+      columnFrom<std::int16_t, Wanted>,
+      columnFrom<std::uint16_t, Wanted>,
+      columnFrom<std::int32_t, Wanted>,
+      columnFrom<std::uint32_t, Wanted>,
+      columnFrom<float, Wanted>,
+      columnFrom<double, Wanted>,
+      columnFrom<std::int64_t, Wanted>,
+      columnFrom<std::uint64_t, Wanted>};
+  return kReaders.at(field.type)(grid, field);
 }
 
 /** Null: there is none of these names that lies within a point. */

@@ -144,6 +144,20 @@ TEST_F(RoboSense, PointsWithoutTheirDevicePacketAreReported)
   EXPECT_EQ(capture.problems.size(), 1U);
 }
 
+TEST_F(RoboSense, OfMoreThan4000WaitingPacketsTheOldestAreDropped)
+{
+  auto packets = revolutions(28, 12, 20, 55'560, heliosPacket);
+  ASSERT_EQ(packets.size(), 4200U);
+  packets.push_back({kStamp, 7788, devicePacket(fan(32, -16, 1), 1e-2, 32)});
+  const Recorded capture = captured(packets);
+  ASSERT_EQ(capture.problems.size(), 1U);
+  EXPECT_TRUE(contains(capture.problems[0].message, "DIFOP")) << capture.problems[0].message;
+  std::size_t points = 0;
+  for (const auto& scan : capture.observations)
+    points += columnsOf(*scan).size();
+  EXPECT_EQ(points, 4000U * 12 * 32);
+}
+
 TEST_F(RoboSense, NoDamageOfTheseAndOfHesaiThrowsOrRunsAway)
 {
   TurningPacket packet;
