@@ -115,6 +115,22 @@ bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
   return std <= kMaxDegenerateStd;
 }
 
+/** A pose that only the map tells: it has places that look alike, and the right one may not be
+ * among them. */
+void considerSearch(const ScanStatistics& s, ScanHealth& health)
+{
+  if (s.searched_std <= kUnambiguousStd) return;
+  consider(
+      health, kPredicted, HealthCause::Lost,
+      [&]
+      {
+        return mrpt::format(
+            "the pose was uncertain by %.2f m and is found again by the look of the map alone: "
+            "another place may look the same",
+            s.searched_std);
+      });
+}
+
 /** What scans correct again and again, the inertial data got wrong, or the scans' pose did. */
 void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanHealth& health)
 {
@@ -213,6 +229,7 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
     // stands across it: they are no second cause.
     if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
     considerMotion(result.statistics, context, health);
+    considerSearch(result.statistics, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, health);
   consider(
