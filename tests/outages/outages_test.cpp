@@ -212,6 +212,20 @@ TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
   EXPECT_NE(found, run.scans.end());
 }
 
+// A stairwell looks the same on every floor, and the floor where the platform is has not been seen
+// before. The velocity that the scans measure after the outage excludes the other floors. So a new
+// map begins at the prediction, and the run is never lost.
+TEST(OutageOfTheLidar, TheFloorsOfAStairwellAreNotTakenForEachOther)
+{
+  const SimulatedRun run = runWithOutage(CastWalk("stairs"), {15.0, 5.0}, Missing::Scans);
+  EXPECT_EQ(confidentlyWrong(run), 0);
+  EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
+  EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 2U);
+  EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
+  EXPECT_LT(positionError(run, run.scans.back()), 1.0);
+  EXPECT_FALSE(endsOk(run));
+}
+
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
 {
   const SimulatedRun run = runWithOutage(CastWalk("office"), {10.0, 6.0}, Missing::Points);

@@ -60,6 +60,18 @@ std::string searchFailure(const ScanOutcome& outcome)
       best.score > 0.0 ? 100.0 * search.rival_score / best.score : 0.0, outcome.unaided_s);
 }
 
+std::string afterOutage(const ScanOutcome& outcome)
+{
+  if (outcome.begins_map)
+    return mrpt::format(
+        "the map does not show the place: a new one begins at the predicted pose, which is "
+        "uncertain by %.2f m",
+        outcome.position_std);
+  return mrpt::format(
+      "the scans measure the velocity before the map is searched; position uncertain by %.2f m",
+      outcome.position_std);
+}
+
 std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
 {
   return mrpt::format(
@@ -100,6 +112,7 @@ std::string trackingMessage(
   const bool diverged = isDiverged(outcome, options);
   if (outcome.search && outcome.prediction_finite)
     return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
+  if (outcome.after_outage && outcome.prediction_finite) return afterOutage(outcome);
   if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
   if (outcome.map_was_empty && !outcome.begins_map) return emptyScan(outcome, s, options);
   if (diverged || (!outcome.updated && !outcome.begins_map)) return fewMatches(outcome, s);
@@ -130,6 +143,9 @@ std::string messageOf(
 ScanStatus statusOf(const ScanOutcome& outcome, const OdometryOptions& options)
 {
   if (outcome.place == ScanOutcome::Place::OutsideGivenMap) return ScanStatus::Initializing;
+  // The prediction bridges an outage, and its covariance says how well.
+  if (outcome.after_outage && outcome.prediction_finite && !outcome.begins_map && !outcome.updated)
+    return ScanStatus::PredictionOnly;
   if (isDiverged(outcome, options)) return ScanStatus::Diverged;
   if (outcome.begins_map) return ScanStatus::FirstScan;
   if (outcome.updated) return ScanStatus::Tracking;

@@ -116,6 +116,22 @@ bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
   return std <= kMaxDegenerateStd;
 }
 
+/** A pose that only the map determines: it has places that look alike, and the right one may not be
+ * among them. */
+void considerSearch(const ScanStatistics& s, ScanHealth& health)
+{
+  if (s.searched_std <= kUnambiguousStd) return;
+  consider(
+      health, kPredicted, HealthCause::Lost,
+      [&]
+      {
+        return mrpt::format(
+            "the pose was uncertain by %.2f m and was found by the map alone: "
+            "another place may look the same",
+            s.searched_std);
+      });
+}
+
 /** Scans correct the same error again and again: either the inertial data or the poses of the scans
  * are wrong. */
 void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanHealth& health)
@@ -215,6 +231,7 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
     // stands across it: they are no second cause.
     if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
     considerMotion(result.statistics, context, health);
+    considerSearch(result.statistics, health);
   }
   considerInertialData(context.inflated_ratio, result.filter.x, health);
   consider(

@@ -25,6 +25,27 @@ TEST(Classify, ScansWithoutUpdateAreInTrouble)
   EXPECT_EQ(lost.value, 0.0);
 }
 
+// The inertial data bridge an outage of the LiDAR, however long; its covariance says how well.
+TEST(Classify, APredictionAfterAnOutageIsOneAndSaysWhatItWaitsFor)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.updated = false;
+  outcome.unaided_s = 20.0;
+  EXPECT_EQ(statusOf(outcome, {}), ScanStatus::Diverged);
+  outcome.after_outage = true;
+  ScanResult r;
+  r.stamp_ns = 1;
+  ScanClassifier classifier{OdometryOptions{}};
+  classifier.classify(outcome, {}, r);
+  EXPECT_EQ(r.status, ScanStatus::PredictionOnly);
+  EXPECT_NE(r.message.find("measure the velocity"), std::string::npos) << r.message;
+  outcome.begins_map = outcome.map_was_empty = true;
+  outcome.unaided_s = 0.0;
+  classifier.classify(outcome, {}, r);
+  EXPECT_EQ(r.status, ScanStatus::FirstScan);
+  EXPECT_NE(r.message.find("a new one begins"), std::string::npos) << r.message;
+}
+
 TEST(Classify, FewMatchesAreNoTroubleWhileTheMapIsSparse)
 {
   ScanClassifier classifier{OdometryOptions{}};

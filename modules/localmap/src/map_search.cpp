@@ -136,6 +136,13 @@ MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
   return around(predicted, {predicted.x.R});
 }
 
+MapSearchResult MapSearch::postponed(const FilterState& predicted) const
+{
+  // The matches that are handed over are those of the whole scan, as if it had been searched.
+  return notFound(
+      matcher_.match(scan_, predicted, map_, ordinaryMatching(options_)), predicted, {}, 0);
+}
+
 MapSearchResult MapSearch::around(
     const FilterState& predicted, const std::vector<Mat3>& attitudes) const
 {
@@ -159,8 +166,14 @@ MapSearchResult MapSearch::around(
   {
     const Pose& found = poses.best->T_world_imu;
     const FilterState turned = turnedBy(headingBetween(predicted.x, found.R), predicted);
-    latest = matcher_.match(
-        scan_, correctedByPose(turned, found), map_.matched(), ordinaryMatching(options_));
+    const MatchOptions ordinary = ordinaryMatching(options_);
+    latest = matcher_.match(scan_, correctedByPose(turned, found), map_.matched(), ordinary);
+    // Where the surroundings leave a motion open, the found pose determines neither it nor the
+    // velocity there.
+    if (latest.update.updated && latest.constraints.unconstrained > 0)
+      latest = matcher_.match(
+          scan_, correctedByPose(turned, found, unconstrainedMotions(latest.constraints)),
+          map_.matched(), ordinary);
     poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_);
     if (poses.accepted) return {std::move(latest), true, poses};
   }

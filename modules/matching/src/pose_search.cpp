@@ -13,12 +13,7 @@ namespace fastlio
 {
 namespace
 {
-// Half a percent of scale and a third of a degree of misalignment of gravity, as MEMS sensors have.
-constexpr double kUnmodelledAcceleration = 0.05;  // [m/s^2]
-// Shorter times add nothing that the noise of the inertial sensor does not cover.
-constexpr double kShortTime = 0.5;  // [s]
-// A start farther off than this may end in a wrong minimum.
-constexpr double kPullInStd = 0.05;  // [m]
+constexpr double kPlaceStd = 0.1;  // of a found place, where the prediction is nearly certain [m]
 // Planes of the coarser voxels pull in from half of this and more.
 constexpr double kGridStep = 0.5;  // [m]
 // Those of the coarsest still do.
@@ -36,10 +31,6 @@ constexpr double kRivalShare = 0.8;
 constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
 // The whole scan pulls a candidate in from wide to narrow.
 constexpr double kRefiningStds[] = {0.3, 0.1, 0.05};  // [m]
-// How well a search knows the pose that the scan is then matched from.
-constexpr double kFoundAngleStd = 0.01, kFoundPositionStd = 0.03;  // [rad], [m]
-
-using Square6 = Eigen::Matrix<double, 6, 6>;
 
 PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
 {
@@ -49,18 +40,6 @@ PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
   candidate.inlier_ratio = static_cast<double>(update.last.count) / static_cast<double>(points);
   candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
   return candidate;
-}
-
-/** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
-FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, double position_std)
-{
-  FilterState start = predicted;
-  start.x.R = T_world_imu.R;
-  start.x.p = T_world_imu.p;
-  start.P.setZero();
-  start.P.diagonal().segment<3>(kAttitude).setConstant(kHeadingStd * kHeadingStd);
-  start.P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
-  return start;
 }
 
 /** Every so many-th point: enough to rank candidates. */
@@ -136,11 +115,14 @@ std::vector<PoseCandidate> refinedPlaces(
   return places;
 }
 
-Vec3 positionStd(const FilterState& predicted)
+bool isExcluded(const PoseCandidate& place, const FilterState& predicted)
 {
-  const Vec3 variance = predicted.P.diagonal().segment<3>(kPosition);
-  if (!variance.allFinite()) return Vec3::Constant(std::numeric_limits<double>::infinity());
-  return variance.cwiseMax(0.0).cwiseSqrt();
+  const Mat3 P = predicted.P.block<3, 3>(kPosition, kPosition);
+  if (!P.allFinite()) return false;
+  const Vec3 offset = place.T_world_imu.p - predicted.x.p;
+  const Eigen::Matrix3d S = P + kPlaceStd * kPlaceStd * Mat3::Identity();
+  const Vec3 weighted = S.llt().solve(Eigen::Vector3d(offset)).eval();
+  return offset.dot(weighted) > kSearchSigmas * kSearchSigmas;
 }
 
 /** \param std of the position [m] \param most places; more are cut off, the least likely ones */
@@ -181,21 +163,15 @@ CandidateGrid gridOf(const Vec3& std, double step, std::size_t most)
 }
 }  // namespace
 
-void considerUnmodelledAcceleration(FilterState& predicted, double blind_s)
+FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, double position_std)
 {
-  if (blind_s < kShortTime) return;
-  const double t = blind_s, q = kUnmodelledAcceleration * kUnmodelledAcceleration;
-  StateMatrix& P = predicted.P;
-  P.diagonal().segment<3>(kPosition).array() += q * t * t * t * t / 4.0;
-  P.diagonal().segment<3>(kVelocity).array() += q * t * t;
-  P.block<3, 3>(kPosition, kVelocity).diagonal().array() += q * t * t * t / 2.0;
-  P.block<3, 3>(kVelocity, kPosition).diagonal().array() += q * t * t * t / 2.0;
-}
-
-bool needsPoseSearch(const FilterState& predicted, double blind_s)
-{
-  return blind_s >= kShortTime &&
-         predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
+  FilterState start = predicted;
+  start.x.R = T_world_imu.R;
+  start.x.p = T_world_imu.p;
+  start.P.setZero();
+  start.P.diagonal().segment<3>(kAttitude).setConstant(kHeadingStd * kHeadingStd);
+  start.P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
+  return start;
 }
 
 CandidateGrid candidateGrid(const FilterState& predicted, std::size_t most)
@@ -219,6 +195,7 @@ PoseSearchResult searchPose(
     const PoseSearchLimits& limits, const MatchFromStart& match)
 {
   PoseSearchResult result;
+  result.searched_std = positionStd(predicted).maxCoeff();
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
   const std::size_t most = std::max<std::size_t>(1, limits.most_candidates / attitudes.size());
@@ -244,33 +221,19 @@ PoseSearchResult searchPose(
     places =
         tryPlaces(levelGrid(predicted, places.front().T_world_imu.p.z() - predicted.x.p.z(), most));
   if (places.empty()) return result;
-  result.best = places.front();
+  const auto possible = std::find_if(
+      places.begin(), places.end(),
+      [&](const PoseCandidate& p) { return !isExcluded(p, predicted); });
+  result.best = possible == places.end() ? places.front() : *possible;
   for (const PoseCandidate& place : places)
     if (!isSamePlace(place, *result.best))
       result.rival_score = std::max(result.rival_score, place.score);
   const double needed = grid.complete ? limits.min_inlier_ratio : limits.min_level_inlier_ratio;
-  result.accepted = result.complete && result.best->inlier_ratio >= needed &&
+  result.accepted = possible != places.end() && result.complete &&
+                    result.best->inlier_ratio >= needed &&
                     result.best->innovation <= limits.max_innovation &&
                     result.rival_score < kRivalShare * result.best->score;
   return result;
-}
-
-FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu)
-{
-  NavState found = predicted.x;
-  found.R = T_world_imu.R;
-  found.p = T_world_imu.p;
-  Square6 S = predicted.P.topLeftCorner<6, 6>();
-  S.diagonal().head<3>().array() += kFoundAngleStd * kFoundAngleStd;
-  S.diagonal().tail<3>().array() += kFoundPositionStd * kFoundPositionStd;
-  const Eigen::Matrix<double, kStateDim, 6> PHt = predicted.P.leftCols<6>();
-  const Eigen::Matrix<double, 6, kStateDim> Kt = S.llt().solve(PHt.transpose());
-  const StateVector difference = boxminus(found, predicted.x);
-  FilterState corrected;
-  corrected.x = boxplus(predicted.x, Kt.transpose() * difference.head<6>());
-  const StateMatrix removed = PHt * Kt;
-  corrected.P = predicted.P - 0.5 * (removed + removed.transpose());
-  return corrected;
 }
 
 }  // namespace fastlio

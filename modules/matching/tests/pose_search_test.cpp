@@ -129,6 +129,27 @@ TEST(PoseSearch, RefusesToChooseBetweenRivals)
   EXPECT_TRUE(two(0.4).accepted);
 }
 
+// A stairwell repeats itself from floor to floor: the floor that matches is not the one where the
+// platform is if the prediction excludes it, and yet it says that the map cannot be trusted here.
+TEST(PoseSearch, APlaceThatThePredictionExcludesIsNotAcceptedButIsARival)
+{
+  const FilterState s = predictionWithStd(0.3, 0.3, 0.3);
+  const Vec3 excluded(0, 0, 1.35), possible(0.6, 0, -0.3);
+  const auto far = searchPose(s, {s.x.R}, someScan(1000), {}, matcherWith({{excluded, 0.8}}));
+  ASSERT_TRUE(far.best);
+  EXPECT_FALSE(far.accepted);
+  const auto both = [&](double excluded_ratio)
+  {
+    return searchPose(
+        s, {s.x.R}, someScan(1000), {}, matcherWith({{excluded, excluded_ratio}, {possible, 0.6}}));
+  };
+  EXPECT_FALSE(both(0.8).accepted);
+  const auto found = both(0.3);
+  ASSERT_TRUE(found.accepted);
+  EXPECT_EQ(found.best->T_world_imu.p, possible);
+  EXPECT_DOUBLE_EQ(found.searched_std, 0.3);
+}
+
 // Too many places in space: those on the level of the best one are tried farther away.
 TEST(PoseSearch, LooksForRivalsOnTheLevelWhereItCannotLookEverywhere)
 {
@@ -177,11 +198,28 @@ TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
   considerUnmodelledAcceleration(s, 10.0);
   // 0.05 m/s^2 for 10 s.
   EXPECT_NEAR(std::sqrt(s.P(kPosition, kPosition)), 2.5, 0.01);
-  EXPECT_NEAR(std::sqrt(s.P(kVelocity, kVelocity)), 0.5, 0.01);
+  EXPECT_NEAR(std::sqrt(s.P(kVelocity, kVelocity)), 0.5 * std::sqrt(15.0 / 16.0), 0.01);
   EXPECT_TRUE(needsPoseSearch(s, 10.0));
   EXPECT_FALSE(needsPoseSearch(s, 0.1)) << "uncertain along a tunnel, but not blind";
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(s.P)};
   EXPECT_GE(solver.eigenvalues().minCoeff(), 0.0);
+}
+
+// Scans with hardly a point do not end an outage.
+TEST(UnmodelledAcceleration, IsTheSameInStepsAsAtOnce)
+{
+  FilterState s, once;
+  s.P.setZero();
+  once.P.setZero();
+  considerUnmodelledAcceleration(once, 4.0);
+  StateMatrix F = StateMatrix::Identity();
+  F.block<3, 3>(kPosition, kVelocity) = Mat3::Identity();
+  for (int second = 1; second <= 4; ++second)
+  {
+    s.P = F * s.P * F.transpose();
+    considerUnmodelledAcceleration(s, second, second - 1.0);
+  }
+  EXPECT_TRUE(s.P.isApprox(once.P, 1e-12));
 }
 
 TEST(CorrectedByPose, CorrectsTheVelocityThatMadeTheError)
@@ -192,11 +230,25 @@ TEST(CorrectedByPose, CorrectsTheVelocityThatMadeTheError)
   const Vec3 off(0.4, 0.0, 0.0);  // 0.05 m/s^2 for 4 s
   const FilterState corrected = correctedByPose(s, {s.x.R, s.x.p + off});
   EXPECT_NEAR(corrected.x.p.x(), 0.4, 0.01);
-  EXPECT_NEAR(corrected.x.v.x(), 0.2, 0.01);
+  // A constant acceleration would have made it 0.2, one that changes less.
+  EXPECT_NEAR(corrected.x.v.x(), 0.1875, 0.01);
   EXPECT_LT(corrected.P(kPosition, kPosition), 0.04 * 0.04);
   EXPECT_LT(corrected.P(kVelocity, kVelocity), 0.1 * s.P(kVelocity, kVelocity));
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(corrected.P)};
   EXPECT_GE(solver.eigenvalues().minCoeff(), -1e-12);
+}
+
+TEST(CorrectedByPose, LeavesAloneWhatTheSurroundingsDoNotTell)
+{
+  FilterState s;
+  s.P.diagonal().setConstant(1e-8);
+  considerUnmodelledAcceleration(s, 4.0);
+  const Pose found{s.x.R, s.x.p + Vec3(0.4, 0.0, -0.3)};
+  const FilterState corrected = correctedByPose(s, found, {{false, Vec3::UnitZ()}});
+  EXPECT_NEAR(corrected.x.p.x(), 0.4, 0.01);
+  EXPECT_NEAR(corrected.x.p.z(), s.x.p.z(), 1e-6);
+  EXPECT_NEAR(corrected.x.v.z(), s.x.v.z(), 1e-6);
+  EXPECT_NEAR(corrected.P(kVelocity + 2, kVelocity + 2), s.P(kVelocity + 2, kVelocity + 2), 1e-6);
 }
 
 TEST(CorrectedByPose, IsTheKalmanUpdateWithDenseMatrices)

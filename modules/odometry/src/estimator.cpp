@@ -7,6 +7,7 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -23,6 +24,17 @@ ScanOutcome::Place placeOf(const Mode& mode)
   if (std::holds_alternative<EnteringMap>(mode)) return ScanOutcome::Place::OutsideGivenMap;
   if (std::holds_alternative<Relocalizing>(mode)) return ScanOutcome::Place::Reinitialised;
   return ScanOutcome::Place::InMap;
+}
+
+/** Along a degenerate direction no scan corrects the error of the pose, so that the scans share it,
+ * as they share an error of the map. \param constrained projection on the other directions */
+InsertionError insertionError(const Matrix6& own, const Matrix6& constrained)
+{
+  const Matrix6 open = Matrix6::Identity() - constrained;
+  InsertionError error;
+  error.own = constrained * own * constrained.transpose();
+  error.inherited = open * own * open.transpose();
+  return error;
 }
 }  // namespace
 
@@ -65,6 +77,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
 
   Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
   work.outcome.search = matched.poses;
+  work.outcome.after_outage = matched.after_outage;
   state_.stamp_ns = span.end_ns;
   adopt(match, work, result);
   compareMotion(matched, work, imu, result.statistics);
@@ -98,7 +111,10 @@ ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
       [this](const Prediction& prediction) { return systematicCovariance(prediction); },
       run().trusted);
   predicted.blind_s = toSeconds(end_ns - state_.stamp_ns);
-  considerUnmodelledAcceleration(predicted.state, predicted.blind_s);
+  const std::int64_t seen_ns = run().last_seen_ns;
+  predicted.unseen_s = toSeconds(end_ns - seen_ns);
+  considerUnmodelledAcceleration(
+      predicted.state, predicted.unseen_s, toSeconds(state_.stamp_ns - seen_ns));
   map_.propagateError(predicted.transition);
   timings_.propagate = watch.milliseconds();
   return predicted;
@@ -108,9 +124,15 @@ void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
 {
   const Stopwatch watch;
   const std::optional<MotionWindow>& window = run().motion_window;
+  std::size_t at_least = 0;
+  if (window && end_ns <= window->end_ns)
+    at_least = static_cast<std::size_t>(window->target_points);
+  const auto* tracking = std::get_if<Tracking>(&mode_);
+  if (tracking != nullptr &&
+      (tracking->outage != nullptr || isOutage(toSeconds(end_ns - tracking->run.last_seen_ns))))
+    at_least = std::max(at_least, OutageSearch::kPoints);
   // The cost of eq. 18 grows with the cube of the points: ten thousand would take minutes.
-  const bool more = window && end_ns <= window->end_ns && options_.gain == GainForm::Information;
-  preparation_.downsample(scan, more ? static_cast<std::size_t>(window->target_points) : 0);
+  preparation_.downsample(scan, options_.gain == GainForm::Information ? at_least : 0);
   timings_.downsample = watch.milliseconds();
 }
 
@@ -149,6 +171,8 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
       map_.learnInlierRatio(statistics.points_effective, outcome.points);
   }
   outcome.unaided_s = toSeconds(state_.stamp_ns - run.last_update_ns);
+  if (outcome.points >= kMinEffectivePoints) run.last_seen_ns = state_.stamp_ns;
+  if (outcome.search && outcome.updated) statistics.searched_std = outcome.search->searched_std;
   outcome.position_std =
       std::sqrt(state_.filter.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
 }
@@ -188,7 +212,7 @@ void Estimator::changeMode(ScanStatus status)
   // Time without a map does not count.
   if (status == ScanStatus::Initializing) run.last_update_ns = state_.stamp_ns;
   const bool found = status == ScanStatus::Tracking || status == ScanStatus::FirstScan;
-  if (found && relocalizing()) mode_ = Tracking{FilterRun(run)};
+  if (found && relocalizing()) mode_ = Tracking{FilterRun(run), false, nullptr};
 }
 
 void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
@@ -210,9 +234,9 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
   { transformToWorld(points, T_world_scan, first, last, registered_.points); };
   workers_->forEachChunk(points.size(), transform);
-  InsertionError error;
-  error.own = scanPoseCovariance(filter, compensation);
-  error.inherited = scanPoseCovariance({filter.x, map_.error().addition()}, compensation);
+  InsertionError error = insertionError(
+      scanPoseCovariance(filter, compensation), result.statistics.constraints.projection);
+  error.inherited += scanPoseCovariance({filter.x, map_.error().addition()}, compensation);
   if (run.motion_window && state_.stamp_ns <= run.motion_window->end_ns)
     error.inherited += run.motion_window->insertion_covariance;
   map_.insert(

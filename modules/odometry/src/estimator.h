@@ -115,8 +115,10 @@ class Estimator
   [[nodiscard]] MapSearchResult matchWithMap(
       const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns);
   [[nodiscard]] MapSearchResult trackOrSearch(
-      const DeskewedScan& scan, const ScanPrediction& predicted);
-  void beginNewMap(const DeskewedScan& scan);
+      const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns);
+  [[nodiscard]] MapSearchResult searchAfterOutage(
+      const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
+  [[nodiscard]] FilterState beginNewMap(const DeskewedScan& scan, const FilterState& predicted);
   void compareMotion(
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
       ScanStatistics& statistics);

@@ -25,25 +25,31 @@ MapSearchResult Estimator::matchWithMap(
   {
     MapSearchResult search =
         MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted.state);
-    if (search.found) mode_ = Tracking{std::move(entering->run)};
+    if (search.found) mode_ = Tracking{std::move(entering->run), false, nullptr};
     return timed(std::move(search));
   }
   if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
   {
-    if (end_ns > relocalizing->give_up_ns) beginNewMap(scan);
-    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(predicted.state));
+    const FilterState from =
+        end_ns > relocalizing->give_up_ns ? beginNewMap(scan, predicted.state) : predicted.state;
+    return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(from));
   }
-  return timed(trackOrSearch(scan, predicted));
+  return timed(trackOrSearch(scan, predicted, end_ns));
 }
 
 /** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
  * wrong pose would agree with it ever after, so a match that does not convince is no match. */
-MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPrediction& predicted)
+MapSearchResult Estimator::trackOrSearch(
+    const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns)
 {
   auto& tracking = std::get<Tracking>(mode_);
   const bool map_is_informative = options_.recovery.enabled && !map_.isSparse();
-  if (map_is_informative && needsPoseSearch(predicted.state, predicted.blind_s))
+  const bool seen_again = scan.surfaces.size() >= kMinEffectivePoints;
+  if (map_is_informative && seen_again && needsPoseSearch(predicted.state, predicted.unseen_s))
+  {
     tracking.searching = true;
+    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted.state, end_ns);
+  }
   if (!tracking.searching)
   {
     const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
@@ -53,17 +59,55 @@ MapSearchResult Estimator::trackOrSearch(const DeskewedScan& scan, const ScanPre
     const bool good = !match.update.updated || isConvincing(match, scan, map_);
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
   }
+  if (tracking.outage) return searchAfterOutage(scan, predicted.state, end_ns);
   MapSearchResult search =
       MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted.state);
   tracking.searching = !search.found;
   return search;
 }
 
-/** A given map stays, as the world is that of the map. */
-void Estimator::beginNewMap(const DeskewedScan& scan)
+/** The inertial data were well, so nothing is re-initialised: where the map does not show the
+ * place, a new one begins at the predicted pose. */
+MapSearchResult Estimator::searchAfterOutage(
+    const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
 {
-  if (map_.isGiven() || scan.surfaces.size() < kMinEffectivePoints) return;
+  auto& tracking = std::get<Tracking>(mode_);
+  OutageSearch& outage = *tracking.outage;
+  const FilterState state = outage.withVelocity(scan, predicted, end_ns, matcher_);
+  const MapSearch search(options_, matcher_, scan, map_);
+  MapSearchResult result =
+      outage.measuresVelocity(end_ns) ? search.postponed(state) : search.aroundPrediction(state);
+  const bool over = result.found || outage.isOver(end_ns);
+  if (over && !result.found && outage.knowsVelocity())
+  {
+    const FilterState from = beginNewMap(scan, state);
+    if (map_.empty()) result = search.postponed(from);
+  }
+  tracking.searching = !result.found && !map_.empty();
+  result.after_outage = true;
+  if (over) tracking.outage.reset();
+  return result;
+}
+
+/** A given map stays, as the world is that of the map. \return the state, as uncertain as its pose
+ * is in the world: the errors of the old map are a part of that, as the new map begins at this
+ * pose.
+ */
+FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& predicted)
+{
+  FilterState state = predicted;
+  if (map_.isGiven() || scan.surfaces.size() < kMinEffectivePoints) return state;
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  state.P += map_.error().addition() + map_.calibrationError().addition(calibration.second_moment) /
+                                           calibration.innovation_scale;
+  // The error of this pose is that of the new map. What scans will say about the way from here on
+  // contains nothing about it, and it contains nothing about the motion.
+  const Mat3 position = state.P.block<3, 3>(kPosition, kPosition);
+  state.P.middleRows<3>(kPosition).setZero();
+  state.P.middleCols<3>(kPosition).setZero();
+  state.P.block<3, 3>(kPosition, kPosition) = position;
   map_ = LocalMap(options_, workers_);
+  return state;
 }
 
 /** Along a degenerate direction the prediction is not corrected, so it cannot be compared; nor

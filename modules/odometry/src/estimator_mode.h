@@ -4,10 +4,12 @@
 /** \file estimator_mode.h What the estimator does with the next scan. */
 #pragma once
 
+#include "outage_search.h"
 #include <fastlio/initialization/motion_window.h>
 #include <fastlio/math/pose.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -23,6 +25,7 @@ struct Initializing
 struct FilterRun
 {
   std::int64_t last_update_ns = 0;            //!< a scan last corrected the state convincingly
+  std::int64_t last_seen_ns = 0;              //!< a scan last had points enough to be matched
   bool consistent = true;                     //!< the latest match was as usual with this map
   bool trusted = true;                        //!< the latest scan left a pose to be believed
   std::optional<MotionWindow> motion_window;  //!< after a start in motion
@@ -40,6 +43,7 @@ struct Tracking
 {
   FilterRun run;
   bool searching = false;  //!< the pose is searched within the prediction's uncertainty
+  std::unique_ptr<OutageSearch> outage;  //!< of the LiDAR, that the search follows
 };
 
 /** The filter was re-initialised with a carried pose and searches for the map of before. */

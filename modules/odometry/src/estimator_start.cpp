@@ -21,7 +21,7 @@ FilterRun startedRun(
     std::int64_t stamp_ns, bool trusted, const std::optional<MotionWindow>& motion_window)
 {
   FilterRun run;
-  run.last_update_ns = stamp_ns;
+  run.last_update_ns = run.last_seen_ns = stamp_ns;
   run.trusted = trusted;
   run.motion_window = motion_window;
   return run;
@@ -49,7 +49,7 @@ void Estimator::start(
   if (T_map_imu)
     mode_ = EnteringMap{std::move(run), *T_map_imu};
   else
-    mode_ = Tracking{std::move(run)};
+    mode_ = Tracking{std::move(run), false, nullptr};
 }
 
 void Estimator::suspend()

@@ -20,7 +20,8 @@ namespace fastlio
 /** The state at a scan's end before the scan is looked at. */
 struct ScanPrediction
 {
-  double blind_s = 0.0;  //!< since the scan before [s]
+  double blind_s = 0.0;   //!< since the scan before [s]
+  double unseen_s = 0.0;  //!< since a scan before that had points enough to be matched [s]
   FilterState state;
   ErrorTransition transition;
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it

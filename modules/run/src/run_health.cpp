@@ -13,6 +13,8 @@ namespace
 // Trouble that comes again within this time belongs to the same stretch.
 constexpr double kStretchGap = 1.0;  // [s]
 constexpr std::size_t kLeastScans = 3;
+// A scan that was found from farther off may be at another place that looks the same [m].
+constexpr double kUnambiguous = 0.3;
 }  // namespace
 
 void RunHealth::add(const ScanResult& result)
@@ -59,6 +61,7 @@ void RunHealth::extendStretch(const ScanResult& result)
 {
   Growing& growing = stretchAt(result.stamp_ns);
   UntrustedStretch& stretch = growing.stretch;
+  growing.searched = growing.searched || result.statistics.searched_std > kUnambiguous;
   stretch.end_ns = result.stamp_ns;
   stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);
   ++stretch.scans;
@@ -74,7 +77,8 @@ std::vector<UntrustedStretch> RunHealth::untrusted() const
 {
   std::vector<UntrustedStretch> stretches;
   for (const Growing& growing : stretches_)
-    if (growing.stretch.scans >= kLeastScans) stretches.push_back(growing.stretch);
+    if (growing.stretch.scans >= kLeastScans || growing.searched)
+      stretches.push_back(growing.stretch);
   return stretches;
 }
 

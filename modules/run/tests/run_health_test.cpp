@@ -51,6 +51,20 @@ TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
 }
 
+// Another place may look the same: who has searched the map may be there.
+TEST(ExitStatus, IsDegradedByOneScanThatWasFoundFromFarOff)
+{
+  RunSummary run = goodRun();
+  ScanResult near = troubledScan(1, 0.0);
+  near.statistics.searched_std = 0.1;
+  run.statistics.add(near);
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::Ok);
+  ScanResult far = troubledScan(2, 0.25);
+  far.statistics.searched_std = 0.7;
+  run.statistics.add(far);
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::Degraded);
+}
+
 TEST(RunHealth, NamesTheStretchesThatCannotBeTrusted)
 {
   RunHealth health;

@@ -50,6 +50,7 @@ struct ScanOutcome
   double imu_gap_s = 0.0;                  //!< longest one since the scan before
   double unaided_s = 0.0;                  //!< since a scan last corrected the state convincingly
   std::optional<PoseSearchResult> search;  //!< within the prediction, if it was needed
+  bool after_outage = false;               //!< of the LiDAR, which the inertial data bridge
   double position_std = 0.0;               //!< of the filter, along the worst axis [m]
 };
 

@@ -122,6 +122,8 @@ struct ScanStatistics
   bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
   double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
+  double searched_std = 0.0;  //!< of the position that this scan was found around, in a search of
+                              //!< the map [m]; 0: the scan was matched where it was predicted
   double motion_innovation =
       0.0;  //!< of the last scans: corrections of the predicted pose over what noise, calibration
             //!< and vibration explain; 0: too few scans

@@ -24,6 +24,7 @@ struct MapSearchResult
   MatchResult match;                      //!< the prediction, uncorrected, when the search failed
   bool found = false;                     //!< the scan matches the map well enough
   std::optional<PoseSearchResult> poses;  //!< evidence of a search within the prediction
+  bool after_outage = false;  //!< of the LiDAR: the pose is searched, or a new map begun without it
 };
 
 /** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
@@ -50,6 +51,8 @@ class MapSearch
   /** Tries places within the prediction's uncertainty, and asks for more evidence than an ordinary
    * match needs: inlier ratio, residuals, no rival nearly as good. */
   [[nodiscard]] MapSearchResult aroundPrediction(const FilterState& predicted) const;
+  /** Nothing is tried; the prediction stays. */
+  [[nodiscard]] MapSearchResult postponed(const FilterState& predicted) const;
 
  private:
   [[nodiscard]] MapSearchResult around(

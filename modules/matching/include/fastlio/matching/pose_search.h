@@ -16,14 +16,31 @@
 namespace fastlio
 {
 /** Adds what the inertial model leaves out to a prediction without scans: scale errors and
- * misalignment of the accelerometer act like an unknown constant acceleration.
- * \param blind_s time without a scan [s] */
-void considerUnmodelledAcceleration(FilterState& predicted, double blind_s);
+ * misalignment of the accelerometer act like an unknown acceleration. Three quarters of its
+ * variance are those of a constant one, the rest of one that changes as the platform turns.
+ * \param blind_s time without a scan, at the prediction [s]
+ * \param before_s the same where the prediction began: so much has been added already [s] */
+void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, double before_s = 0.0);
+
+/** So long without a scan that the inertial model leaves something out. */
+[[nodiscard]] bool isOutage(double blind_s);
 
 /** After a time without scans, the prediction is too uncertain for the matching of ordinary scans,
  * which pulls in a few centimetres. (With scans, it is uncertain along degenerate directions only.)
  * \param blind_s time without a scan [s] */
 [[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
+
+/** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
+[[nodiscard]] Vec3 positionStd(const FilterState& state);
+
+/** Places within this standard deviation are distinguished by any map: nothing that a sensor sees
+ * repeats within a metre [m]. Farther off, a place that looks alike may be taken for the right one,
+ * which the map may not even have. */
+inline constexpr double kUnambiguousStd = 0.3;
+
+/** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
+[[nodiscard]] FilterState startAt(
+    const FilterState& predicted, const Pose& T_world_imu, double position_std);
 
 /** Positions around a predicted one. */
 struct CandidateGrid
@@ -72,18 +89,23 @@ struct PoseSearchResult
    * best one. Rooms repeat: who cannot look everywhere does not know whether the best is right. */
   bool complete = true;
   std::optional<PoseCandidate> best;
-  double rival_score = 0.0;  //!< of the best candidate at another place
-  bool accepted = false;     //!< enough evidence, and more than any rival has
+  double rival_score = 0.0;   //!< of the best candidate at another place
+  double searched_std = 0.0;  //!< of the prediction, along its worst axis [m]
+  bool accepted = false;      //!< enough evidence, and more than any rival has
 };
 
-/** Matches a sample of the scan from every candidate, and the whole scan from the best of them.
+/** Matches a sample of the scan from every candidate, and the whole scan from the best of them. A
+ * place that the prediction excludes is not accepted, but it is a rival.
  * \param attitudes that are tried at each place: R_world_imu */
 [[nodiscard]] PoseSearchResult searchPose(
     const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
     const PoseSearchLimits& limits, const MatchFromStart& match);
 
 /** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
- * and biases, too, as far as they made the error. The scan itself makes it exact afterwards. */
-[[nodiscard]] FilterState correctedByPose(const FilterState& predicted, const Pose& T_world_imu);
+ * and biases, too, as far as they made the error. The scan itself makes it exact afterwards.
+ * \param unknown motions that the found pose does not determine: it stays where it began there */
+[[nodiscard]] FilterState correctedByPose(
+    const FilterState& predicted, const Pose& T_world_imu,
+    const std::vector<MotionDirection>& unknown = {});
 
 }  // namespace fastlio

@@ -55,7 +55,7 @@ class RunHealth
   /** How many scans in trouble had each cause. */
   [[nodiscard]] const std::map<HealthCause, std::size_t>& causes() const { return causes_; }
   /** In order of time. A scan or two by themselves are none: the scans around them vouch for the
-   * poses. */
+   * poses. A scan that was found by a search of the map is one by itself. */
   [[nodiscard]] std::vector<UntrustedStretch> untrusted() const;
 
  private:
@@ -65,6 +65,7 @@ class RunHealth
     UntrustedStretch stretch;
     std::map<HealthCause, std::size_t> causes;
     double worst = 1.0;
+    bool searched = false;  //!< a scan was found in the map from far off
   };
 
   void extendStretch(const ScanResult& result);
