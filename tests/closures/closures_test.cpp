@@ -6,6 +6,7 @@
  * to be found. With FASTLIO_EVERYTHING=1: 50 sensors, whole rides and the traps. */
 
 #include "repeats.h"
+#include <fastlio/evaluation/evaluate.h>
 #include <fastlio/mapping/mapper.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/simulation/realistic.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -108,6 +110,43 @@ struct Tally
 };
 }  // namespace
 
+namespace
+{
+/** Error of the submaps when only heading and place are aligned: the vertical is that of the map;
+ * rms [m]. */
+double levelError(
+    const MappingResult& map, const Simulation& simulation,
+    const std::function<Pose(std::size_t)>& pose_of)
+{
+  Trajectory estimate, truth;
+  estimate.source = "estimate";
+  truth.source = "truth";
+  for (std::size_t i = 0; i < map.submaps.size(); ++i)
+  {
+    const std::int64_t stamp_ns = map.submaps[i].reference.stamp_ns;
+    estimate.poses.push_back({stamp_ns, pose_of(i)});
+    truth.poses.push_back({stamp_ns, simulation.truth(stamp_ns).T_world_imu});
+  }
+  EvaluationOptions options;
+  options.alignment = Alignment::Yaw;
+  return evaluate(estimate, truth, options).ape.translation.rmse;
+}
+
+/** The map stands upright, and roads that pitch by a little all the time are straight again. */
+void expectLevel(const MappingResult& map, const Simulation& simulation)
+{
+  const double before = levelError(
+      map, simulation, [&](std::size_t i) { return map.submaps[i].reference.T_world_body; });
+  const double after =
+      levelError(map, simulation, [&](std::size_t i) { return map.estimate.nodes[i]; });
+  std::printf("level error: %.3f m by the odometry, %.3f m in the map\n", before, after);
+  if (everything()) return;
+  EXPECT_GT(before, 0.15);
+  EXPECT_LT(after, 0.2 * before);
+  EXPECT_LT(after, 0.05);
+}
+}  // namespace
+
 class Closures : public ::testing::TestWithParam<const char*>
 {
 };
@@ -122,7 +161,9 @@ TEST_P(Closures, NoneIsFalseAndMostAreFound)
   for (std::uint64_t seed = 1; seed <= seeds; ++seed)
   {
     const Simulation simulation(settingsOf(scenario, seed));
-    tally.add(mapOf(simulation), simulation);
+    const MappingResult map = mapOf(simulation);
+    tally.add(map, simulation);
+    expectLevel(map, simulation);
     std::printf(
         "%s, %d seeds: %zu submaps, %zu closures, %zu false; %zu of %zu revisits recognised\n",
         scenario.c_str(), static_cast<int>(seed), tally.submaps, tally.accepted, tally.wrong,
