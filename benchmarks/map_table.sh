@@ -20,8 +20,10 @@ settings=${SETTINGS:---set lidar.stride=4}
 program() { echo "$build/bin/$1"; }
 flatten() { awk -f "$(dirname "$0")/flatten_json.awk" "$1"; }
 
-# errors TRUTH RUN: APE after alignment, drift at the end, NEES of the pose.
+# errors TRUTH RUN: APE after alignment in heading and place, and in all; drift at the end, NEES of the pose.
 errors() {
+  "$(program fastlio-eval)" "$1" "$2/covariance.csv" --align yaw --json "$2.level.json" >/dev/null
+  flatten "$2.level.json" | awk '$1 == "ape.translation_m.rmse" { printf "%.3f | ", $2 }'
   "$(program fastlio-eval)" "$1" "$2/covariance.csv" --json "$2.json" >/dev/null
   flatten "$2.json" | awk '
     { value[$1] = $2 }
@@ -31,8 +33,8 @@ errors() {
     }'
 }
 
-echo "| scenario | seed | odometry: APE [m] | end [m] | NEES | map: APE [m] | end [m] | NEES | closures |"
-echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|"
+echo "| scenario | seed | odometry: level [m] | APE [m] | end [m] | NEES | map: level [m] | APE [m] | end [m] | NEES | closures |"
+echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
 for scenario in "$@"; do
   for seed in $seeds; do
     folder=$output/$scenario-$seed

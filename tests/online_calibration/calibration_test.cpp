@@ -6,7 +6,7 @@
 
 #include "repeats.h"
 #include "simulated_run.h"
-#include <fastlio/simulation/realistic.h>
+#include <fastlio/scenarios/realistic.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,184 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file closures_test.cpp Loop closures with realistic sensors, against the true poses: where places
+ * look alike that are not the same, none may be accepted; where streets are passed again, most have
+ * to be found. With FASTLIO_EVERYTHING=1: 50 sensors, whole rides and the traps. */
+
+#include "repeats.h"
+#include <fastlio/evaluation/evaluate.h>
+#include <fastlio/mapping/mapper.h>
+#include <fastlio/odometry/odometry.h>
+#include <fastlio/scenarios/realistic.h>
+#include <fastlio/scenarios/settings_table.h>
+#include <fastlio/simulation/recording.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fastlio::testing
+{
+namespace
+{
+constexpr const char* kTown = "town";
+constexpr const char* kCorridors = "corridors";
+
+// A registration that is farther off than its own errors and those of a mounting explain is false.
+constexpr double kFalse = 0.5;       // [m]
+constexpr double kRevisit = 10.0;    // [m]
+constexpr double kLeastTravel = 25;  // between passes [m]
+constexpr double kLeastRecall = 0.8;
+
+SimulationSettings settingsOf(const std::string& scenario, std::uint64_t seed)
+{
+  SimulationSettings settings = realistic(defaultSettings(scenario));
+  settings.seed = seed;
+  settings.lidar.stride = 6;
+  if (everything()) return settings;
+  settings.lidar.stride = 10;
+  settings.speed = 2.0;
+  return withSetting(settings, "world.length", "600");
+}
+
+MappingResult mapOf(const Simulation& simulation)
+{
+  OdometryOptions options = matchingParameters(simulation.settings());
+  options.threads = 1;
+  Odometry odometry(options);
+  SubmapBuilder submaps(0);
+  Mapper mapper;
+  for (const ImuSample& sample : simulation.imu().samples)
+  {
+    odometry.addImu(sample);
+    submaps.addImu(sample);
+  }
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+  {
+    odometry.addScan(simulation.scan(i));
+    while (const auto result = odometry.next())
+      if (auto submap = submaps.add(*result, odometry.registeredPoints(), odometry.mapOrigin()))
+        mapper.add(std::move(*submap));
+  }
+  if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
+  return mapper.finish();
+}
+
+/** What became of the submaps of some rides. */
+struct Tally
+{
+  std::size_t submaps = 0, accepted = 0, wrong = 0;
+  std::size_t revisits = 0, recognised = 0;  // submaps at a place that was passed before
+
+  void add(const MappingResult& map, const Simulation& simulation)
+  {
+    std::vector<Pose> truth;
+    for (const Submap& submap : map.submaps)
+      truth.push_back(simulation.truth(submap.reference.stamp_ns).T_world_imu);
+    std::vector<bool> is_closed(truth.size(), false);
+    for (const Closure& closure : map.closures)
+    {
+      if (closure.verdict != ClosureVerdict::Accepted) continue;
+      ++accepted;
+      const Pose T_a_b = truth[closure.a].inverse() * truth[closure.b];
+      if ((T_a_b.p - closure.registration.motion.T_a_b.p).norm() > kFalse) ++wrong;
+      is_closed[closure.b] = true;
+    }
+    submaps += truth.size();
+    for (std::size_t b = 0; b < truth.size(); ++b)
+    {
+      bool is_revisit = false;
+      for (std::size_t a = 0; a < b; ++a)
+        is_revisit = is_revisit || (map.submaps[b].travel - map.submaps[a].travel > kLeastTravel &&
+                                    (truth[a].p - truth[b].p).norm() < kRevisit);
+      revisits += is_revisit ? 1 : 0;
+      recognised += is_revisit && is_closed[b] ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] double recall() const
+  {
+    return static_cast<double>(recognised) /
+           static_cast<double>(std::max<std::size_t>(revisits, 1));
+  }
+};
+}  // namespace
+
+namespace
+{
+/** Error of the submaps when only heading and place are aligned: the vertical is that of the map;
+ * rms [m]. */
+double levelError(
+    const MappingResult& map, const Simulation& simulation,
+    const std::function<Pose(std::size_t)>& pose_of)
+{
+  Trajectory estimate, truth;
+  estimate.source = "estimate";
+  truth.source = "truth";
+  for (std::size_t i = 0; i < map.submaps.size(); ++i)
+  {
+    const std::int64_t stamp_ns = map.submaps[i].reference.stamp_ns;
+    estimate.poses.push_back({stamp_ns, pose_of(i)});
+    truth.poses.push_back({stamp_ns, simulation.truth(stamp_ns).T_world_imu});
+  }
+  EvaluationOptions options;
+  options.alignment = Alignment::Yaw;
+  return evaluate(estimate, truth, options).ape.translation.rmse;
+}
+
+/** The map stands upright, and roads that pitch by a little all the time are straight again. */
+void expectLevel(const MappingResult& map, const Simulation& simulation)
+{
+  const double before = levelError(
+      map, simulation, [&](std::size_t i) { return map.submaps[i].reference.T_world_body; });
+  const double after =
+      levelError(map, simulation, [&](std::size_t i) { return map.estimate.nodes[i]; });
+  std::printf("level error: %.3f m by the odometry, %.3f m in the map\n", before, after);
+  if (everything()) return;
+  EXPECT_GT(before, 0.15);
+  EXPECT_LT(after, 0.2 * before);
+  EXPECT_LT(after, 0.05);
+}
+}  // namespace
+
+class Closures : public ::testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(Closures, NoneIsFalseAndMostAreFound)
+{
+  const std::string scenario = GetParam();
+  if (!everything() && scenario != kTown)
+    GTEST_SKIP() << "a ride without its traps shows nothing: FASTLIO_EVERYTHING=1 takes whole ones";
+  const std::uint64_t seeds = everything() ? 50 : 1;
+  Tally tally;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+  {
+    const Simulation simulation(settingsOf(scenario, seed));
+    const MappingResult map = mapOf(simulation);
+    tally.add(map, simulation);
+    expectLevel(map, simulation);
+    std::printf(
+        "%s, %d seeds: %zu submaps, %zu closures, %zu false; %zu of %zu revisits recognised\n",
+        scenario.c_str(), static_cast<int>(seed), tally.submaps, tally.accepted, tally.wrong,
+        tally.recognised, tally.revisits);
+    std::fflush(stdout);
+    EXPECT_EQ(tally.wrong, 0U) << "seed " << seed;
+  }
+  EXPECT_GT(tally.revisits, 0U);
+  // Walls stand between corridors: what lies within 10 m is not in view there.
+  if (scenario == kCorridors) return;
+  EXPECT_GE(tally.recall(), kLeastRecall);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Ride, Closures, ::testing::Values(kTown, "facades", kCorridors),
+    [](const auto& parameter) { return std::string(parameter.param); });
+
+}  // namespace fastlio::testing
