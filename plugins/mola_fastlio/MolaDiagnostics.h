@@ -5,7 +5,7 @@
  */
 #pragma once
 
-#include <fastlio/odometry/scan_result.h>
+#include <fastlio/interface/scan_result.h>
 
 #include <mutex>
 #include <optional>

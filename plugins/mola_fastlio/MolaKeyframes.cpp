@@ -3,7 +3,7 @@
 
 #include "MolaKeyframes.h"
 
-#include <fastlio/exporters/mrpt_poses.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/sensors/conversions.h>
 
