@@ -77,11 +77,13 @@ test: test-dependencies
 faults: test-dependencies
 	cmake --preset $(TEST_PRESET) -DMRPT_FASTLIO_RECORDINGS_DIR="$(abspath $(RECORDINGS))"
 	cmake --build --preset $(TEST_PRESET) --parallel $(JOBS) --target test_faults test_outages test_endurance test_rest \
-	  test_given_recordings
+	  test_given_recordings test_consistency test_online_calibration
 	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/faults/test_faults
 	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/outages/test_outages
 	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/endurance/test_endurance
 	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/rest/test_rest
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/consistency/test_consistency --gtest_filter='*Realistic*'
+	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/online_calibration/test_online_calibration
 	FASTLIO_EVERYTHING=1 build/$(TEST_PRESET)/tests/recordings/test_given_recordings --gtest_filter='*Outage*'
 
 fuzz:

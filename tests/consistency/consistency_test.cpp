@@ -7,18 +7,17 @@
  *
  * Only one sample per run goes into a mean: those of one run hang together. */
 
+#include "consistency_case.h"
 #include "repeats.h"
 #include "simulated_run.h"
 #include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/time.h>
-#include <fastlio/scenarios/realistic.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
-#include <ostream>
 #include <random>
 #include <string>
 #include <vector>
@@ -40,21 +39,6 @@ constexpr double kMeanNeesLower = 1.45, kMeanNeesUpper = 5.28;
 /** Of the components of biases and gravity; consistent: 0.997. The run to come is short and begins
  * at rest: a few seconds of noise limit the knowledge of a bias. */
 constexpr double kShareWithin3Sigma = 0.96;
-
-struct ConsistencyCase
-{
-  const char* name;
-  const char* scenario;
-  LidarKind lidar;
-  // Where beams are sparse, the planes that they draw are not those of the world.
-  int stride;
-};
-
-/** The name of a test in lists. */
-std::ostream& operator<<(std::ostream& out, const ConsistencyCase& c)
-{
-  return out << c.name;
-}
 
 constexpr ConsistencyCase kCases[] = {
     {"OfficeVlp16", "office", LidarKind::Vlp16, 2}, {"OfficeOs64", "office", LidarKind::Os64, 4},
@@ -97,16 +81,6 @@ OdometryOptions parametersOf(const SimulationSettings& settings)
   calibration.imu_scale_std = calibration.imu_misalignment_std = 0.0;
   parameters.threads = 1;
   return parameters;
-}
-
-/** The last estimate up to an instant [s after the start]. */
-const JudgedScan& estimateAt(const SimulatedRun& run, std::int64_t start_ns, double instant)
-{
-  const auto limit = start_ns + toNanoseconds(instant);
-  const JudgedScan* last = &run.scans.front();
-  for (const JudgedScan& scan : run.scans)
-    if (scan.result.stamp_ns <= limit) last = &scan;
-  return *last;
 }
 
 /** NEES of a block of three. */
@@ -218,61 +192,5 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
   const NeesSummary p = summarizeNees(position, 3), a = summarizeNees(attitude, 3);
   EXPECT_GT(std::max(p.mean, a.mean), p.mean_upper);
 }
-
-/** Sensors with what their datasheets admit, of which the odometry knows nothing. */
-class RealisticConsistency : public ::testing::TestWithParam<ConsistencyCase>
-{
-};
-
-constexpr ConsistencyCase kRealisticCases[] = {
-    {"OfficeVlp16", "office", LidarKind::Vlp16, 2},
-    {"CampusVlp16", "campus", LidarKind::Vlp16, 2},
-    {"CampusOs64", "campus", LidarKind::Os64, 4},
-};
-
-/** Mean NEES of a pose; 6 when the covariance is true. The covariance may be 1.4 times too large
- * and as much too small, in standard deviations. Before the errors of the calibration were
- * considered, the means were beyond 100. */
-constexpr double kRealisticLower = 3.0, kRealisticUpper = 12.0;
-constexpr std::uint64_t kRealisticRuns = 6;  // a minute of computation per scenario
-constexpr double kRealisticInstants[] = {10.0, 20.0};
-
-TEST_P(RealisticConsistency, IsKeptWithDefaultParameters)
-{
-  const ConsistencyCase& c = GetParam();
-  std::vector<double> nees[std::size(kRealisticInstants)];
-  for (std::uint64_t seed = 1; seed <= repeats(kRealisticRuns); ++seed)
-  {
-    SimulationSettings settings = defaultSettings(c.scenario);
-    settings.lidar.kind = c.lidar;
-    settings.lidar.stride = c.stride;
-    settings.duration = kRealisticInstants[1];
-    settings.seed = seed;
-    settings = realistic(settings);
-    OdometryOptions parameters = matchingParameters(settings);
-    parameters.threads = 1;
-    const SimulatedRun run = runOdometry(Simulation(settings), parameters);
-    for (std::size_t i = 0; i < std::size(kRealisticInstants); ++i)
-    {
-      const JudgedScan& scan = estimateAt(run, settings.start_ns, kRealisticInstants[i]);
-      const Vector6 e = stateError(run, scan).head<6>();
-      const Matrix6 P = scan.result.filter.P.topLeftCorner<6, 6>();
-      nees[i].push_back(e.dot(solveSymmetric(P, e)));
-    }
-  }
-  for (std::size_t i = 0; i < std::size(kRealisticInstants); ++i)
-  {
-    const NeesSummary summary = summarizeNees(nees[i], 6);
-    std::printf(
-        "%-13s %4.0f s  NEES of the pose %5.2f\n", c.name, kRealisticInstants[i], summary.mean);
-    if (fewRepeats()) continue;
-    EXPECT_GE(summary.mean, kRealisticLower) << "the covariance is too large";
-    EXPECT_LE(summary.mean, kRealisticUpper) << "the covariance is too small";
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Scenario, RealisticConsistency, ::testing::ValuesIn(kRealisticCases),
-    [](const auto& parameter) { return std::string(parameter.param.name); });
 
 }  // namespace fastlio::testing

@@ -140,7 +140,8 @@ MapSearchResult MapSearch::postponed(const FilterState& predicted) const
 {
   // The matches that are handed over are those of the whole scan, as if it had been searched.
   return notFound(
-      matcher_.match(scan_, predicted, map_, ordinaryMatching(options_)), predicted, {}, 0);
+      matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_)), predicted, {},
+      0);
 }
 
 MapSearchResult MapSearch::around(
