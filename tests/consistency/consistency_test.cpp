@@ -11,7 +11,6 @@
 #include "repeats.h"
 #include "simulated_run.h"
 #include <fastlio/initialization/static_initializer.h>
-#include <fastlio/math/time.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
