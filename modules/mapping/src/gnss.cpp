@@ -88,12 +88,43 @@ void measure(
   outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
 }
 
+/** How many fixes in a row tell as much as a single one: one, plus twice the correlations over all
+ * lags, as far as they show. Errors of satellites last for half a minute; that of the next fix
+ * alone does not tell, where white noise hides it. */
+double lastingOf(
+    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps)
+{
+  constexpr double kNoCorrelation = 0.05;
+  std::vector<Eigen::Vector2d> errors;
+  std::vector<std::size_t> sessions;
+  double square = 0.0;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    const PositionFactor& factor = graph.positions[i];
+    if (estimate.position_weights[i] < 0.5) continue;
+    errors.emplace_back(
+        errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value.head<2>());
+    sessions.push_back(submaps.at(factor.node).session);
+    square += errors.back().squaredNorm();
+  }
+  double lasting = 1.0;
+  for (std::size_t lag = 1; lag < errors.size() / 4; ++lag)
+  {
+    double product = 0.0;
+    for (std::size_t i = lag; i < errors.size(); ++i)
+      if (sessions[i] == sessions[i - lag]) product += errors[i].dot(errors[i - lag]);
+    const double correlation = product / std::max(square, 1e-12);
+    if (correlation < kNoCorrelation) break;
+    lasting += 2.0 * correlation;
+  }
+  return lasting;
+}
+
 /** Leaves out the fixes that contradict the others, and gives the rest the noise that was measured.
  * \return how many were left out */
 std::size_t keepAgreeing(
-    PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome)
+    PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome, double lasting)
 {
-  const double lasting = (1.0 + outcome.correlation) / (1.0 - outcome.correlation);
   const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
   const double v2 = lasting * std::pow(outcome.vertical_std, 2);
   // The wider covariance must not let wrong fixes in: those that were found out stay out.
@@ -151,7 +182,8 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
     graph.positions.push_back(sighting.factor);
   GraphEstimate estimate = optimize(graph, false);
   measure(graph, estimate, result.submaps, outcome);
-  outcome.rejected = keepAgreeing(graph, estimate, outcome);
+  outcome.rejected =
+      keepAgreeing(graph, estimate, outcome, lastingOf(graph, estimate, result.submaps));
   graph.nodes = estimate.nodes;
   graph.T_earth_world = estimate.T_earth_world;
   estimate = optimize(graph);
