@@ -88,9 +88,9 @@ void measure(
   outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
 }
 
-/** How many fixes in a row tell as much as a single one: one, plus twice the correlations over all
- * lags, as far as they show. Errors of satellites last for half a minute; that of the next fix
- * alone does not tell, where white noise hides it. */
+/** The number of successive fixes that together are worth a single one: one, plus twice the
+ * correlations over all lags, as far as they are significant. Errors of satellites last for half a
+ * minute; the correlation with the next fix alone does not show that where white noise hides it. */
 double lastingOf(
     const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps)
 {
