@@ -83,8 +83,14 @@ std::string jsonText(
 {
   Json values;
   for (const CalibrationRow& row : calibrationRows(given, estimate))
-    values[row.name] = {{"unit", row.unit}, {"given", row.given},          {"found", row.found},
-                        {"std", row.std},   {"std_before", row.prior_std}, {"advice", row.advice}};
+    values[row.name] = {
+        {"unit", row.unit},
+        {"given", row.given},
+        {"found", row.found},
+        {"std", row.std > 0.0 ? Json(row.std) : Json()},
+        {"std_before", row.prior_std},
+        {"determined", row.determined()},
+        {"advice", row.advice}};
   Json beams = Json::array();
   for (std::size_t i = 0; i < estimate.rig.beams.size() && i < estimate.beam_stds.size(); ++i)
     beams.push_back(

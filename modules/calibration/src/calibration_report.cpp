@@ -133,6 +133,12 @@ void addNoiseRows(const RigEstimate& estimate, std::vector<CalibrationRow>& rows
       "1e-3 m/s^2/sqrt(Hz)", "imu.accel_bias_walk", "1e-3 m/s^3/sqrt(Hz)");
 }
 
+/** In a column of nine; zero: unknown. */
+std::string stdText(double std)
+{
+  return std > 0.0 ? mrpt::format("%9.3f", std) : "        -";
+}
+
 /** Text as lines of a YAML comment. */
 std::string commented(const std::string& text)
 {
@@ -186,14 +192,10 @@ std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
   std::string text =
       mrpt::format("%-36s %10s %10s %9s %9s  unit\n", "value", "given", "found", "std", "before");
   for (const CalibrationRow& row : calibrationRows(given, estimate))
-  {
-    const std::string before =
-        row.prior_std > 0.0 ? mrpt::format("%9.3f", row.prior_std) : "        -";
     text += mrpt::format(
-        "%-36s %10.3f %10.3f %9.3f %s  %s%s\n", row.name.c_str(), row.given, row.found, row.std,
-        before.c_str(), row.unit.c_str(),
+        "%-36s %10.3f %10.3f %s %s  %s%s\n", row.name.c_str(), row.given, row.found,
+        stdText(row.std).c_str(), stdText(row.prior_std).c_str(), row.unit.c_str(),
         row.determined() ? "" : ("  not determined: " + row.advice).c_str());
-  }
   text += mrpt::format("\nnoise densities: %.1f s at rest\n", estimate.noise.rest_seconds);
   text += mrpt::format(
       "\n%-36s %10s %10s %10s %10s\n", "beams by elevation [deg]", "range [mm]", "std",

@@ -17,8 +17,9 @@ struct CalibrationRow
 {
   std::string name, unit;
   double given = 0.0, found = 0.0;
-  double std = 0.0, prior_std = 0.0;  //!< after and before; prior_std 0: nothing was assumed
-  std::string advice;  //!< the motion that would determine it; empty when it is known well
+  double std = 0.0;        //!< after the calibration; 0: unknown
+  double prior_std = 0.0;  //!< before; 0: nothing was assumed
+  std::string advice;      //!< the motion that would determine it; empty when it is known well
 
   /** The data say more than was known before. */
   [[nodiscard]] bool determined() const;
