@@ -4,6 +4,7 @@
 #include "batch.h"
 
 #include "../shared/run_names.h"
+#include <fastlio/files/same_file.h>
 #include <fastlio/run/run_summary.h>
 #include <fastlio/survey/recording_parts.h>
 
@@ -69,6 +70,7 @@ std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
     runs.push_back({arguments});
     return runs;
   }
+  requireGivenOnce(arguments.input_files);
   const auto recordings =
       arguments.no_join ? withoutJoining(arguments.input_files) : joinParts(arguments.input_files);
   // One run needs no folders below that of the user.

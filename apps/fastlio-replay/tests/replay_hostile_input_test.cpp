@@ -54,6 +54,7 @@ TEST_F(HostileInput, TheSameFileTwiceIsRefused)
   const auto result = replay(
       {"--input-rawlog", rawlog, "--input-rawlog", file("b.rawlog"), "--output-dir", file("out")});
   expectEnd(result, 1, "is given twice");
+  expectEnd(replay({rawlog, file("b.rawlog"), "--output-dir", file("out")}), 1, "is given twice");
 }
 
 TEST_F(HostileInput, ARecordingAsConfigurationIsOneLine)

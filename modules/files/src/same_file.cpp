@@ -64,7 +64,7 @@ void requireGivenOnce(const std::vector<std::string>& inputs)
       if (isSameFile(inputs[first], inputs[i]))
         throw std::invalid_argument(
             "input file '" + inputs[i] + "' is given twice, first as '" + inputs[first] +
-            "'; give each part of a recording once");
+            "'; give each recording once");
 }
 
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs)

@@ -27,7 +27,7 @@ struct FileUse
 /** Whether the path leads to something below the folder. */
 [[nodiscard]] bool isBelow(const std::string& path, const std::string& folder);
 
-/** \exception std::invalid_argument two of the \a inputs, parts of one recording, are the same file;
+/** \exception std::invalid_argument two of the \a inputs are the same file;
  * the message names both */
 void requireGivenOnce(const std::vector<std::string>& inputs);
 
