@@ -128,7 +128,7 @@ void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
   if (window && end_ns <= window->end_ns)
     at_least = static_cast<std::size_t>(window->target_points);
   const auto* tracking = std::get_if<Tracking>(&mode_);
-  if (tracking != nullptr &&
+  if (tracking != nullptr && options_.recovery.enabled &&
       (tracking->outage != nullptr || isOutage(toSeconds(end_ns - tracking->run.last_seen_ns))))
     at_least = std::max(at_least, OutageSearch::kPoints);
   // The cost of eq. 18 grows with the cube of the points: ten thousand would take minutes.
@@ -154,8 +154,7 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   ScanOutcome& outcome = work.outcome;
   outcome.place = placeOf(mode_);
   outcome.map_was_empty = map_.empty();
-  outcome.begins_map = map_.empty() && work.deskewed.surfaces.size() + work.deskewed.edges.size() >=
-                                           kMinEffectivePoints;
+  outcome.begins_map = map_.empty() && hasEnoughPoints(work.deskewed);
   outcome.updated = match.update.updated;
   outcome.prediction_finite = work.predicted.finite;
   outcome.points = work.deskewed.surfaces.size();
@@ -171,7 +170,7 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
       map_.learnInlierRatio(statistics.points_effective, outcome.points);
   }
   outcome.unaided_s = toSeconds(state_.stamp_ns - run.last_update_ns);
-  if (outcome.points >= kMinEffectivePoints) run.last_seen_ns = state_.stamp_ns;
+  if (hasEnoughPoints(work.deskewed)) run.last_seen_ns = state_.stamp_ns;
   if (outcome.search && outcome.updated) statistics.searched_std = outcome.search->searched_std;
   outcome.position_std =
       std::sqrt(state_.filter.P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());

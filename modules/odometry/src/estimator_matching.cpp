@@ -44,7 +44,7 @@ MapSearchResult Estimator::trackOrSearch(
 {
   auto& tracking = std::get<Tracking>(mode_);
   const bool map_is_informative = options_.recovery.enabled && !map_.isSparse();
-  const bool seen_again = scan.surfaces.size() >= kMinEffectivePoints;
+  const bool seen_again = hasEnoughPoints(scan);
   if (map_is_informative && seen_again && needsPoseSearch(predicted.state, predicted.unseen_s))
   {
     tracking.searching = true;
@@ -96,7 +96,7 @@ MapSearchResult Estimator::searchAfterOutage(
 FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& predicted)
 {
   FilterState state = predicted;
-  if (map_.isGiven() || scan.surfaces.size() < kMinEffectivePoints) return state;
+  if (map_.isGiven() || !hasEnoughPoints(scan)) return state;
   const CalibrationEstimate& calibration = calibration_.estimate();
   state.P += map_.error().addition() + map_.calibrationError().addition(calibration.second_moment) /
                                            calibration.innovation_scale;

@@ -27,6 +27,12 @@ struct DeskewedScan
   Pose T_imu_lidar;  //!< where the beams start
 };
 
+/** Enough points, of surfaces and edges together, to be matched or to begin a map. */
+[[nodiscard]] inline bool hasEnoughPoints(const DeskewedScan& scan)
+{
+  return scan.surfaces.size() + scan.edges.size() >= kMinEffectivePoints;
+}
+
 /** The posterior of a scan, and the evidence for it. */
 struct MatchResult
 {
