@@ -2,7 +2,7 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [conformance] [lint] [benchmark] [instructions] [mola] [packages] [fuzz]
+# Usage: cmake/install_dependencies.sh [build] [test] [browser] [conformance] [lint] [benchmark] [instructions] [mola] [packages] [fuzz]
 # (default: build)
 set -eu
 
@@ -21,6 +21,8 @@ test_packages="mrpt-apps librsvg2-bin parallel $benchmark_packages"
 # Other writers of recordings, whose files the tests of the import read where they are installed; Slurm and ssh, which start
 # workers of fastlio-tune.
 conformance_packages="python3-rosbag python3-sensor-msgs lz4 zstd slurm-wlm openssh-client openssh-server"
+# Shows report.html to its tests.
+browser_packages="chromium"
 lint_packages="clang-format clang-tidy"
 instructions_packages="valgrind"
 mola_packages="libmrpt-dev libtbb-dev"
@@ -54,6 +56,7 @@ for set in "${@:-build}"; do
   case "$set" in
     build) wanted="$wanted $build_packages" ;;
     test) wanted="$wanted $test_packages" ;;
+    browser) wanted="$wanted $browser_packages" ;;
     conformance) wanted="$wanted $conformance_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
@@ -62,7 +65,7 @@ for set in "${@:-build}"; do
     packages) wanted="$wanted $packages_packages" ;;
     fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, conformance, lint, benchmark, instructions, mola, packages, fuzz" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, browser, conformance, lint, benchmark, instructions, mola, packages, fuzz" >&2
       exit 2
       ;;
   esac
