@@ -138,7 +138,7 @@ std::vector<Vec3> mapOf(const fs::path& folder)
     const std::size_t step = saved.points.size() / kMostPoints + 1;
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < saved.points.size(); i += step)
-      points.push_back(
+      points.emplace_back(
           saved.origin + Vec3(saved.points.x[i], saved.points.y[i], saved.points.z[i]));
     return points;
   }
