@@ -55,7 +55,8 @@ class Linearization
       const TiltError error =
           errorOf(factor, node(factor.node), estimate_.up, estimate_.biases[factor.sensor]);
       equations.add(
-          error.value, informations_.tilts[i], PartOf{layout_.at(factor.node), error.by_attitude},
+          error.value, informations_.tilts[i],
+          PartOf{GraphLayout::at(factor.node), error.by_attitude},
           PartOf{layout_.upAt(), error.by_up},
           PartOf{layout_.biasAt(factor.sensor), error.by_bias});
     }
@@ -69,7 +70,8 @@ class Linearization
       if (estimate_.edge_weights[i] <= 0.0) continue;
       const EdgeError error = errorOf(edge.measured, node(edge.a), node(edge.b));
       const Aligned6 information = estimate_.edge_weights[i] * informations_.edges[i];
-      const PartOf by_a{layout_.at(edge.a), error.by_a}, by_b{layout_.at(edge.b), error.by_b};
+      const PartOf by_a{GraphLayout::at(edge.a), error.by_a},
+          by_b{GraphLayout::at(edge.b), error.by_b};
       if (edge.travel == 0.0)
       {
         equations.add(error.value, information, by_a, by_b);
@@ -93,7 +95,7 @@ class Linearization
       const PositionError error = errorOf(factor, node(factor.node), T_earth_world);
       equations.add(
           error.value, (estimate_.position_weights[i] * informations_.positions[i]).eval(),
-          PartOf{layout_.at(factor.node), error.by_node},
+          PartOf{GraphLayout::at(factor.node), error.by_node},
           PartOf{layout_.earthAt(), error.by_earth});
     }
     levelEarth(equations);
