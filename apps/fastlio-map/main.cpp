@@ -195,6 +195,7 @@ MapAccount accountOf(
       map,
       std::nullopt,
       agreements(map.result),
+      wallThickness(map.result),
       outputs.points(),
       std::nullopt,
       notesOf(sessions, map),

@@ -72,6 +72,13 @@ TEST_F(Map, ClosesTheLoopOfAWalk)
   EXPECT_LE(
       summary["surfaces_apart_after_m"].get<double>(),
       summary["surfaces_apart_before_m"].get<double>() + 0.002);
+  const auto walls = summary["wall_thickness"];
+  EXPECT_GT(walls["walls"].get<int>(), 50);
+  EXPECT_GT(walls["single_m"].get<double>(), 0.001);
+  EXPECT_LE(walls["after_m"].get<double>(), walls["before_m"].get<double>() + 0.002);
+  EXPECT_LT(walls["ratio"].get<double>(), 1.5);
+  for (const std::string& text : {result.output, textOf(folder_.file("map") + "/report.html")})
+    EXPECT_NE(text.find("walls of two passes are "), std::string::npos) << text.substr(0, 2000);
   for (const auto& file : summary["outputs"])
     EXPECT_EQ(fs::file_size(file["path"].get<std::string>()), file["bytes"].get<std::size_t>());
   EXPECT_NE(
@@ -86,6 +93,7 @@ TEST_F(Map, WithoutARevisitIsTheOdometryToTheBit)
       run({rawlog, "-o", folder_.file("map"), "--export", "trajectory,covariance,ply"}).exit_status,
       0);
   EXPECT_FALSE(summaryOf("map")["corrected"].get<bool>());
+  EXPECT_TRUE(summaryOf("map")["wall_thickness"].is_null());
   const auto replay =
       Process({FASTLIO_REPLAY_PROGRAM, rawlog, "-o", folder_.file("replay")}, folder_.file("r.txt"))
           .wait();

@@ -7,6 +7,8 @@
 
 #include <mrpt/maps/CSimplePointsMap.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -28,6 +30,19 @@ const VoxelPlaneOptions& validated(const VoxelPlaneOptions& options)
   requirePositive(options.rules.point_noise, "rules.point_noise");
   requirePositive(options.rules.max_thickness, "rules.max_thickness");
   return options;
+}
+
+/** rms distance of a voxel's points from their mean along the plane's normal [m]. */
+float spreadAcross(const PlaneVoxel& voxel)
+{
+  const PlaneVoxel::Contents c = voxel.contents();
+  const auto at = [](float number) { return static_cast<double>(number); };
+  const double x = at(c.plane.nx), y = at(c.plane.ny), z = at(c.plane.nz);
+  const double mean = (x * at(c.sum[0]) + y * at(c.sum[1]) + z * at(c.sum[2])) / at(c.count);
+  const auto& m = c.products;
+  const double squares = x * (x * at(m[0]) + 2.0 * (y * at(m[1]) + z * at(m[2]))) +
+                         y * (y * at(m[3]) + 2.0 * z * at(m[4])) + z * z * at(m[5]);
+  return static_cast<float>(std::sqrt(std::max(0.0, squares / at(c.count) - mean * mean)));
 }
 }  // namespace
 
@@ -118,7 +133,14 @@ void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)
 
 std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
 {
+  std::vector<float> unused;
+  return bestPlanes(unused);
+}
+
+std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) const
+{
   std::vector<VoxelPlane> planes;
+  std::vector<float> measured;
   std::vector<std::uint32_t> numbers;
   WorldPoints centroids;
   impl_->shards.forEachBlock(
@@ -129,6 +151,7 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
           const VoxelPlane& plane = storage.voxel(voxel).plane();
           if (!plane.valid()) continue;
           planes.push_back(plane);
+          measured.push_back(spreadAcross(storage.voxel(voxel)));
           numbers.push_back(VoxelShards::numberOf(voxel, shard));
           centroids.x.push_back(plane.qx);
           centroids.y.push_back(plane.qy);
@@ -138,8 +161,13 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
   std::vector<PlaneMatch> matches(numbers.size());
   match(centroids, 0, numbers.size(), matches);
   std::vector<VoxelPlane> best;
+  spreads.clear();
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (matches[i].plane == numbers[i]) best.push_back(planes[i]);
+  {
+    if (matches[i].plane != numbers[i]) continue;
+    best.push_back(planes[i]);
+    spreads.push_back(measured[i]);
+  }
   return best;
 }
 

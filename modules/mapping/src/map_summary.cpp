@@ -145,6 +145,28 @@ MapJson wheelsJson(const WheelOutcome& wheels)
       {"noise_m", wheels.noise}};
 }
 
+MapJson wallsJson(const std::optional<WallThickness>& walls)
+{
+  if (!walls) return nullptr;
+  MapJson before = nullptr;  // sessions have no common frame
+  if (walls->before) before = *walls->before;
+  return {
+      {"walls", walls->walls},
+      {"single_m", walls->single},
+      {"before_m", before},
+      {"after_m", walls->after},
+      {"ratio", walls->ratio()}};
+}
+
+std::string wallsSentence(const std::optional<WallThickness>& walls)
+{
+  if (!walls) return {};
+  const auto thick = [](double metres) { return fixedText(1e3 * metres, 1) + " mm"; };
+  return "; walls of two passes are " + thick(walls->after) + " thick (rms), " +
+         (walls->before ? "before " + thick(*walls->before) + ", " : std::string()) +
+         "of a single pass " + thick(walls->single) + ": ratio " + fixedText(walls->ratio(), 2);
+}
+
 MapJson removedJson(const std::optional<RemovedPoints>& removed)
 {
   if (!removed) return nullptr;
@@ -207,7 +229,8 @@ std::string mapSentence(const MapAccount& account)
          fixedText(largestMove(result), 3) + " m; surfaces that were seen twice are " +
          fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::after), 0) +
          " mm apart (median), before " +
-         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::before), 0) + " mm";
+         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::before), 0) + " mm" +
+         wallsSentence(account.walls);
 }
 
 std::string mapSummaryJson(const MapAccount& account)
@@ -233,6 +256,7 @@ std::string mapSummaryJson(const MapAccount& account)
       {"largest_correction_m", largestMove(result)},
       {"surfaces_apart_before_m", medianOf(account.agreements, &ClosureAgreement::before)},
       {"surfaces_apart_after_m", medianOf(account.agreements, &ClosureAgreement::after)},
+      {"wall_thickness", wallsJson(account.walls)},
       {"gnss", gnssJson(account.map.gnss)},
       {"wheels", wheelsJson(account.map.wheels)},
       {"earth", placeJson(account.place)},

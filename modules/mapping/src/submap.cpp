@@ -84,7 +84,7 @@ std::optional<Submap> SubmapBuilder::finish()
   if (current_.scans == 0) return std::nullopt;
   Submap ended = std::move(current_);
   ended.gravity = gravity_.take();
-  ended.planes = surfaces_->bestPlanes();
+  ended.planes = surfaces_->bestPlanes(ended.spreads);
   current_ = {};
   return ended;
 }

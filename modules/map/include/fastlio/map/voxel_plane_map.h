@@ -68,6 +68,10 @@ class VoxelPlaneMap : public SurfaceMap
   /** Planes that are the best known ones at their own centroid: each surface once, at the scale
    * that fits it. */
   [[nodiscard]] std::vector<VoxelPlane> bestPlanes() const;
+  /** The same.
+   * \param spreads of each plane, rms distance of its points across it, as measured [m]: unlike
+   * VoxelPlane::variance it has no floor */
+  [[nodiscard]] std::vector<VoxelPlane> bestPlanes(std::vector<float>& spreads) const;
   /** Whether a point can be inserted: finite, and in numbered space. */
   [[nodiscard]] bool accepts(float x, float y, float z) const;
 

@@ -8,6 +8,7 @@
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
 #include <fastlio/mapping/moving_objects.h>
+#include <fastlio/mapping/wall_thickness.h>
 #include <fastlio/run/run_summary.h>
 
 #include <optional>
@@ -37,6 +38,7 @@ struct MapAccount
   const BuiltMap& map;
   std::optional<Georeference> place;
   std::vector<ClosureAgreement> agreements;
+  std::optional<WallThickness> walls;    //!< where walls were seen twice
   std::size_t points = 0;                //!< of the map
   std::optional<RemovedPoints> removed;  //!< where moving objects were to be removed
   std::vector<std::string> notes;        //!< for people

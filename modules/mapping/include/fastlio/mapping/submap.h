@@ -33,6 +33,7 @@ struct Submap
   double travel = 0.0;                    //!< of the run, up to the reference [m]
   std::size_t scans = 0;
   std::vector<VoxelPlane> planes;  //!< each surface once; frame of the reference [m]
+  std::vector<float> spreads;      //!< of each plane, rms distance of its points across it [m]
 };
 
 /** When a submap ends. */
