@@ -226,6 +226,30 @@ TEST(OutageOfTheLidar, TheFloorsOfAStairwellAreNotTakenForEachOther)
   EXPECT_FALSE(endsOk(run));
 }
 
+double attitudeStd(const JudgedScan& scan)
+{
+  return std::sqrt(scan.result.filter.P.diagonal().segment<3>(kAttitude).sum());
+}
+
+// The pose where a new map begins contains the errors of the old map, and no scan takes them off.
+TEST(OutageOfTheLidar, ANewMapIsNoMoreCertainThanTheOldOne)
+{
+  const SimulatedRun run = runWithOutage(CastWalk("stairs"), {15.0, 5.0}, Missing::Scans);
+  const auto begins_map = [](const JudgedScan& scan)
+  { return scan.result.status == ScanStatus::FirstScan; };
+  const auto first = std::find_if(run.scans.begin(), run.scans.end(), begins_map);
+  ASSERT_NE(first, run.scans.end());
+  const auto anew = std::find_if(first + 1, run.scans.end(), begins_map);
+  ASSERT_NE(anew, run.scans.end()) << "the old map was found again";
+  EXPECT_GE(attitudeStd(*anew), 0.95 * attitudeStd(*(anew - 1)));
+  EXPECT_GE(positionStd(*anew), 0.95 * positionStd(*(anew - 1)));
+  for (auto scan = anew; scan != run.scans.end(); ++scan)
+  {
+    const double error = stateError(run, *scan).segment<3>(kAttitude).norm();
+    EXPECT_LT(error, 3.0 * attitudeStd(*scan));
+  }
+}
+
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
 {
   const SimulatedRun run = runWithOutage(CastWalk("office"), {10.0, 6.0}, Missing::Points);

@@ -1,0 +1,88 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// For a while nothing shows where the platform is along one axis. Then it comes into view.
+
+#include "odometry_runs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace fastlio::testing
+{
+namespace
+{
+// Of the standard deviation along x. A fifth of it goes; a half goes where scans that share the
+// error count as independent.
+constexpr double kKept = 0.67;
+
+/** The room's walls across x are at -6 m and 7 m. */
+bool isOnAnEndWall(const Vec3& p)
+{
+  return p.x() < -5.8 || p.x() > 6.8;
+}
+
+/** The room without the walls across x until a time: a corridor whose ends cannot be seen. */
+RoomRecording corridorUntil(double end_s)
+{
+  RoomRecording recording = recordRoom(10.0);
+  for (LidarScan& scan : recording.scans)
+  {
+    if (static_cast<double>(scan.stamp_ns - kRecordingStart) >= end_s * 1e9) break;
+    const PointColumns all = scan.points;
+    scan.points = {};
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      const Pose T_world_lidar =
+          recording.truthAt(scan.stamp_ns + all.time_offset_ns[i]) * scan.T_imu_lidar;
+      if (isOnAnEndWall(T_world_lidar * Vec3(all.x[i], all.y[i], all.z[i]))) continue;
+      scan.points.push_back(
+          all.x[i], all.y[i], all.z[i], all.intensity[i], all.time_offset_ns[i], all.ring[i]);
+    }
+  }
+  return recording;
+}
+
+double stdAlongX(const ScanResult& result)
+{
+  return std::sqrt(result.filter.P(kPosition, kPosition));
+}
+
+class DegenerateDirection : public ::testing::TestWithParam<double>
+{
+};
+
+// The scans that add the end walls are all wrong by the same along x. The second one shows the
+// velocity, so the position becomes more certain once. Those after it show where the platform is in
+// the map, and never where the map is in the world.
+TEST_P(DegenerateDirection, IsNoMoreCertainTheLongerItsEndIsSeen)
+{
+  const RoomRecording recording = corridorUntil(GetParam());
+  const Results results = runInOrder(roomParameters(), recording);
+  const auto errors = poseErrors(results, recording);
+  ASSERT_EQ(errors.size(), results.size());
+  const auto in_view = [&](const ScanResult& r)
+  {
+    return static_cast<double>(r.begin_ns - kRecordingStart) >= GetParam() * 1e9 &&
+           r.statistics.constraints.unconstrained == 0;
+  };
+  const auto seen = std::find_if(results.begin(), results.end(), in_view);
+  ASSERT_GT(results.end() - seen, 20);
+  ASSERT_EQ((seen - 2)->statistics.constraints.unconstrained, 1) << "nothing was degenerate";
+  for (auto r = seen; r != results.end(); ++r)
+  {
+    const double error = errors[static_cast<std::size_t>(r - results.begin())].position.x();
+    const double t = static_cast<double>(r->stamp_ns - kRecordingStart) * 1e-9;
+    EXPECT_EQ(r->status, ScanStatus::Tracking) << t;
+    EXPECT_GT(stdAlongX(*r), kKept * stdAlongX(*seen)) << t;
+    EXPECT_LT(std::abs(error), 3.0 * stdAlongX(*r)) << t;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(CorridorsOfSeconds, DegenerateDirection, ::testing::Values(6.0, 7.0));
+
+}  // namespace
+}  // namespace fastlio::testing
