@@ -250,6 +250,16 @@ TEST(OutageOfTheLidar, ANewMapIsNoMoreCertainThanTheOldOne)
   }
 }
 
+// Few points of a car's first scans match each other, so a new map has to take scans that match
+// nothing yet. They stand as accurately in it as ever, however uncertain its own pose is.
+TEST(OutageOfTheLidar, OfACarIsFollowedByANewMapThatGrows)
+{
+  const SimulatedRun run = runWithOutage(CastWalk("car"), {7.2, 5.0}, Missing::Scans);
+  EXPECT_EQ(confidentlyWrong(run), 0);
+  EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 2U);
+  EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
+}
+
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
 {
   const SimulatedRun run = runWithOutage(CastWalk("office"), {10.0, 6.0}, Missing::Points);

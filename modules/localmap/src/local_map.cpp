@@ -112,8 +112,8 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   if (candidate.status == ScanStatus::Diverged) return false;
   // A sparse map has few planes: it must grow as long as the prediction knows where the scan is.
   const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
-  const double position_variance = covariance.bottomRightCorner<3, 3>().diagonal().maxCoeff();
-  return position_variance < std::pow(kMaxInsertionStd, 2);
+  const Vec3 position_variance = covariance.diagonal().tail<3>() - begun_variance_;
+  return position_variance.maxCoeff() < std::pow(kMaxInsertionStd, 2);
 }
 
 bool LocalMap::isSparse() const

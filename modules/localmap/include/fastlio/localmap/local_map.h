@@ -81,6 +81,9 @@ class LocalMap
    * few on a meadow. */
   void learnInlierRatio(std::size_t inliers, std::size_t points);
 
+  /** The error of the pose where the map begins is the map's, too: no scan is less accurate in it
+   * for that. \param position_variance of the scan that begins it [m^2] */
+  void beginAt(const Vec3& position_variance) { begun_variance_ = position_variance; }
   /** The rule of insertion. */
   [[nodiscard]] bool accepts(const InsertionCandidate& candidate) const;
   /** The scan joins the map (eq. 21). \param surfaces its points in the world
@@ -102,6 +105,7 @@ class LocalMap
   std::uint32_t insertions_ = 0;
   double usual_inlier_ratio_ = 0.0;
   int ratios_ = 0;  // that it is the mean of
+  Vec3 begun_variance_ = Vec3::Zero();
   bool given_ = false;
   bool succeeds_ = false;    // another one: the pose is known while this one is empty
   WorldPoints world_edges_;  // reused between scans
