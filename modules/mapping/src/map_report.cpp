@@ -278,7 +278,8 @@ std::string mapReportHtml(const MapAccount& account)
        sectionHtml("Sessions", sessionTable(account.map) + notes) +
            sectionHtml(
                "Before and after", "<div class=\"grid-of\">\n" + topFigure(r) + heightFigure(r) +
-                                       correctionFigure(r) + apartFigure(account) +
+                                       (r.corrected ? correctionFigure(r) : "") +
+                                       (account.agreements.empty() ? "" : apartFigure(account)) +
                                        wallFigures(account) + "</div>\n") +
            sectionHtml("Closures", closureTable(r))});
 }
