@@ -87,7 +87,7 @@ TEST(Presets, EachIsFoundByItsLabelAndByItsLooks)
       const PresetMatch match = fittingPreset({"Front_" + word, 0, 0, 0, 1.0});
       ASSERT_NE(match.preset, nullptr) << word;
       EXPECT_EQ(match.preset->name, preset.name) << word;
-      EXPECT_TRUE(match.named);
+      EXPECT_EQ(match.named, namedModel("Front_" + word) != nullptr) << word;
     }
     const LidarAppearance looks{
         "lidar", preset.lines, preset.lowest + 0.5, preset.highest - 0.5,
@@ -99,6 +99,10 @@ TEST(Presets, EachIsFoundByItsLabelAndByItsLooks)
     EXPECT_FALSE(match.named);
   }
   EXPECT_EQ(fittingPreset({"lidar", 4, -2, 2, 0.3}).preset, nullptr);
+  // The label of a capture names the maker, not the model.
+  const PresetMatch os0 = fittingPreset({"ouster_192.168.1.10", 0, -45, 45, 1.0});
+  ASSERT_NE(os0.preset, nullptr);
+  EXPECT_EQ(os0.preset->name, "ouster_os0");
   // In a street the upper beams meet the sky; the lower ones always meet the ground.
   ASSERT_NE(fittingPreset({"lidar", 64, -24.9, 8.0, 1.0}).preset, nullptr);
   EXPECT_EQ(fittingPreset({"lidar", 64, -24.9, 8.0, 1.0}).preset->name, "hesai_pandar64");

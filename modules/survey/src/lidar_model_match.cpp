@@ -80,7 +80,8 @@ std::string appearanceText(const LidarAppearance& lidar)
 
 PresetMatch fittingPreset(const LidarAppearance& lidar)
 {
-  const Preset* named = namedPreset(lowerCase(lidar.label));
+  if (const Preset* model = namedModel(lidar.label))
+    return {model, "the label or model '" + printable(lidar.label) + "' names it", true};
   const Preset* alike = nullptr;
   for (const Preset& preset : presetTable())
   {
@@ -88,9 +89,9 @@ PresetMatch fittingPreset(const LidarAppearance& lidar)
     if (now <= kElevationTolerance && (alike == nullptr || now < difference(*alike, lidar)))
       alike = &preset;
   }
-  if (named != nullptr)
-    return {named, "the label or model '" + printable(lidar.label) + "' names it", true};
   if (alike != nullptr) return {alike, "it looks like that: " + appearanceText(lidar), false};
+  if (const Preset* of_maker = namedPreset(lowerCase(lidar.label)))
+    return {of_maker, "the label '" + printable(lidar.label) + "' names its maker", false};
   return {nullptr, "no preset looks like it: " + appearanceText(lidar), false};
 }
 
