@@ -3,7 +3,6 @@
 
 #include <fastlio/evaluation/alignment.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
