@@ -6,8 +6,10 @@
 #include <fastlio/matching/degeneracy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
+#include <numeric>
+#include <utility>
 
 namespace fastlio
 {
@@ -53,37 +55,72 @@ void homogeneous(
   }
 }
 
-/** The information of each plane along a direction, in the order of the planes' numbers. */
-void informationByPlane(
-    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, const Vector6& direction, std::vector<PlaneInformation>& planes)
+/** Keeps the lanes that count. */
+void collect(
+    const MatchLanes<kLanes>& lanes, const MeasurementLanes<kLanes>& m,
+    const double (&weight)[kLanes], const std::vector<PlaneMatch>& matches, RowsByPlane& rows)
 {
-  planes.clear();
-  for (std::size_t i = 0; i < body.size(); ++i)
+  for (std::size_t l = 0; l < kLanes; ++l)
   {
-    if (!matches[i].valid()) continue;
-    const PlaneMeasurement m = planeMeasurement(T_world_scan, body, i, matches[i], model);
-    if (!isConsistent(m, model)) continue;
-    const double along = m.h.dot(direction);
-    planes.push_back({matches[i].plane, along * along / m.variance});
+    if (!(weight[l] > 0.0)) continue;
+    Vector6 h;
+    for (std::size_t k = 0; k < 6; ++k)
+      h[static_cast<Eigen::Index>(k)] = m.h[k][l];
+    rows.set(lanes.index[l], matches[lanes.index[l]].plane, weight[l], h);
   }
-  std::sort(
-      planes.begin(), planes.end(),
-      [](const PlaneInformation& a, const PlaneInformation& b)
-      { return std::tie(a.plane, a.information) < std::tie(b.plane, b.information); });
-  std::size_t last = 0;
-  for (std::size_t k = 1; k < planes.size(); ++k)
-    if (planes[k].plane == planes[last].plane)
-      planes[last].information += planes[k].information;
-    else
-      planes[++last] = planes[k];
-  if (!planes.empty()) planes.resize(last + 1);
 }
 }  // namespace
 
+void RowsByPlane::clear(std::size_t points)
+{
+  rows_.resize(points);
+  for (Row& row : rows_)
+    row.weight = 0.0;
+  order_.clear();
+  order_.reserve(points);
+}
+
+void RowsByPlane::set(std::size_t i, std::uint32_t plane, double weight, const Vector6& h)
+{
+  rows_[i] = {plane, weight, h};
+}
+
+void RowsByPlane::sort()
+{
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (rows_[i].weight > 0.0) order_.push_back((std::uint64_t{rows_[i].plane} << 32U) | i);
+  std::sort(order_.begin(), order_.end());
+}
+
+double RowsByPlane::strongest(const Vector6& direction) const
+{
+  std::array<double, kDistrustedPlanes> most{};  // descending
+  const auto enter = [&](double information)
+  {
+    for (double& kept : most)
+      if (information > kept) std::swap(information, kept);
+  };
+  std::uint32_t plane = 0;
+  double of_plane = 0.0;
+  for (const std::uint64_t key : order_)
+  {
+    const Row& row = rows_[key & 0xFFFFFFFFU];
+    if (row.plane != plane)
+    {
+      enter(of_plane);
+      plane = row.plane;
+      of_plane = 0.0;
+    }
+    const double along = row.h.dot(direction);
+    of_plane += row.weight * along * along;
+  }
+  enter(of_plane);
+  return std::accumulate(most.begin(), most.end(), 0.0);
+}
+
 Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::size_t first, std::size_t last)
+    const ResidualModel& model, std::size_t first, std::size_t last, RowsByPlane& rows)
 {
   // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
   OuterProductLanes<kLanes> shh_lanes;
@@ -95,6 +132,7 @@ Matrix6 normalNoiseInformation(
         auto m = measure(T_world_scan, lanes, model.range_variance);
         double s[kLanes];
         weigh(m, filled, model, s);
+        collect(lanes, m, s, matches, rows);
         for (std::size_t l = 0; l < kLanes; ++l)
           s[l] *=
               s[l] > 0.0 ? 0.5 * static_cast<double>(matches[lanes.index[l]].normal_variance) : 0;
@@ -140,25 +178,14 @@ ScanConstraints informationByDirection(const Matrix6& information, const Matrix6
   return c;
 }
 
-void withoutStrongestPlanes(
-    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::vector<PlaneInformation>& storage,
-    ScanConstraints& constraints)
+void withoutStrongestPlanes(const RowsByPlane& rows, ScanConstraints& constraints)
 {
   for (int i = 0; i < 6; ++i)
   {
     if (constraints.information[i] >= kClearlyConstrained * constraints.information[5]) return;
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
-    informationByPlane(T_world_scan, body, matches, model, direction, storage);
-    const std::size_t strongest = std::min(kDistrustedPlanes, storage.size());
-    std::partial_sort(
-        storage.begin(), storage.begin() + static_cast<std::ptrdiff_t>(strongest), storage.end(),
-        [](const PlaneInformation& a, const PlaneInformation& b)
-        { return a.information > b.information; });
-    double& supported = constraints.supported_information[i];
-    for (std::size_t k = 0; k < strongest; ++k)
-      supported -= storage[k].information;
+    constraints.supported_information[i] -= rows.strongest(direction);
   }
 }
 

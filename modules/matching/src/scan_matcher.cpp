@@ -82,20 +82,21 @@ void ScanMatcher::findConstraints(
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
   const BodyPoints& points = call.scan.surfaces;
   chunk_noise_.resize(chunk_sums_.size());
+  rows_.clear(points.size());
   workers_->forEachChunk(
       points.size(),
       [&](std::size_t chunk, std::size_t first, std::size_t last)
       {
-        chunk_noise_[chunk] =
-            normalNoiseInformation(T_world_scan, points, matches_, call.result.model, first, last);
+        chunk_noise_[chunk] = normalNoiseInformation(
+            T_world_scan, points, matches_, call.result.model, first, last, rows_);
       });
   Matrix6 noise = Matrix6::Zero();
   for (const Matrix6& part : chunk_noise_)
     noise += part;
   ScanConstraints& constraints = call.result.constraints;
   constraints = informationByDirection(sums.HtRinvH, noise);
-  withoutStrongestPlanes(
-      T_world_scan, points, matches_, call.result.model, plane_information_, constraints);
+  rows_.sort();
+  withoutStrongestPlanes(rows_, constraints);
   leaveOutUnconstrained(min_signal_to_noise, constraints);
 }
 
@@ -141,7 +142,6 @@ MatchResult ScanMatcher::match(
   world_edges_.resize(scan.edges.size());
   edge_matches_.resize(scan.edges.size());
   chunk_sums_.resize(Workers::chunks(points));
-  plane_information_.reserve(points);
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));

@@ -79,11 +79,13 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   const Pose pose;
   Analysis a;
   a.sums = accumulate(pose, scan.body, scan.matches, model, 0, scan.body.size());
+  RowsByPlane rows;
+  rows.clear(scan.body.size());
   const Matrix6 noise =
-      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size());
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size(), rows);
   a.constraints = informationByDirection(a.sums.HtRinvH, noise);
-  std::vector<PlaneInformation> storage;
-  withoutStrongestPlanes(pose, scan.body, scan.matches, model, storage, a.constraints);
+  rows.sort();
+  withoutStrongestPlanes(rows, a.constraints);
   leaveOutUnconstrained(min_signal_to_noise, a.constraints);
   return a;
 }
@@ -129,9 +131,11 @@ TEST(Degeneracy, NoiseIsTheSumOfTheRowsCovariances)
     expected += weight * by_normal * covariance * by_normal.transpose();
   }
   const std::size_t half = scan.body.size() / 2;
+  RowsByPlane rows;
+  rows.clear(scan.body.size());
   const Matrix6 parts =
-      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half) +
-      normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size());
+      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half, rows) +
+      normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size(), rows);
   EXPECT_LT((parts - expected).norm(), 1e-6 * expected.norm());
 }
 

@@ -13,33 +13,50 @@
 
 namespace fastlio
 {
+/** The consistent matches of a scan in the order of their planes. Keeps its storage. */
+class RowsByPlane
+{
+ public:
+  /** Forgets all rows and makes room for those of so many points. */
+  void clear(std::size_t points);
+  /** Row h and weight of the match of point i; different points may come from different threads. */
+  void set(std::size_t i, std::uint32_t plane, double weight, const Vector6& h);
+  /** To be called once all rows are set. */
+  void sort();
+  /** Information along a direction of the three planes that say most about it [1/m^2].
+   * \param direction of a step of the scan pose */
+  [[nodiscard]] double strongest(const Vector6& direction) const;
+
+ private:
+  struct Row
+  {
+    std::uint32_t plane = 0;
+    double weight = 0.0;  // 0: no consistent match
+    Vector6 h;
+  };
+
+  std::vector<Row> rows_;             // by point
+  std::vector<std::uint64_t> order_;  // plane and point of each consistent match
+};
+
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
  * of w_j cov(h_j), the rows' covariance for the normals' variance. A wall of a tunnel that is known
  * to a degree seems to constrain the position along the tunnel. Of the points [first, last); the
- * parts of a scan add up. */
+ * parts of a scan add up. \param rows receives the consistent matches of these points */
 [[nodiscard]] Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::size_t first, std::size_t last);
+    const ResidualModel& model, std::size_t first, std::size_t last, RowsByPlane& rows);
 
 /** The information of a scan by direction, of which none is left out yet. \param information the
  * sum of w h h^T \param noise_information from normalNoiseInformation() */
 [[nodiscard]] ScanConstraints informationByDirection(
     const Matrix6& information, const Matrix6& noise_information);
 
-/** The information of the points on one plane along a direction. */
-struct PlaneInformation
-{
-  std::uint32_t plane = 0;
-  double information = 0.0;  //!< [1/m^2]
-};
-
 /** Computes the supported information of the weak directions. A plane that a voxel at an edge has
  * fitted to points of two walls may stand across a tunnel. It is certain of a position that nothing
- * else confirms, so one or two planes never constrain a direction. \param storage reused */
-void withoutStrongestPlanes(
-    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::vector<PlaneInformation>& storage,
-    ScanConstraints& constraints);
+ * else confirms, so one or two planes never constrain a direction. \param rows of the whole scan,
+ * sorted */
+void withoutStrongestPlanes(const RowsByPlane& rows, ScanConstraints& constraints);
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
  * that of the noise, or where its supported information is not more than three tenths of that; and

@@ -9,6 +9,7 @@
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/map/edge_map.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/matching/degeneracy.h>
 #include <fastlio/matching/match_result.h>
 #include <fastlio/matching/point_to_plane.h>
 #include <fastlio/parallel/workers.h>
@@ -74,7 +75,7 @@ class ScanMatcher
   std::vector<LineMatch> edge_matches_;
   std::vector<InformationSums> chunk_sums_;
   std::vector<Matrix6> chunk_noise_;
-  std::vector<PlaneInformation> plane_information_;
+  RowsByPlane rows_;
 };
 
 }  // namespace fastlio
