@@ -4,37 +4,33 @@
 /** \file paged_pool.h Numbered objects in pages that never move. */
 #pragma once
 
+#include "page_arena.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace fastlio
 {
 /** A pool of default-constructed objects addressed by number. Growth allocates one page and moves
  * nothing, so that its cost does not depend on what the pool holds; numbers given back are reused.
- */
+ * The arena, which has the memory, must live longer. */
 template <class T, std::uint32_t kPageBits>
 class PagedPool
 {
+  static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
+
  public:
-  PagedPool() = default;
-  ~PagedPool() = default;
-  PagedPool(PagedPool&&) noexcept = default;
-  PagedPool& operator=(PagedPool&&) noexcept = default;
-  PagedPool(const PagedPool& other) : free_(other.free_), used_(other.used_)
+  explicit PagedPool(PageArena& arena) : arena_(&arena) {}
+  /** A copy of \a other in other memory. */
+  PagedPool(const PagedPool& other, PageArena& arena)
+      : arena_(&arena), free_(other.free_), used_(other.used_)
   {
-    for (const auto& page : other.pages_)
-    {
-      pages_.push_back(std::make_unique<T[]>(kPageSize));
-      std::copy_n(page.get(), kPageSize, pages_.back().get());
-    }
-  }
-  PagedPool& operator=(const PagedPool& other)
-  {
-    if (this != &other) *this = PagedPool(other);
-    return *this;
+    for (const T* page : other.pages_)
+      std::copy_n(page, kPageSize, addPage());
   }
 
   [[nodiscard]] T& operator[](std::uint32_t i) { return pages_[i >> kPageBits][i & kMask]; }
@@ -69,11 +65,19 @@ class PagedPool
 
   [[nodiscard]] std::uint32_t append()
   {
-    if ((used_ & kMask) == 0) pages_.push_back(std::make_unique<T[]>(kPageSize));
+    if ((used_ & kMask) == 0) addPage();
     return used_++;
   }
 
-  std::vector<std::unique_ptr<T[]>> pages_;
+  T* addPage()
+  {
+    T* const page = static_cast<T*>(arena_->allocate(kPageSize * sizeof(T)));
+    std::uninitialized_default_construct_n(page, kPageSize);
+    return pages_.emplace_back(page);
+  }
+
+  PageArena* arena_;  // whose memory the pages are
+  std::vector<T*> pages_;
   std::vector<std::uint32_t> free_;
   std::uint32_t used_ = 0;
 };

@@ -6,9 +6,10 @@
 
 #include "voxel_storage.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace fastlio
 {
@@ -19,6 +20,27 @@ class VoxelShards
 {
  public:
   static constexpr std::size_t kCount = 16;
+
+  VoxelShards() : arena_(std::make_unique<PageArena>())
+  {
+    shards_.reserve(kCount);
+    for (std::size_t shard = 0; shard < kCount; ++shard)
+      shards_.emplace_back(*arena_);
+  }
+  ~VoxelShards() = default;
+  VoxelShards(const VoxelShards& other) : arena_(std::make_unique<PageArena>())
+  {
+    shards_.reserve(kCount);
+    for (const VoxelStorage& storage : other.shards_)
+      shards_.emplace_back(storage, *arena_);
+  }
+  VoxelShards(VoxelShards&&) noexcept = default;
+  VoxelShards& operator=(VoxelShards other) noexcept
+  {
+    arena_.swap(other.arena_);
+    shards_.swap(other.shards_);
+    return *this;
+  }
 
   [[nodiscard]] static std::uint8_t shardOf(std::uint64_t block_key)
   {
@@ -57,7 +79,8 @@ class VoxelShards
     return total;
   }
 
-  std::array<VoxelStorage, kCount> shards_;
+  std::unique_ptr<PageArena> arena_;  // before what has its memory from it
+  std::vector<VoxelStorage> shards_;
 };
 
 }  // namespace fastlio

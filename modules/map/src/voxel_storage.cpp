@@ -7,9 +7,18 @@
 
 namespace fastlio
 {
-VoxelStorage::VoxelStorage()
+VoxelStorage::VoxelStorage(PageArena& arena) : blocks_(arena), voxels_(arena)
 {
   (void)voxels_.acquire();  // number 0 means that there is none
+}
+
+VoxelStorage::VoxelStorage(const VoxelStorage& other, PageArena& arena)
+    : index_(other.index_),
+      blocks_(other.blocks_, arena),
+      voxels_(other.voxels_, arena),
+      block_count_(other.block_count_),
+      finest_count_(other.finest_count_)
+{
 }
 
 std::uint32_t VoxelStorage::findOrAdd(std::uint64_t key)

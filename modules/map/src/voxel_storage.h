@@ -39,7 +39,9 @@ class VoxelStorage
   static constexpr std::uint32_t kNoVoxel = 0;
   static constexpr std::uint32_t kNoBlock = ~0U;
 
-  VoxelStorage();
+  explicit VoxelStorage(PageArena& arena);
+  /** A copy of \a other in other memory. */
+  VoxelStorage(const VoxelStorage& other, PageArena& arena);
 
   /** Number of the block with a key, or kNoBlock. */
   [[nodiscard]] std::uint32_t find(std::uint64_t key) const
