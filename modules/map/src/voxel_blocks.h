@@ -43,18 +43,23 @@ class VoxelGrid
     return std::abs(x) < limit && std::abs(y) < limit && std::abs(z) < limit;
   }
 
-  /** Of a point that it contains(). */
-  [[nodiscard]] VoxelAddress addressOf(float x, float y, float z) const
+  /** Of a point that it contains(). Filled in place: a copy would have to wait until the slots,
+   * which are written one by one, have left the processor. */
+  void locate(float x, float y, float z, VoxelAddress& address) const
   {
-    // Rounding down and arithmetic shifts keep negative coordinates in voxels of their own.
-    const std::int32_t ix = roundDown(x * inverse_size_);
-    const std::int32_t iy = roundDown(y * inverse_size_);
-    const std::int32_t iz = roundDown(z * inverse_size_);
-    const std::uint8_t finest = rowMajor(ix & 3, iy & 3, iz & 3, 4);
-    const std::uint8_t middle = rowMajor((ix >> 1) & 1, (iy >> 1) & 1, (iz >> 1) & 1, 2);
-    return {
-        keyOf(ix >> 2, iy >> 2, iz >> 2),
-        {finest, static_cast<std::uint8_t>(kMiddleSlot + middle), kCoarseSlot}};
+    const Cell c = cellOf(x, y, z);
+    address.block_key = keyOf(c.x >> 2, c.y >> 2, c.z >> 2);
+    address.slots[0] = rowMajor(c.x & 3, c.y & 3, c.z & 3, 4);
+    address.slots[1] = static_cast<std::uint8_t>(
+        kMiddleSlot + rowMajor((c.x >> 1) & 1, (c.y >> 1) & 1, (c.z >> 1) & 1, 2));
+    address.slots[2] = kCoarseSlot;
+  }
+
+  /** Key of the block of a point that it contains(). */
+  [[nodiscard]] std::uint64_t blockKeyOf(float x, float y, float z) const
+  {
+    const Cell c = cellOf(x, y, z);
+    return keyOf(c.x >> 2, c.y >> 2, c.z >> 2);
   }
 
   /** Key of the block with these block coordinates. */
@@ -95,6 +100,19 @@ class VoxelGrid
   static constexpr int kAxisBits = 21;
   static constexpr std::int64_t kAxisBias = std::int64_t{1} << (kAxisBits - 1);
   static constexpr std::uint64_t kAxisMask = (std::uint64_t{1} << kAxisBits) - 1U;
+
+  /** Coordinates of a finest voxel. */
+  struct Cell
+  {
+    std::int32_t x, y, z;
+  };
+
+  /** Rounding down and arithmetic shifts keep negative coordinates in voxels of their own. */
+  [[nodiscard]] Cell cellOf(float x, float y, float z) const
+  {
+    return {
+        roundDown(x * inverse_size_), roundDown(y * inverse_size_), roundDown(z * inverse_size_)};
+  }
 
   /** std::floor() of a number that fits: a call of a library, in a build for the baseline. */
   [[nodiscard]] static std::int32_t roundDown(float number)

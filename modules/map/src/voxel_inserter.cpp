@@ -23,8 +23,7 @@ constexpr std::uint8_t kNoShard = VoxelShards::kCount;
 
 std::uint8_t shardOf(const VoxelGrid& grid, float x, float y, float z)
 {
-  return grid.contains(x, y, z) ? VoxelShards::shardOf(grid.addressOf(x, y, z).block_key)
-                                : kNoShard;
+  return grid.contains(x, y, z) ? VoxelShards::shardOf(grid.blockKeyOf(x, y, z)) : kNoShard;
 }
 }  // namespace
 
@@ -109,8 +108,9 @@ void VoxelInserter::insertShard(
   for (std::size_t k = ranges_[shard].first; k < ranges_[shard].last; ++k)
   {
     const std::uint32_t i = by_shard_[k];
-    const VoxelAddress address = context.grid.addressOf(points.x[i], points.y[i], points.z[i]);
-    arrivals.push_back({i, address, VoxelStorage::kNoBlock, {}});
+    Arrival& arrival = arrivals.emplace_back();
+    arrival.point = i;
+    context.grid.locate(points.x[i], points.y[i], points.z[i], arrival.address);
   }
   findVoxels(arrivals, storage);
   for (std::size_t k = 0; k < arrivals.size(); ++k)

@@ -37,7 +37,7 @@ void findAddresses(
   {
     const float x = points.x[first + i], y = points.y[first + i], z = points.z[first + i];
     if (grid.contains(x, y, z))
-      batch[i].address = grid.addressOf(x, y, z);
+      grid.locate(x, y, z, batch[i].address);
     else  // nor is a NaN anywhere
       batch[i].address.block_key = kNowhere;
   }

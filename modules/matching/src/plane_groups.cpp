@@ -5,12 +5,24 @@
 #include "measurement_lanes.h"
 #include <fastlio/matching/plane_groups.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace fastlio
 {
+namespace
+{
+constexpr std::size_t kLookAhead = 12;
+}
+
 PlaneGrouping::PlaneGrouping(std::shared_ptr<const Workers> workers) : workers_(std::move(workers))
 {
+}
+
+/** Entries are far apart in the memory: some are fetched ahead. */
+void PlaneGrouping::fetchEntry(const PlaneMatch& match) const
+{
+  if (match.plane < table_.size()) __builtin_prefetch(&table_[match.plane], 1);
 }
 
 PlaneGroup& PlaneGrouping::groupOf(const PlaneMatch& match)
@@ -91,6 +103,7 @@ const GroupedMeasurements& PlaneGrouping::group(
   }
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
+    fetchEntry(matches[std::min(i + kLookAhead, points_.size() - 1)]);
     const PointMeasurement& row = points_[i];
     if (row.weight == 0.0) continue;
     PlaneGroup& group = groupOf(matches[i]);

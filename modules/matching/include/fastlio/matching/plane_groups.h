@@ -78,6 +78,7 @@ class PlaneGrouping
   [[nodiscard]] Sums measure(
       const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
       const ResidualModel& model, std::size_t first, std::size_t last);
+  void fetchEntry(const PlaneMatch& match) const;
   PlaneGroup& groupOf(const PlaneMatch& match);
   void finishGroups();
 
