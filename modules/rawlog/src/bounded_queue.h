@@ -13,20 +13,22 @@
 
 namespace fastlio
 {
-/** First in, first out; holds at most \a capacity items. After close() nothing more goes in. */
+/** First in, first out. It holds items of a weight of at most \a capacity together, or one heavier
+ * item. After close() nothing more goes in. */
 template <typename Item>
 class BoundedQueue
 {
  public:
-  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
   /** Waits for room. False: the queue is closed, the item is lost. */
-  bool push(Item item)
+  bool push(Item item, std::size_t weight)
   {
     std::unique_lock lock(mutex_);
-    room_.wait(lock, [&] { return closed_ || items_.size() < capacity_; });
+    room_.wait(lock, [&] { return closed_ || items_.empty() || weight_ + weight <= capacity_; });
     if (closed_) return false;
-    items_.push_back(std::move(item));
+    items_.push_back({std::move(item), weight});
+    weight_ += weight;
     lock.unlock();
     filled_.notify_one();
     return true;
@@ -38,7 +40,8 @@ class BoundedQueue
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [&] { return closed_ || !items_.empty(); });
     if (items_.empty()) return std::nullopt;
-    std::optional<Item> item(std::move(items_.front()));
+    std::optional<Item> item(std::move(items_.front().item));
+    weight_ -= items_.front().weight;
     items_.pop_front();
     lock.unlock();
     room_.notify_one();
@@ -59,13 +62,21 @@ class BoundedQueue
   {
     const std::lock_guard lock(mutex_);
     items_.clear();
+    weight_ = 0;
   }
 
  private:
+  struct Weighed
+  {
+    Item item;
+    std::size_t weight;
+  };
+
   std::size_t capacity_;
+  std::size_t weight_ = 0;  // of all items
   std::mutex mutex_;
   std::condition_variable room_, filled_;
-  std::deque<Item> items_;
+  std::deque<Weighed> items_;
   bool closed_ = false;
 };
 

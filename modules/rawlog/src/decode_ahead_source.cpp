@@ -16,10 +16,10 @@ namespace fastlio
 class DecodeAheadSource::Impl
 {
  public:
-  Impl(RawlogSource source, ObservationBridge bridge, std::size_t capacity)
+  Impl(RawlogSource source, ObservationBridge bridge, std::size_t points_ahead)
       : source_(std::move(source)),
         bridge_(std::move(bridge)),
-        queue_(capacity),
+        queue_(points_ahead),
         thread_([this] { run(); })
   {
   }
@@ -77,7 +77,7 @@ class DecodeAheadSource::Impl
   {
     BridgeOutput output = bridge_.convert(observation);
     if (const auto* sample = std::get_if<ImuSample>(&output))
-      if (!queue_.push({*sample, source_.progress()})) return false;
+      if (!queue_.push({*sample, source_.progress()}, 1)) return false;
     if (auto* scan = std::get_if<LidarScan>(&output))
     {
       if (bridge_.selection().further_lidars.empty()) return deliver(std::move(*scan));
@@ -88,7 +88,11 @@ class DecodeAheadSource::Impl
     return true;
   }
 
-  bool deliver(LidarScan scan) { return queue_.push({std::move(scan), source_.progress()}); }
+  bool deliver(LidarScan scan)
+  {
+    const std::size_t points = scan.points.size();
+    return queue_.push({std::move(scan), source_.progress()}, points);
+  }
 
   void join()
   {
@@ -112,8 +116,8 @@ class DecodeAheadSource::Impl
 };
 
 DecodeAheadSource::DecodeAheadSource(
-    RawlogSource source, ObservationBridge bridge, std::size_t capacity)
-    : impl_(std::make_unique<Impl>(std::move(source), std::move(bridge), capacity))
+    RawlogSource source, ObservationBridge bridge, std::size_t points_ahead)
+    : impl_(std::make_unique<Impl>(std::move(source), std::move(bridge), points_ahead))
 {
 }
 

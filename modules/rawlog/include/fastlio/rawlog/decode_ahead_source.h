@@ -28,8 +28,14 @@ struct DecodedInput
 class DecodeAheadSource
 {
  public:
-  /** Starts reading. \a capacity: inputs that are kept ready. */
-  DecodeAheadSource(RawlogSource source, ObservationBridge bridge, std::size_t capacity = 256);
+  /** Some scans ahead are enough for reading and odometry not to wait for each other, and so many
+   * points need about 10 MB, whatever the rates of the sensors are. */
+  static constexpr std::size_t kPointsAhead = 300'000;
+
+  /** Starts reading. \param points_ahead of the scans that are kept ready; an inertial sample
+   * counts as one. A single scan may have more. */
+  DecodeAheadSource(
+      RawlogSource source, ObservationBridge bridge, std::size_t points_ahead = kPointsAhead);
 
   /** Stops reading if it has not come to the end. */
   ~DecodeAheadSource();
