@@ -69,6 +69,7 @@ void BagFile::readIndex()
   }
   chunk_.reset();
   refused_.clear();
+  lists_topics_ = !connections_.empty();
 }
 
 ReadProblem BagFile::problem(

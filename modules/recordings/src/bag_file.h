@@ -20,6 +20,7 @@ class BagFile : public RosMessageSource
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
   [[nodiscard]] std::uint64_t position() const override { return file_.position(); }
   [[nodiscard]] std::vector<const RosTopic*> topics() const override;
+  [[nodiscard]] bool listsAllTopics() const override { return lists_topics_; }
 
  private:
   /** The outcome of reading a record. */
@@ -52,7 +53,7 @@ class BagFile : public RosMessageSource
   RosMessage message_;
   std::string refused_;       // a compression that is not known
   std::size_t searches_ = 0;  // for a chunk behind damage
-  bool finished_ = false;
+  bool lists_topics_ = false, finished_ = false;
 };
 
 [[nodiscard]] bool isBag(const std::string& path);

@@ -96,6 +96,7 @@ std::optional<ReadProblem> BagFolder::openNext()
       file_ = std::make_unique<McapFile>(readable);
     else
       file_ = std::make_unique<Db3File>(readable, file);
+    if (leave_out_) file_->leaveOutUnwanted();
     return std::nullopt;
   }
   catch (const std::exception& e)
@@ -117,6 +118,17 @@ NextMessage BagFolder::next(const TopicFilter& wanted)
     if (next_ == files_.size()) return EndOfRecording{};
     if (auto problem = openNext()) return std::move(*problem);
   }
+}
+
+// Files behind the first one may have more.
+bool BagFolder::listsAllTopics() const
+{
+  return files_.size() == 1 && file_ && file_->listsAllTopics();
+}
+
+void BagFolder::leaveOutUnwanted()
+{
+  leave_out_ = true;
 }
 
 std::uint64_t BagFolder::position() const

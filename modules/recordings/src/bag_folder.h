@@ -22,6 +22,8 @@ class BagFolder : public RosMessageSource
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
   [[nodiscard]] std::uint64_t position() const override;
   [[nodiscard]] std::vector<const RosTopic*> topics() const override;
+  [[nodiscard]] bool listsAllTopics() const override;
+  void leaveOutUnwanted() override;
 
  private:
   [[nodiscard]] std::optional<ReadProblem> openNext();
@@ -32,6 +34,7 @@ class BagFolder : public RosMessageSource
   std::unique_ptr<RosMessageSource> file_;  // the one at hand
   std::map<std::string, RosTopic> topics_;  // of the files before
   std::uint64_t bytes_before_ = 0;
+  bool leave_out_ = false;
 };
 
 [[nodiscard]] bool isBagFolder(const std::string& path);

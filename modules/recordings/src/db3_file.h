@@ -25,6 +25,7 @@ class Db3File : public RosMessageSource
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
   [[nodiscard]] std::uint64_t position() const override;
   [[nodiscard]] std::vector<const RosTopic*> topics() const override;
+  [[nodiscard]] bool listsAllTopics() const override { return true; }
 
  private:
   void open(const std::string& path);

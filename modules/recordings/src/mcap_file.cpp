@@ -22,6 +22,7 @@ enum McapOp : std::uint8_t
   kMcapChannel = 0x04,
   kMcapMessage = 0x05,
   kMcapChunk = 0x06,
+  kMcapChunkIndex = 0x08,
   kMcapLastKnown = 0x0F,
   kMcapDataEnd = 0x0F,
   kMcapFirstPrivate = 0x80
@@ -39,11 +40,6 @@ std::optional<T> readNumber(ByteSource& source)
   T value{};
   std::memcpy(&value, bytes, sizeof value);
   return value;
-}
-
-WireFormat formatOf(const std::string& encoding)
-{
-  return encoding == "ros1" ? WireFormat::Ros1 : WireFormat::Cdr;
 }
 }  // namespace
 
@@ -81,6 +77,7 @@ void McapFile::readSummary()
   {
   }
   chunk_ = {};
+  lists_topics_ = !definitions_.topics().empty();
 }
 
 ReadProblem McapFile::problem(
@@ -177,13 +174,13 @@ McapFile::Step McapFile::readRecord(ByteSource& source, const TopicFilter& wante
   switch (*op)
   {
     case kMcapSchema:
-      return readSchema(source, *size);
     case kMcapChannel:
-      return readChannel(source, *size);
+    case kMcapChunkIndex:
+      return readDefinition(*op, source, *size);
     case kMcapMessage:
       return readMessage(source, *size, wanted);
     case kMcapChunk:
-      return outside ? openChunk(*size) : Step::Broken;  // chunks do not hold chunks
+      return outside ? openChunk(*size, wanted) : Step::Broken;  // chunks do not hold chunks
     case kMcapFooter:
     case kMcapDataEnd:
       return outside ? Step::Finished : Step::Broken;
@@ -201,11 +198,7 @@ McapFile::Step McapFile::readMessage(
   const auto channel = readNumber<std::uint16_t>(source);
   std::uint8_t times[kMessageHead - sizeof(std::uint16_t)];  // read, as the checksum asks for it
   if (!channel || source.read(times, sizeof times) < sizeof times) return Step::Ended;
-  RosTopic& topic = channels_[*channel];
-  if (topic.name.empty())
-    topic = {
-        "channel " + std::to_string(*channel), "", WireFormat::Cdr,
-        "no remaining record holds its topic and type"};
+  const RosTopic& topic = definitions_.channel(*channel);
   message_ = {&topic, nullptr, record_};
   size -= kMessageHead;
   if (!wanted(topic)) return source.skip(size) ? Step::Message : Step::Ended;
@@ -214,51 +207,32 @@ McapFile::Step McapFile::readMessage(
   return Step::Message;
 }
 
-McapFile::Step McapFile::readSchema(ByteSource& source, std::uint64_t size)
-try
+McapFile::Step McapFile::readDefinition(std::uint8_t op, ByteSource& source, std::uint64_t size)
 {
   if (size > kLargestRecord) return Step::Broken;
   if (!readBytes(source, size, data_)) return Step::Ended;
-  WireReader in(data_.data(), data_.size(), WireFormat::Ros1);
-  const auto id = in.number<std::uint16_t>();
-  schemas_[id] = in.text();
-  return Step::Other;
-}
-catch (const std::runtime_error&)
-{
-  return Step::Broken;
+  if (op == kMcapChunkIndex) chunks_.add(data_);
+  const bool broken = (op == kMcapSchema && !definitions_.addSchema(data_)) ||
+                      (op == kMcapChannel && !definitions_.addChannel(data_));
+  return broken ? Step::Broken : Step::Other;
 }
 
-McapFile::Step McapFile::readChannel(ByteSource& source, std::uint64_t size)
-try
+bool McapFile::isLeftOut(const TopicFilter& wanted) const
 {
-  if (size > kLargestRecord) return Step::Broken;
-  if (!readBytes(source, size, data_)) return Step::Ended;
-  WireReader in(data_.data(), data_.size(), WireFormat::Ros1);
-  const auto id = in.number<std::uint16_t>();
-  const auto schema = schemas_.find(in.number<std::uint16_t>());
-  RosTopic topic;
-  topic.name = in.text();
-  const std::string encoding(in.text());
-  topic.format = formatOf(encoding);
-  if (encoding != "ros1" && encoding != "cdr")
-    topic.trouble = "the encoding '" + encoding + "' is not known (ros1 and cdr are)";
-  if (schema != schemas_.end()) topic.type = schema->second;
-  // A message may point to the first one that was defined.
-  const auto known = channels_.find(id);
-  if (known == channels_.end() || known->second.type.empty()) channels_[id] = std::move(topic);
-  return Step::Other;
-}
-catch (const std::runtime_error&)
-{
-  return Step::Broken;
+  const auto isWanted = [&](std::uint16_t id)
+  {
+    const RosTopic* topic = definitions_.find(id);
+    return topic == nullptr || wanted(*topic);
+  };
+  return leave_out_ && chunks_.holdsNone(record_, isWanted);
 }
 
-McapFile::Step McapFile::openChunk(std::uint64_t size)
+McapFile::Step McapFile::openChunk(std::uint64_t size, const TopicFilter& wanted)
 {
   constexpr std::size_t kLongestName = 64;
   const std::uint64_t end = file_.position() + size;
   if (size < kCompressionAt || end < size) return Step::Broken;
+  if (isLeftOut(wanted)) return file_.skip(size) ? Step::Other : Step::Ended;
   if (!file_.skip(kCompressionAt - sizeof(std::uint32_t))) return Step::Ended;
   const auto checksum = readNumber<std::uint32_t>(file_);
   const auto length = readNumber<std::uint32_t>(file_);
@@ -284,14 +258,6 @@ McapFile::Step McapFile::openChunk(std::uint64_t size)
       std::make_unique<StretchBytes>(file_, *packed, std::move(inflater), *checksum != 0), end,
       *checksum, ""};
   return Step::Other;
-}
-
-std::vector<const RosTopic*> McapFile::topics() const
-{
-  std::vector<const RosTopic*> topics;
-  for (const auto& [id, topic] : channels_)
-    topics.push_back(&topic);
-  return topics;
 }
 
 }  // namespace fastlio

@@ -4,12 +4,14 @@
 /** \file mcap_file.h MCAP files with messages of ROS 1 or ROS 2: https://mcap.dev/spec */
 #pragma once
 
+#include "mcap_chunks.h"
+#include "mcap_definitions.h"
 #include "ros_recording.h"
 
 namespace fastlio
 {
-/** Reads from the front; of the summary at the end only the channels are used, where it is there.
- * What can be read of a damaged or cut file is read. */
+/** Reads from the front; of the summary at the end the channels are used, where it is there, and
+ * which chunks hold them. What can be read of a damaged or cut file is read. */
 class McapFile : public RosMessageSource
 {
  public:
@@ -18,7 +20,12 @@ class McapFile : public RosMessageSource
 
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
   [[nodiscard]] std::uint64_t position() const override { return file_.position(); }
-  [[nodiscard]] std::vector<const RosTopic*> topics() const override;
+  [[nodiscard]] std::vector<const RosTopic*> topics() const override
+  {
+    return definitions_.topics();
+  }
+  [[nodiscard]] bool listsAllTopics() const override { return lists_topics_; }
+  void leaveOutUnwanted() override { leave_out_ = true; }
 
  private:
   enum class Step
@@ -33,9 +40,9 @@ class McapFile : public RosMessageSource
   void readSummary();
   Step readRecord(ByteSource& source, const TopicFilter& wanted);
   Step readMessage(ByteSource& source, std::uint64_t size, const TopicFilter& wanted);
-  Step readSchema(ByteSource& source, std::uint64_t size);
-  Step readChannel(ByteSource& source, std::uint64_t size);
-  Step openChunk(std::uint64_t size);
+  Step readDefinition(std::uint8_t op, ByteSource& source, std::uint64_t size);
+  Step openChunk(std::uint64_t size, const TopicFilter& wanted);
+  [[nodiscard]] bool isLeftOut(const TopicFilter& wanted) const;
   [[nodiscard]] std::optional<ReadProblem> closeChunk(Step step);
   [[nodiscard]] ReadProblem endOfFile(Step step);
   [[nodiscard]] ReadProblem problem(
@@ -54,12 +61,12 @@ class McapFile : public RosMessageSource
   FileBytes file_;
   Chunk chunk_;
   std::uint64_t record_ = 0;  // where the record of the file at hand begins
-  std::map<std::uint16_t, std::string> schemas_;
-  std::map<std::uint16_t, RosTopic> channels_;
+  McapDefinitions definitions_;
   Bytes data_;
   RosMessage message_;
   std::size_t searches_ = 0;  // for a chunk behind damage
-  bool finished_ = false;
+  McapChunks chunks_;
+  bool lists_topics_ = false, leave_out_ = false, finished_ = false;
 };
 
 [[nodiscard]] bool isMcap(const std::string& path);

@@ -3,63 +3,22 @@
 
 #include "ros_recording.h"
 
+#include "look_ahead.h"
 #include "ros_types.h"
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <algorithm>
-#include <iterator>
 #include <new>
 
 namespace fastlio
 {
 namespace
 {
-// How much of a recording is looked through for transforms: a second or so of any vehicle. They are
-// latched, and recorders write them first.
-constexpr std::size_t kLookMessages = 5000;
-constexpr std::uint64_t kLookBytes = std::uint64_t{64} << 20U;
-
 bool isWanted(const RosTopic& topic)
 {
   return topic.trouble.empty() && rosTypeOf(topic.type).isTaken();
-}
-
-// Bags of ROS 2 may compress each message by itself; CDR never begins like that.
-constexpr std::uint8_t kZstdMessage[] = {0x28, 0xB5, 0x2F, 0xFD};
-
-bool isCompressed(const RosMessage& message)
-{
-  return message.topic->format == WireFormat::Cdr && message.data->size() >= sizeof kZstdMessage &&
-         std::equal(std::begin(kZstdMessage), std::end(kZstdMessage), message.data->begin());
-}
-
-Bytes inflated(const Bytes& packed)
-{
-  constexpr std::size_t kPiece = std::size_t{1} << 18U;
-  const auto inflater = makeZstdInflater();
-  Bytes bytes;
-  for (std::size_t done = 0;;)
-  {
-    const std::size_t size = bytes.size();
-    bytes.resize(size + kPiece);
-    const auto step = inflater->step(
-        packed.data() + done, static_cast<std::uint32_t>(packed.size() - done), bytes.data() + size,
-        kPiece);
-    done += step.consumed;
-    bytes.resize(size + step.produced);
-    if (step.status == InflateStatus::MemberEnd) return bytes;
-    if (step.status == InflateStatus::Corrupt || (step.consumed == 0 && step.produced == 0))
-      throw std::runtime_error("its compressed data are damaged");
-    if (bytes.size() > kLargestRecord) throw std::runtime_error("it is larger than 256 MiB");
-  }
-}
-
-bool tellsOfOthers(const RosTopic& topic)
-{
-  const RosRole role = rosTypeOf(topic.type).role;
-  return topic.trouble.empty() && (role == RosRole::Transforms || role == RosRole::Text);
 }
 
 std::optional<PacketMessage> packetsOf(RosRole role)
@@ -69,50 +28,15 @@ std::optional<PacketMessage> packetsOf(RosRole role)
   if (role == RosRole::SinglePackets) return PacketMessage::Single;
   return std::nullopt;
 }
-
-bool isStatic(const RosTopic& topic)
-{
-  return topic.name.find("static") != std::string::npos;
-}
 }  // namespace
 
 RosRecording::RosRecording(std::string path, OpenMessages open)
     : path_(std::move(path)), open_(std::move(open))
 {
-  lookAhead();
+  LookAhead ahead(transforms_, ouster_);
   messages_ = open_();
-}
-
-void RosRecording::lookAhead()
-{
+  ahead.lookThrough(*messages_);
   messages_ = open_();
-  for (std::size_t i = 0; i < kLookMessages && messages_->position() < kLookBytes; ++i)
-  {
-    const NextMessage next = messages_->next(tellsOfOthers);
-    if (std::holds_alternative<EndOfRecording>(next)) return;
-    if (const auto* message = std::get_if<RosMessage>(&next)) lookAt(*message);
-  }
-}
-
-void RosRecording::lookAt(const RosMessage& message)
-{
-  if (message.data == nullptr || !tellsOfOthers(*message.topic)) return;
-  try
-  {
-    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
-    const Bytes& data = own.empty() ? *message.data : own;
-    WireReader in(data.data(), data.size(), message.topic->format);
-    if (rosTypeOf(message.topic->type).role == RosRole::Text)
-      ouster_.takeMetadata(message.topic->name, in);
-    else
-      for (const RosTransform& transform : readTransforms(in))
-        isStatic(*message.topic) ? transforms_.addFixed(transform)
-                                 : transforms_.addMoving(transform);
-  }
-  catch (const std::runtime_error&)
-  {
-    // A pose less; the run says which poses it uses.
-  }
 }
 
 NextRecorded RosRecording::next()
@@ -159,9 +83,8 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
   const RosTopic& topic = *message.topic;
   try
   {
-    const Bytes own = isCompressed(message) ? inflated(*message.data) : Bytes{};
-    const Bytes& data = own.empty() ? *message.data : own;
-    WireReader in(data.data(), data.size(), topic.format);
+    const InflatedMessage data(message);
+    WireReader in(data.bytes().data(), data.bytes().size(), topic.format);
     const RosType& type = rosTypeOf(topic.type);
     if (type.role == RosRole::OusterPackets)
       ouster_.takePacket(topic.name, in, queue_);

@@ -4,11 +4,10 @@
 /** \file ros_recording.h Observations out of the messages of ROS, whatever holds them. */
 #pragma once
 
-#include "byte_source.h"
 #include "ouster_topics.h"
 #include "packet_topics.h"
+#include "ros_message_source.h"
 #include "transform_tree.h"
-#include "wire_reader.h"
 #include <fastlio/recordings/recording_reader.h>
 
 #include <functional>
@@ -16,48 +15,10 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace fastlio
 {
-/** A topic as the container describes it. */
-struct RosTopic
-{
-  std::string name, type;
-  WireFormat format = WireFormat::Ros1;
-  std::string trouble;  //!< why its messages cannot be read; empty: nothing is known against it
-};
-
-/** One message; its bytes stay valid until the next one. */
-struct RosMessage
-{
-  const RosTopic* topic = nullptr;
-  const Bytes* data = nullptr;  //!< null: nobody wanted it
-  std::uint64_t offset = 0;     //!< where it, or the chunk around it, starts in the file
-};
-
-using NextMessage = std::variant<RosMessage, ReadProblem, EndOfRecording>;
-
-/** Whether messages of a topic are worth being loaded. */
-using TopicFilter = std::function<bool(const RosTopic&)>;
-
-/** The messages of a bag in the order of the file. Never throws for what the file holds. */
-class RosMessageSource
-{
- public:
-  RosMessageSource() = default;
-  virtual ~RosMessageSource() = default;
-  RosMessageSource(const RosMessageSource&) = delete;
-  RosMessageSource& operator=(const RosMessageSource&) = delete;
-
-  [[nodiscard]] virtual NextMessage next(const TopicFilter& wanted) = 0;
-  [[nodiscard]] virtual std::uint64_t position() const = 0;
-
-  /** All topics that the container has listed so far, also those without messages. */
-  [[nodiscard]] virtual std::vector<const RosTopic*> topics() const = 0;
-};
-
 /** Opens the container anew. */
 using OpenMessages = std::function<std::unique_ptr<RosMessageSource>()>;
 
@@ -80,8 +41,6 @@ class RosRecording : public RecordingReader
     std::size_t messages = 0, taken = 0;
   };
 
-  void lookAhead();
-  void lookAt(const RosMessage& message);
   [[nodiscard]] std::optional<ReadProblem> convert(const RosMessage& message);
   [[nodiscard]] ReadProblem problemOf(const RosMessage& message, const std::string& what) const;
   void takePackets(const RosTopic& topic, PacketMessage kind, WireReader& in);

@@ -78,6 +78,18 @@ std::optional<std::string> TransformTree::vehicleFrameOf(const std::string& fram
   return top.frame;
 }
 
+bool TransformTree::isFixedToVehicle(const std::string& frame) const
+{
+  std::string at = frame;
+  for (std::size_t i = 0; i < kLongestChain && at != kVehicleFrames[0]; ++i)
+  {
+    const auto found = edges_.find(at);
+    if (found == edges_.end() || !found->second.fixed) return false;
+    at = found->second.parent;
+  }
+  return at == kVehicleFrames[0];
+}
+
 std::optional<Pose> TransformTree::poseOf(
     const std::string& frame, const std::string& vehicle) const
 {

@@ -28,6 +28,9 @@ class TransformTree
    * at the top of \a frame; nothing where nothing is known of the frame. */
   [[nodiscard]] std::optional<std::string> vehicleFrameOf(const std::string& frame) const;
 
+  /** It is connected by tf_static to base_link, which goes before other names of the vehicle. */
+  [[nodiscard]] bool isFixedToVehicle(const std::string& frame) const;
+
   /** Pose of \a frame in \a vehicle; nothing where they are not connected. */
   [[nodiscard]] std::optional<Pose> poseOf(
       const std::string& frame, const std::string& vehicle) const;

@@ -63,8 +63,10 @@ TEST_F(RosTwoBags, ACutMcapGivesAllThatIsBeforeTheCut)
     for (const std::size_t chunk : {0U, 20U})
     {
       const std::string whole = mcapOf(messages, {compression, chunk, true});
+      constexpr std::size_t kBehindData = 60;  // without a summary
+      const std::size_t data = mcapOf(messages, {compression, chunk, false}).size() - kBehindData;
       std::size_t before = 0;
-      for (std::size_t size = 100; size + 400 < whole.size(); size += 1009)
+      for (std::size_t size = 100; size < data; size += 1009)
       {
         const Recorded bag = readRecording(fileOf(whole.substr(0, size)));
         EXPECT_GE(bag.observations.size(), before);
