@@ -4,16 +4,11 @@
 #include "run_results.h"
 
 #include <fastlio/evaluation/trajectory_io.h>
-#include <fastlio/files/bounded_line.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/options/printable.h>
 #include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/run/run_table.h>
 
-#include <charconv>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <stdexcept>
 
 namespace fastlio
@@ -21,56 +16,6 @@ namespace fastlio
 namespace
 {
 namespace fs = std::filesystem;
-
-/** A row of a table whose first line without # names the columns. */
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cellsOf(const std::string& line)
-{
-  std::vector<std::string> cells(1);
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  return cells;
-}
-
-/** No rows where the file is not there. */
-std::vector<Row> readTable(const fs::path& path)
-{
-  std::vector<Row> rows;
-  std::vector<std::string> names;
-  std::ifstream in(path, std::ios::binary);
-  for (std::string line; readBoundedLine(in, line);)
-  {
-    if (line.empty() || line.front() == '#') continue;
-    const auto cells = cellsOf(line);
-    if (names.empty())
-    {
-      names = cells;
-      continue;
-    }
-    if (cells.size() != names.size())
-      throw std::runtime_error(
-          "'" + path.string() + "': the row '" + printable(line, 60) + "' is not complete");
-    Row& row = rows.emplace_back();
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      row[names[i]] = cells[i];
-  }
-  return rows;
-}
-
-std::int64_t stampIn(const Row& row, const char* name)
-{
-  const auto found = row.find(name);
-  const std::string text = found == row.end() ? "" : found->second;
-  std::int64_t stamp_ns = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp_ns);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::runtime_error("'" + printable(text) + "' in the column " + name + " is no stamp");
-  return stamp_ns;
-}
 
 /** A stretch that is not to be relied on. */
 struct Stretch
@@ -86,20 +31,16 @@ const Stretch* stretchAt(const std::vector<Stretch>& stretches, std::int64_t sta
   return nullptr;
 }
 
-DiagnosticStatus statusOf(const Row& row, const Stretch* stretch)
+DiagnosticStatus statusOf(const RunTable& timing, std::size_t row, const Stretch* stretch)
 {
   using Level = DiagnosticStatus::Level;
   constexpr double kLimit = 0.5;  // below it a measure exceeds its limit
-  const auto cell = [&row](const char* name)
-  {
-    const auto found = row.find(name);
-    return found == row.end() ? std::string() : found->second;
-  };
+  const auto cell = [&](const char* name)
+  { return timing.has(name) ? std::string(timing.text(row, name)) : std::string(); };
   DiagnosticStatus result;
   result.name = "odometry";
   result.message = cell("status");
-  const double health = std::strtod(cell("health").c_str(), nullptr);
-  if (health < kLimit)
+  if (timing.has("health") && timing.number(row, "health") < kLimit)
   {
     result.level = Level::Warning;
     result.message += ": " + cell("health_cause");
@@ -113,16 +54,28 @@ DiagnosticStatus statusOf(const Row& row, const Stretch* stretch)
   return result;
 }
 
-std::vector<ScanDiagnostic> diagnosticsOf(const fs::path& folder)
+std::vector<Stretch> stretchesOf(const fs::path& file)
 {
   std::vector<Stretch> stretches;
-  for (const Row& row : readTable(folder / "untrusted.csv"))
-    stretches.push_back({stampIn(row, "begin_ns"), stampIn(row, "end_ns"), row.at("cause")});
+  if (!fs::exists(file)) return stretches;
+  const RunTable table(file.string());
+  for (std::size_t i = 0; i < table.size(); ++i)
+    stretches.push_back(
+        {table.stamp(i, "begin_ns"), table.stamp(i, "end_ns"),
+         std::string(table.text(i, "cause"))});
+  return stretches;
+}
+
+std::vector<ScanDiagnostic> diagnosticsOf(const fs::path& folder)
+{
   std::vector<ScanDiagnostic> diagnostics;
-  for (const Row& row : readTable(folder / "timing.csv"))
+  if (!fs::exists(folder / "timing.csv")) return diagnostics;
+  const std::vector<Stretch> stretches = stretchesOf(folder / "untrusted.csv");
+  const RunTable timing((folder / "timing.csv").string());
+  for (std::size_t i = 0; i < timing.size(); ++i)
   {
-    const std::int64_t stamp_ns = stampIn(row, "stamp_ns");
-    diagnostics.push_back({stamp_ns, statusOf(row, stretchAt(stretches, stamp_ns))});
+    const std::int64_t stamp_ns = timing.stamp(i, "stamp_ns");
+    diagnostics.push_back({stamp_ns, statusOf(timing, i, stretchAt(stretches, stamp_ns))});
   }
   return diagnostics;
 }

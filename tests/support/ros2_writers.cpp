@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <sqlite3.h>
 #include <stdexcept>
 #include <zlib.h>
@@ -84,6 +85,28 @@ std::string mcapChunk(const std::string& bytes, const std::string& compression)
                 .bytes());
 }
 
+/** Offsets of message indexes are not looked at by anybody here. */
+std::string mcapChunkIndex(
+    std::uint64_t begin, std::uint64_t size, const std::set<std::uint16_t>& channels,
+    const BagStyle& style)
+{
+  WireWriter offsets = content();
+  for (const std::uint16_t channel : channels)
+    offsets.number(channel).number(begin);
+  return mcapRecord(
+      0x08, content()
+                .number(std::uint64_t{0})
+                .number(std::uint64_t{0})
+                .number(begin)
+                .number(size)
+                .text(offsets.bytes())
+                .number(std::uint64_t{0})
+                .text(style.compression == "none" ? "" : style.compression)
+                .number(std::uint64_t{0})
+                .number(std::uint64_t{0})
+                .bytes());
+}
+
 void run(sqlite3* database, const char* text)
 {
   if (sqlite3_exec(database, text, nullptr, nullptr, nullptr) != SQLITE_OK)
@@ -117,9 +140,21 @@ std::string mcapOf(
     const std::vector<TopicMessage>& messages, const BagStyle& style, const std::string& encoding)
 {
   std::map<std::string, std::uint16_t> channels;
-  std::string body, chunk, summary;
+  const std::string head =
+      kMcapMagic + mcapRecord(0x01, content().text("ros2").text("test").bytes());
+  std::string body, chunk, summary, indexes;
+  std::set<std::uint16_t> in_this_chunk;
   std::size_t in_chunk = 0;
   const bool chunks = style.chunk_messages > 0;
+  const auto closeChunk = [&]
+  {
+    const std::uint64_t begin = head.size() + body.size();
+    body += mcapChunk(chunk, style.compression);
+    indexes += mcapChunkIndex(begin, head.size() + body.size() - begin, in_this_chunk, style);
+    chunk.clear();
+    in_this_chunk.clear();
+    in_chunk = 0;
+  };
   for (const TopicMessage& message : messages)
   {
     const auto [channel, is_new] =
@@ -128,14 +163,11 @@ std::string mcapOf(
     if (is_new) to += mcapChannel(channel->second, message, encoding);
     if (is_new) summary += mcapChannel(channel->second, message, encoding);
     to += mcapMessage(channel->second, message);
-    if (!chunks || ++in_chunk < style.chunk_messages) continue;
-    body += mcapChunk(chunk, style.compression);
-    chunk.clear();
-    in_chunk = 0;
+    in_this_chunk.insert(channel->second);
+    if (chunks && ++in_chunk == style.chunk_messages) closeChunk();
   }
-  if (!chunk.empty()) body += mcapChunk(chunk, style.compression);
-  const std::string head =
-      kMcapMagic + mcapRecord(0x01, content().text("ros2").text("test").bytes());
+  if (!chunk.empty()) closeChunk();
+  summary += indexes;
   body += mcapRecord(0x0F, content().number(std::uint32_t{0}).bytes());
   const std::uint64_t summary_start = style.index ? head.size() + body.size() : 0;
   const std::string footer = mcapRecord(

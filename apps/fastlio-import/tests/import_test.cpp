@@ -3,9 +3,7 @@
 
 // The program on recordings that the test writes, with good and bad arguments.
 
-#include "bag_writers.h"
-#include "bridge_recording.h"
-#include "process.h"
+#include "import_fixture.h"
 #include "rawlog_reading.h"
 #include "ros2_writers.h"
 #include <fastlio/compat/CPointsMapXYZIRT.h>
@@ -22,28 +20,14 @@ namespace fastlio::testing
 {
 namespace
 {
-class ImportProgram : public ::testing::Test
+class ImportProgram : public ImportFixture
 {
  protected:
-  ProcessResult import(std::vector<std::string> arguments)
-  {
-    arguments.insert(arguments.begin(), FASTLIO_IMPORT_PROGRAM);
-    return Process(arguments, folder_.file("log.txt")).wait();
-  }
-
-  std::string file(const std::string& name, const std::string& bytes)
-  {
-    write(folder_.file(name), bytes);
-    return folder_.file(name);
-  }
-
   /** Clouds at 10 Hz with the time field that is asked for, and an IMU. */
   static std::vector<TopicMessage> messages(const TimeField& time = {}, Wire wire = Wire::Ros1)
   {
     return messagesOf(recording(30), wire, time);
   }
-
-  std::string out(const std::string& name = "out.rawlog") { return folder_.file(name); }
 
   /** Seconds after the stamp of all points of the clouds of a rawlog. */
   static std::vector<float> timesOf(const std::string& rawlog)
@@ -61,8 +45,6 @@ class ImportProgram : public ::testing::Test
     }
     return times;
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(ImportProgram, WritesTimesInSecondsWhateverTheyWere)

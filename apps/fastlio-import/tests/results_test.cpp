@@ -3,12 +3,9 @@
 
 // What a run has found, in MCAP.
 
-#include "bag_writers.h"
-#include "bridge_recording.h"
+#include "import_fixture.h"
 #include "mcap_file.h"
-#include "process.h"
-#include "ros_messages.h"
-#include "test_files.h"
+#include <fastlio/messages/ros_messages.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -21,23 +18,9 @@ namespace fastlio::testing
 {
 namespace
 {
-class ImportResults : public ::testing::Test
+class ImportResults : public ImportFixture
 {
  protected:
-  ProcessResult import(std::vector<std::string> arguments)
-  {
-    arguments.insert(arguments.begin(), FASTLIO_IMPORT_PROGRAM);
-    return Process(arguments, folder_.file("log.txt")).wait();
-  }
-
-  std::string file(const std::string& name, const std::string& bytes)
-  {
-    write(folder_.file(name), bytes);
-    return folder_.file(name);
-  }
-
-  std::string out(const std::string& name = "out.rawlog") { return folder_.file(name); }
-
   /** Writes the folder of a run with one pose, three points and three scans. */
   void SetUp() override
   {
@@ -67,8 +50,6 @@ class ImportResults : public ::testing::Test
   {
     return file("in.bag", bagOf(messagesOf(recording(30), Wire::Ros1)));
   }
-
-  TemporaryFolder folder_;
 };
 
 /** By topic. */

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "run_table.h"
 #include <fastlio/math/time.h>
+#include <fastlio/run/run_table.h>
 #include <fastlio/tuning/run_measures.h>
 
 #include <algorithm>
@@ -33,8 +33,7 @@ Slip slipOf(const RunTable& states)
   Vec3 velocity = Vec3::Zero();
   for (std::size_t i = 0; i < states.size(); ++i)
   {
-    // Nanoseconds since 1970 do not fit into a double.
-    const std::int64_t stamp = std::stoll(states.text(i, "stamp_ns"));
+    const std::int64_t stamp = states.stamp(i, "stamp_ns");
     if (i == 0) first = stamp;
     const double time = toSeconds(stamp - first);
     const Vec3 next_position = states.vector(i, {"x", "y", "z"});
