@@ -63,7 +63,7 @@ UpdateByCalibration CalibrationErrorModel::update(
   const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
   by_calibration.innovation = ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
   const Matrix6 information =
-      update.constrained.transpose() * scan.information * update.constrained;
+      update.constraints.projection.transpose() * scan.information * update.constraints.projection;
   const Sensitivity correction =
       -product(update.gain, PoseByCalibration(product(information, by_calibration.innovation)));
   by_calibration.correction = correction.topRows<6>();

@@ -26,24 +26,35 @@ void keepEverySecond(std::vector<Insertion>& insertions)
 }
 
 /** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
- * created. \param insertions ascending by scan; older ones may have been dropped */
-template <typename Insertion>
-void weighInsertions(const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions)
+ * created. \param insertions ascending by scan; older ones may have been dropped
+ * \param weight_of weight of a group of points */
+template <typename Insertion, typename WeightOf>
+void weighInsertions(
+    const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions,
+    const WeightOf& weight_of)
 {
   for (Insertion& insertion : insertions)
     insertion.weight = 0.0;
   double total = 0.0;
   for (const PlaneGroup& group : groups)
   {
-    total += group.weight;
+    const double weight = weight_of(group);
+    total += weight;
     const auto next = std::upper_bound(
         insertions.begin(), insertions.end(), group.created_insertion,
         [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
-    if (next != insertions.begin()) std::prev(next)->weight += group.weight;
+    if (next != insertions.begin()) std::prev(next)->weight += weight;
   }
   if (!(total > 0.0)) return;
   for (Insertion& insertion : insertions)
     insertion.weight /= total;
+}
+
+/** By all that the points say. */
+template <typename Insertion>
+void weighInsertions(const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions)
+{
+  weighInsertions(groups, insertions, [](const PlaneGroup& group) { return group.weight; });
 }
 
 }  // namespace fastlio

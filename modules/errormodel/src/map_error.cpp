@@ -3,11 +3,13 @@
 
 #include "insertion_weights.h"
 #include <fastlio/errormodel/map_error.h>
+#include <fastlio/matching/degeneracy.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fastlio
 {
@@ -39,7 +41,7 @@ AlignedStateBy6 gainOf(const LinearizedUpdate& update)
   const AlignedMatrix6 scan_pose = product(B, gain);
   gain.topRows<6>() = AlignedMatrix6(B.leftCols<6>()).partialPivLu().solve(scan_pose);
   gain.bottomRows<kCalibrationDim>().setZero();
-  return gain * update.constrained.transpose();
+  return gain * update.constraints.projection.transpose();
 }
 
 /** I - K H = I - G (S B): what an update leaves of an error, as a change of rank six. */
@@ -105,9 +107,33 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
   return L * covariance * L.transpose();
 }
 
-TwistCovariance MapErrorModel::insertionCovariance(const std::vector<PlaneGroup>& groups)
+/** The few planes that show a weak direction may be of other insertions than most planes are. Where
+ * nothing showed that direction for a while, they are all wrong along it. */
+TwistCovariance MapErrorModel::insertionCovariance(
+    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
   weighInsertions(groups, insertions_);
+  const TwistCovariance mean = meanOfInsertions();
+  TwistCovariance all = mean;
+  const ScanConstraints& constraints = update.constraints;
+  for (int i = constraints.unconstrained; i < 6 && isWeak(constraints, i); ++i)
+  {
+    Vector6 along = constraints.directions.col(i), measured = along;  // along . measured = 1
+    along.head<3>() /= constraints.lever_arm;
+    measured.head<3>() *= constraints.lever_arm;
+    weighInsertions(
+        groups, insertions_,
+        [&](const PlaneGroup& group) { return std::pow(group.g.dot(along), 2) / group.weight; });
+    const Vector6 moved = twistJacobian(update.T_world_scan) * along;
+    const Vector6 seen = twistJacobianInverse(update.T_world_scan).transpose() * measured;
+    const double more = seen.dot((meanOfInsertions() - mean) * seen);
+    if (more > 0.0) all += more * moved * moved.transpose();
+  }
+  return all;
+}
+
+TwistCovariance MapErrorModel::meanOfInsertions() const
+{
   TwistCovariance mean = TwistCovariance::Zero();
   TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
   for (const Insertion& insertion : insertions_)
@@ -150,10 +176,10 @@ void MapErrorModel::update(
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
       squareRoot(L_inverse.transpose() * (planeErrors(scan.groups) + beam_errors) * L_inverse);
-  const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(scan.groups));
+  const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(update, scan.groups));
 
   const AlignedStateBy6 gain = gainOf(update);
-  const Keeping keep{gain, scan.information * (update.constrained * update.by_state)};
+  const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
   memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
   const AlignedStateBy6 in_planes = G * C_planes, in_poses = G * C_poses;

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace fastlio
@@ -88,6 +89,30 @@ TEST(MapError, InheritedErrorsAreCommonToAllInsertions)
   EXPECT_LT((poseAddition(model) - 4e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
+// Nine planes of ten are of a certain pose and do not show the height. The tenth shows it, and its
+// pose was uncertain there.
+TEST(MapError, AlongAWeakDirectionItIsThatOfThePlanesThatShowIt)
+{
+  MapErrorModel model;
+  InsertionError certain, uncertain;
+  certain.inherited = 1e-6 * Matrix6::Identity();
+  uncertain.inherited = certain.inherited;
+  uncertain.inherited(5, 5) = 0.09;
+  model.recordInsertion(1, certain, {});
+  model.recordInsertion(2, uncertain, {});
+  GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
+  for (std::size_t i = 0; i < scan.groups.size(); ++i)
+    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
+  LinearizedUpdate update = fullTrust();
+  update.constraints.directions = Matrix6::Identity().rowwise().reverse();
+  update.constraints.information.setConstant(kScanInformation);
+  update.constraints.information[0] = 0.01 * kScanInformation;
+  model.update(update, scan);
+  EXPECT_NEAR(poseAddition(model)(5, 5), 0.09, 1e-4);
+  EXPECT_NEAR(poseAddition(model)(3, 3), 1e-6, 1e-9);
+  EXPECT_LT(std::abs(poseAddition(model)(3, 5)), 1e-9);
+}
+
 TEST(MapError, StaysBoundedOverMoreInsertionsThanAreKept)
 {
   MapErrorModel model;
@@ -118,7 +143,7 @@ class DenseRecursion
   {
     const StateBy6 G = update.gain;
     const StateMatrix keep =
-        StateMatrix::Identity() - G * scan.information * Matrix6(update.constrained) *
+        StateMatrix::Identity() - G * scan.information * Matrix6(update.constraints.projection) *
                                       Eigen::Matrix<double, 6, kStateDim>(update.by_state);
     Matrix6 planes = Matrix6::Zero();
     for (const PlaneGroup& group : scan.groups)

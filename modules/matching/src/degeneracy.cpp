@@ -22,9 +22,10 @@ using Square6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kClearlyConstrained = 0.05;
 // Planes that may be wrong at once: in a simulated tunnel one or two of some 600 were.
 constexpr std::size_t kDistrustedPlanes = 3;
-// Without them, this part of the signal-to-noise ratio has to be left: spurious planes leave at
-// most a quarter, a floor that only near points see half and more.
-constexpr double kSupportedPart = 0.3;
+// Without them, this part of the signal-to-noise ratio has to be left. Of realistic sensors in
+// tunnels and stairwells spurious planes leave up to a half, a floor that only near points see
+// more.
+constexpr double kSupportedPart = 0.6;
 
 /** Lever arm that makes rotations and translations equally strong on the whole [m]. */
 double leverArmOf(const Matrix6& information)
@@ -134,8 +135,10 @@ Matrix6 normalNoiseInformation(
         weigh(m, filled, model, s);
         collect(lanes, m, s, matches, rows);
         for (std::size_t l = 0; l < kLanes; ++l)
-          s[l] *=
-              s[l] > 0.0 ? 0.5 * static_cast<double>(matches[lanes.index[l]].normal_variance) : 0;
+        {
+          const double of_points = static_cast<double>(matches[lanes.index[l]].normal_variance);
+          s[l] *= s[l] > 0.0 ? 0.5 * (of_points + kNormalVariance) : 0.0;
+        }
         shh_lanes.add(s, m.h);
         double p[4][kLanes];
         homogeneous(s, lanes.p, p);
@@ -162,6 +165,11 @@ bool mayBeDegenerate(const Matrix6& information)
   return values[0] < kClearlyConstrained * values[5];
 }
 
+bool isWeak(const ScanConstraints& constraints, int direction)
+{
+  return constraints.information[direction] < kClearlyConstrained * constraints.information[5];
+}
+
 ScanConstraints informationByDirection(const Matrix6& information, const Matrix6& noise_information)
 {
   ScanConstraints c;
@@ -182,7 +190,7 @@ void withoutStrongestPlanes(const RowsByPlane& rows, ScanConstraints& constraint
 {
   for (int i = 0; i < 6; ++i)
   {
-    if (constraints.information[i] >= kClearlyConstrained * constraints.information[5]) return;
+    if (!isWeak(constraints, i)) return;
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
     constraints.supported_information[i] -= rows.strongest(direction);

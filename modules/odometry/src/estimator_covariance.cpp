@@ -31,7 +31,7 @@ LinearizedUpdate linearized(
   LinearizedUpdate update;
   update.T_world_scan = scanPose(posterior, compensation);
   update.by_state = scanPoseJacobian(posterior, compensation);
-  update.constrained = match.constraints.projection;
+  update.constraints = match.constraints;
   update.gain = match.update.gain;
   return update;
 }

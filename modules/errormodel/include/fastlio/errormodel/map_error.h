@@ -22,7 +22,8 @@
  *
  * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, M = sum
  * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were created,
- * averaged with their weights. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
+ * averaged with their weights; along a direction that few planes show, not less than with the
+ * weights of these. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
  * creating poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
  * eta), E = cov(e) follows without any approximation. The part D of it that the filter has counted
  * as noise of the points is taken off. See docs/covariance.md. */
@@ -30,6 +31,7 @@
 
 #include <fastlio/filter/propagation.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/interface/scan_constraints.h>
 #include <fastlio/matching/plane_groups.h>
 
 #include <cstdint>
@@ -55,8 +57,8 @@ struct LinearizedUpdate
 {
   Pose T_world_scan;                               //!< scan pose of the posterior
   ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B there
-  Matrix6 constrained = Matrix6::Identity();  //!< projection of the scan pose on what was updated
-  ScanGain gain = ScanGain::Zero();           //!< G of the filter's gain
+  ScanConstraints constraints;                     //!< which directions were updated
+  ScanGain gain = ScanGain::Zero();                //!< G of the filter's gain
 };
 
 /** Covariance of a scan pose from which planes were created, as Matrix6 of scanPoseCovariance(). */
@@ -108,7 +110,9 @@ class MapErrorModel
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
   void thinOut();
-  [[nodiscard]] TwistCovariance insertionCovariance(const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] TwistCovariance insertionCovariance(
+      const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] TwistCovariance meanOfInsertions() const;
 
   StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
   StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors

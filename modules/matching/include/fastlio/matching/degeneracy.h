@@ -39,10 +39,15 @@ class RowsByPlane
   std::vector<std::uint64_t> order_;  // plane and point of each consistent match
 };
 
+/** What a plane's own points do not show about its normal: walls bend, lasers have offsets, and the
+ * map turned a little between two of its planes. Half a degree about each of two axes [rad^2]. */
+inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
+
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
- * of w_j cov(h_j), the rows' covariance for the normals' variance. A wall of a tunnel that is known
- * to a degree seems to constrain the position along the tunnel. Of the points [first, last); the
- * parts of a scan add up. \param rows receives the consistent matches of these points */
+ * of w_j cov(h_j), the rows' covariance for the normals' variance and kNormalVariance. A wall of a
+ * tunnel that is known to a degree seems to constrain the position along the tunnel. Of the points
+ * [first, last); the parts of a scan add up.
+ * \param rows receives the consistent matches of these points */
 [[nodiscard]] Matrix6 normalNoiseInformation(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model, std::size_t first, std::size_t last, RowsByPlane& rows);
@@ -59,13 +64,16 @@ class RowsByPlane
 void withoutStrongestPlanes(const RowsByPlane& rows, ScanConstraints& constraints);
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
- * that of the noise, or where its supported information is not more than three tenths of that; and
+ * that of the noise, or where its supported information is not more than six tenths of that; and
  * so are all weaker ones. */
 void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
 
 /** True when some direction has so much less information than the best one that it is worth the
  * while to look for noise in it. */
 [[nodiscard]] bool mayBeDegenerate(const Matrix6& information);
+
+/** The direction has so much less information than the best one that few planes may show it. */
+[[nodiscard]] bool isWeak(const ScanConstraints& constraints, int direction);
 
 /** The unconstrained directions as plain motions, each by its larger part. */
 [[nodiscard]] std::vector<MotionDirection> unconstrainedMotions(const ScanConstraints& constraints);
