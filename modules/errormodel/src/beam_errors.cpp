@@ -16,6 +16,8 @@ constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
 constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
 // The variance of an offset over that of independent residuals: they share the errors of the map.
 constexpr double kSharedNoise = 4.0;
+// What all scans of a run tell of a single number, a fourth of them tell as well.
+constexpr std::size_t kScansPerIncidence = 4;
 }  // namespace
 
 void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
@@ -32,6 +34,7 @@ void BeamErrors::add(
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_scan.setZero();
+  const bool learns_incidence = scans_++ % kScansPerIncidence == 0;
   // All in the axes of the body.
   const Mat3 R_scan_world = R_world_scan.transpose();
   const Vec3 origin = scan.T_imu_lidar.p, up = scan.T_imu_lidar.R.col(2);
@@ -56,12 +59,12 @@ void BeamErrors::add(
     range_[bin].add(point, along);
     elevation_[bin].add(point, range * upward);
     cross_[bin] += point.weight * along * range * upward;
-    incidence_.add(matches[i].plane, along, point);
+    if (learns_incidence) incidence_.add(matches[i].plane, along, point);
     const double upright = point.weight * (1.0 - turned_up * turned_up);
     upright_weight_ += upright;
     upright_range_ += upright * range;
   }
-  incidence_.finishScan(information);
+  if (learns_incidence) incidence_.finishScan(information);
 }
 
 double BeamErrors::meanSquare(const Offsets& offsets, double least_information)

@@ -59,6 +59,7 @@ class BeamErrors
   Offsets range_, elevation_;
   std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
   IncidenceBias incidence_;
+  std::size_t scans_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 
