@@ -79,6 +79,30 @@ Combination element(int index)
   return c;
 }
 
+/** Which motion, or which place, would tell the position of the LiDAR along an axis. */
+std::string positionAdvice(const RigEstimate& estimate, int axis)
+{
+  const int i = kExtrinsicError + 3 + axis;
+  const double hidden = estimate.hidden_by_elevations[axis];
+  const double seen = std::sqrt(std::max(0.0, estimate.covariance(i, i) - hidden * hidden));
+  if (seen < kDetermined * estimate.prior_std[i])
+    return "calibrate in a room: far walls do not tell it from elevations that are all off";
+  return ofAxis(
+      "turn about an axis across the IMU's %s axis, back and forth for ten seconds", axis);
+}
+
+CalibrationRow incidenceRow(const RigEstimate& estimate)
+{
+  CalibrationRow row;
+  row.name = "range at 80 deg of incidence";
+  row.unit = "mm";
+  row.found = kMillimetres * estimate.incidence.value;
+  row.std = kMillimetres * estimate.incidence.std;
+  row.prior_std = kMillimetres * estimate.incidence.prior_std;
+  if (!row.determined()) row.advice = "pass walls and ground, so that each is seen at many angles";
+  return row;
+}
+
 CalibrationRow timeRow(const Rig& given, const RigEstimate& estimate)
 {
   CalibrationRow row;
@@ -159,7 +183,7 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
 {
   const RowMaker make(estimate);
   std::vector<CalibrationRow> rows;
-  rows.reserve(4 * kAxes.size() + 1);
+  rows.reserve(4 * kAxes.size() + 2);
   for (int axis = 0; axis < 3; ++axis)
     rows.push_back(make.row(
         ofAxis("LiDAR against gyro, turn about %s", axis), "deg", 1.0 / kRadPerDeg, 0.0,
@@ -169,9 +193,7 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
   for (int axis = 0; axis < 3; ++axis)
     rows.push_back(make.row(
         ofAxis("LiDAR in the IMU frame, %s", axis), "mm", kMillimetres, given.T_imu_lidar.p[axis],
-        element(kExtrinsicError + 3 + axis), -1.0,
-        ofAxis(
-            "turn about an axis across the IMU's %s axis, back and forth for ten seconds", axis)));
+        element(kExtrinsicError + 3 + axis), -1.0, positionAdvice(estimate, axis)));
   for (int axis = 0; axis < 3; ++axis)
     rows.push_back(make.row(
         ofAxis("gyro scale %s", axis), "%", kPercent, given.gyro_matrix(axis, axis) - 1.0,
@@ -183,6 +205,7 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
         element(kAccelMatrixError + 4 * axis), 1.0,
         ofAxis("hold the IMU's %s axis up for some seconds, then down", axis)));
   rows.push_back(timeRow(given, estimate));
+  rows.push_back(incidenceRow(estimate));
   addNoiseRows(estimate, rows);
   return rows;
 }

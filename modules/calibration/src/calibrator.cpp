@@ -123,7 +123,7 @@ RigEstimate Calibrator::calibrate(
           ": fastlio-replay reports the reason");
     return pass;
   };
-  const PassFindings pass = runAll(given_, 1);
+  PassFindings pass = runAll(given_, 1);
   const CalibrationUnknowns unknowns(config_.odometry.calibration, pass);
   AndersonIteration iteration(kRememberedSteps);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(unknowns.size());
@@ -131,11 +131,16 @@ RigEstimate Calibrator::calibrate(
   x = iteration.next(x, step.step, step.covariance);
   for (int number = 2; number <= passes_; ++number)
   {
-    step = unknowns.step(runAll(unknowns.rigAt(given_, x), number), x);
+    pass = runAll(unknowns.rigAt(given_, x), number);
+    step = unknowns.step(pass, x);
     x = iteration.next(x, step.step, step.covariance);
   }
   step.covariance = iteration.covariance(step.covariance);
+  const CommonElevation common = unknowns.commonElevation(pass, step, given_.T_imu_lidar.R.col(2));
+  const Eigen::VectorXd hidden = shareOut(common, unknowns.prior(x).std, x, step.covariance);
   RigEstimate estimate = estimateAt(unknowns, x, step);
+  estimate.hidden_by_elevations = hidden.segment<3>(kExtrinsicError + 3).cwiseAbs();
+  estimate.incidence = unknowns.incidenceBias(pass, step);
   estimate.problems = pass.problems;
   return estimate;
 }

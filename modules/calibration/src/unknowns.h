@@ -5,7 +5,8 @@
  * matrices, the clocks' offset, range and elevation of the beams of each elevation. */
 #pragma once
 
-#include <fastlio/calibration/calibration_run.h>
+#include "common_elevation.h"
+#include <fastlio/calibration/calibrator.h>
 #include <fastlio/calibration/rig.h>
 
 #include <map>
@@ -19,6 +20,8 @@ struct PassFindings
   CalibrationSums sums;
   std::map<double, BeamSums> beams;  //!< by elevation
   double time_information = 0.0, time_weighted = 0.0;
+  BiasSums incidence;
+  double upright_weight = 0.0, upright_range = 0.0;  //!< as in CalibrationFindings
   RunAgreement agreement;
   std::size_t tracked = 0;
   std::vector<std::string> problems;
@@ -51,6 +54,12 @@ class CalibrationUnknowns
   /** How far the elevations may be stretched without anybody noticing: as a fraction, a standard
    * deviation. A gyro whose scale is as wrong about the horizontal axes of the LiDAR fits them. */
   [[nodiscard]] double stretchStd(const CalibrationStep& step) const;
+  /** By which angle all elevations may be off. \param up the axis of the LiDAR, in the IMU frame */
+  [[nodiscard]] CommonElevation commonElevation(
+      const PassFindings& pass, const CalibrationStep& step, const Vec3& up) const;
+  /** The bias of the range at 80 deg of incidence [m]. Runs do not take it off. */
+  [[nodiscard]] MeasuredBias incidenceBias(
+      const PassFindings& pass, const CalibrationStep& step) const;
   /** The elements that are the offsets of the beams of an elevation. */
   [[nodiscard]] Eigen::Index beamIndex(std::size_t beam) const;
   [[nodiscard]] const std::vector<double>& elevations() const { return elevations_; }

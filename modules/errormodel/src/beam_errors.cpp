@@ -16,6 +16,8 @@ constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
 constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
 // The variance of an offset over that of independent residuals: they share the errors of the map.
 constexpr double kSharedNoise = 4.0;
+// What all scans of a run tell of a single number, a fourth of them tell as well.
+constexpr std::size_t kScansPerIncidence = 4;
 }  // namespace
 
 void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
@@ -26,11 +28,13 @@ void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
 }
 
 void BeamErrors::add(
-    const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points)
+    const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points,
+    const std::vector<PlaneMatch>& matches, const Matrix6& information)
 {
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_scan.setZero();
+  const bool learns_incidence = scans_++ % kScansPerIncidence == 0;
   // All in the axes of the body.
   const Mat3 R_scan_world = R_world_scan.transpose();
   const Vec3 origin = scan.T_imu_lidar.p, up = scan.T_imu_lidar.R.col(2);
@@ -49,12 +53,18 @@ void BeamErrors::add(
     if (!(cosine > kLeastCosine)) continue;
     const Vec3 normal = R_scan_world * point.weighted_h.tail<3>() / point.weight;
     const double along = normal.dot(beam) / range;
-    const double upward = (normal.dot(up) - sine * along) / cosine;  // across the beam
+    const double turned_up = normal.dot(up);
+    const double upward = (turned_up - sine * along) / cosine;  // across the beam
     const std::size_t bin = beamBin(sine);
     range_[bin].add(point, along);
     elevation_[bin].add(point, range * upward);
     cross_[bin] += point.weight * along * range * upward;
+    if (learns_incidence) incidence_.add(matches[i].plane, along, point);
+    const double upright = point.weight * (1.0 - turned_up * turned_up);
+    upright_weight_ += upright;
+    upright_range_ += upright * range;
   }
+  if (learns_incidence) incidence_.finishScan(information);
 }
 
 double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
@@ -90,14 +100,13 @@ double BeamErrors::elevationOffset() const
   return std::sqrt(elevationVariance());
 }
 
-std::vector<BeamSums> BeamErrors::sums() const
+void BeamErrors::addTo(CalibrationFindings& findings) const
 {
-  std::vector<BeamSums> all;
   for (std::size_t bin = 0; bin < kBeamBins; ++bin)
   {
     const Offset &range = range_[bin], &elevation = elevation_[bin];
     if (!(range.information > 0.0)) continue;
-    BeamSums& sums = all.emplace_back();
+    BeamSums& sums = findings.beams.emplace_back();
     sums.elevation = beamElevation(bin);
     sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
     sums.weighted << range.weighted, elevation.weighted;
@@ -105,7 +114,11 @@ std::vector<BeamSums> BeamErrors::sums() const
     sums.information /= kSharedNoise;
     sums.weighted /= kSharedNoise;
   }
-  return all;
+  findings.incidence = incidence_.sums();
+  findings.incidence.information /= kSharedNoise;
+  findings.incidence.weighted /= kSharedNoise;
+  findings.upright_weight = upright_weight_;
+  findings.upright_range = upright_range_;
 }
 
 Matrix6 BeamErrors::covariance() const

@@ -56,7 +56,9 @@ class RandomRoom
       scan.surfaces.y[k] = static_cast<float>(kRadius * beam.y());
       scan.surfaces.z[k] = static_cast<float>(kRadius * beam.z());
     }
-    beams.add(Mat3::Identity(), scan, points);
+    beams.add(
+        Mat3::Identity(), scan, points, std::vector<PlaneMatch>(points.size()),
+        Matrix6::Identity());
   }
 
  private:

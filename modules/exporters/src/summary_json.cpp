@@ -89,6 +89,7 @@ Json pointsJson(const PointTotals& points)
       {"dropped_invalid", points.invalid},
       {"dropped_near", points.near},
       {"dropped_far", points.far},
+      {"dropped_own_body", points.own_body},
       {"after_downsampling", points.downsampled},
       {"effective", points.effective}};
 }

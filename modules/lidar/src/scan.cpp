@@ -27,6 +27,26 @@ void PointColumns::reserve(std::size_t n)
   ring.reserve(n);
 }
 
+void PointColumns::resize(std::size_t n)
+{
+  x.resize(n);
+  y.resize(n);
+  z.resize(n);
+  intensity.resize(n);
+  time_offset_ns.resize(n);
+  ring.resize(n);
+}
+
+void PointColumns::copy(std::size_t from, std::size_t to)
+{
+  x[to] = x[from];
+  y[to] = y[from];
+  z[to] = z[from];
+  intensity[to] = intensity[from];
+  time_offset_ns[to] = time_offset_ns[from];
+  ring[to] = ring[from];
+}
+
 void PointColumns::push_back(
     float px, float py, float pz, float point_intensity, std::int32_t offset_ns,
     std::uint16_t point_ring)

@@ -83,7 +83,8 @@ UpdateByCalibration LocalMap::considerUpdate(
 {
   const GroupedMeasurements& measurements =
       groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model);
-  beams.add(update.T_world_scan.R, scan, groups_.points());
+  beams.add(
+      update.T_world_scan.R, scan, groups_.points(), *match.matches, measurements.information);
   error_.update(update, measurements, beams.covariance());
   return calibration_.update(update, measurements);
 }

@@ -92,10 +92,7 @@ class Estimator
    * the pose is not trusted, and when the latest scan is newer. */
   [[nodiscard]] std::optional<ImuRateState> stateAtNewestSample(const ImuBuffer& imu);
 
-  [[nodiscard]] CalibrationFindings calibrationFindings() const
-  {
-    return {calibration_.sums(), beams_.sums()};
-  }
+  [[nodiscard]] CalibrationFindings calibrationFindings() const;
 
   /** The estimated time offset, to be added to the stamps of scans [ns]. */
   [[nodiscard]] std::int64_t timeShift() const;

@@ -103,8 +103,17 @@ void Estimator::correctExtrinsic(ScanResult& result)
   state_.filter.x = boxplus(state_.filter.x, map_.calibrationError().withoutExtrinsicError(*error));
   calibration_.takeOff(*error);
   map_ = map_.successor(options_, workers_);
+  beams_.forgetMap();
   agreement_.restart();
   report(result);
+}
+
+CalibrationFindings Estimator::calibrationFindings() const
+{
+  CalibrationFindings findings;
+  findings.sums = calibration_.sums();
+  beams_.addTo(findings);
+  return findings;
 }
 
 StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const

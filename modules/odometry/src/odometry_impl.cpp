@@ -177,13 +177,31 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   estimator_.applyCalibration(queued.scan, queued.span);
   if (!usable(queued.span)) return std::nullopt;
   beam_corrections_.apply(queued.scan.points);
+  own_body_.look(queued.scan.points);
+  const std::size_t masked = own_body_.mask(queued.scan.points);
   ScanResult result = estimator_.process(queued.scan, queued.span, imu_);
+  result.statistics.points_in += masked;
+  result.statistics.dropped_own_body = masked;
+  judgeOwnBody(result, queued.scan.T_imu_lidar);
   imu_.forgetBefore(queued.span.end_ns);
   const auto loss =
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
   if (loss) reinitialise(*loss, result.stamp_ns);
   diagnostics_.consider(result);
   return result;
+}
+
+void Odometry::Impl::judgeOwnBody(const ScanResult& result, const Pose& T_imu_lidar)
+{
+  own_body_.judge(result.filter.x.pose() * T_imu_lidar, result.status == ScanStatus::Tracking);
+  const auto place = own_body_.takeReport();
+  if (!place) return;
+  diagnostics_.report(
+      result.stamp_ns,
+      mrpt::format(
+          "the LiDAR sees what carries it: returns %.1f to %.1f m away move with it, around the "
+          "azimuth %.0f deg in its frame; they are left out from here on",
+          place->nearest, place->farthest, kDegPerRad * place->azimuth));
 }
 
 std::optional<ScanResult> Odometry::Impl::next(bool at_end)

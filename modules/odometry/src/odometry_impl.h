@@ -13,6 +13,7 @@
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/lidar/beam_corrections.h>
+#include <fastlio/lidar/own_body.h>
 #include <fastlio/lidar/range_unit.h>
 #include <fastlio/odometry/odometry.h>
 
@@ -52,6 +53,7 @@ class Odometry::Impl
   [[nodiscard]] std::optional<ScanResult> giveUpOldest(bool at_end);
   [[nodiscard]] std::optional<ScanResult> passBreaks();
   [[nodiscard]] std::optional<ScanResult> processOldest();
+  void judgeOwnBody(const ScanResult& result, const Pose& T_imu_lidar);
   void start(const StartDecision& decision);
   void reinitialise(const std::string& why, std::int64_t stamp_ns);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
@@ -64,6 +66,7 @@ class Odometry::Impl
   ImuBuffer imu_;
   RangeUnit range_unit_;
   BeamCorrections beam_corrections_;
+  OwnBody own_body_;
   ScanIntake intake_;
   StartFinder start_finder_;
   Reinitialization reinitialization_;

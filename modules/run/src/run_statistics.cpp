@@ -29,6 +29,7 @@ PointTotals plus(PointTotals sum, const ScanStatistics& scan)
   sum.invalid += scan.dropped_invalid;
   sum.near += scan.dropped_near;
   sum.far += scan.dropped_far;
+  sum.own_body += scan.dropped_own_body;
   sum.downsampled += scan.points_downsampled;
   sum.effective += scan.points_effective;
   return sum;

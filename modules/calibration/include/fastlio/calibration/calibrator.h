@@ -24,6 +24,13 @@ struct BeamStd
   double elevation = 0.0;  //!< [rad]
 };
 
+/** A systematic error that runs do not correct [m]. */
+struct MeasuredBias
+{
+  double value = 0.0, std = 0.0;
+  double prior_std = 0.0;  //!< before
+};
+
 /** A calibration, and how well it is known. */
 struct RigEstimate
 {
@@ -33,6 +40,10 @@ struct RigEstimate
   CalibrationErrorVector prior_std = CalibrationErrorVector::Zero();   //!< of theta, before
   double time_offset_std = 0.0;                                        //!< [s]
   std::vector<BeamStd> beam_stds;                                      //!< of rig.beams
+  /** The part of the standard deviation of the LiDAR's position that beams cause whose elevations
+   * are all off by the same angle [m]. */
+  Vec3 hidden_by_elevations = Vec3::Zero();
+  MeasuredBias incidence;  //!< of the range at 80 deg of incidence, measured less true
   /** How many times the squares of the innovations exceed their covariance; 1: as they should. */
   double innovation_scale = 1.0;
   int passes = 0;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/errormodel/calibration_sums.h>
+#include <fastlio/errormodel/incidence_bias.h>
 #include <fastlio/lidar/beam_corrections.h>
 #include <fastlio/matching/match_result.h>
 #include <fastlio/matching/plane_groups.h>
@@ -23,18 +24,22 @@ class BeamErrors
 {
  public:
   /** A scan was matched. \param R_world_scan attitude of the scan pose
-   * \param points its measurements, as those of \a scan.surfaces */
+   * \param points its measurements, as those of \a scan.surfaces
+   * \param matches their planes \param information sum of w h h^T over the points */
   void add(
       const Mat3& R_world_scan, const DeskewedScan& scan,
-      const std::vector<PointMeasurement>& points);
+      const std::vector<PointMeasurement>& points, const std::vector<PlaneMatch>& matches,
+      const Matrix6& information);
+  /** There is no map any more. */
+  void forgetMap() { incidence_.forgetMap(); }
 
   /** Covariance of sum w h b over the last scan, b by offsets of range and elevation. */
   [[nodiscard]] Matrix6 covariance() const;
   /** Root mean square of the offsets; 0 while none is known. */
   [[nodiscard]] double rangeOffset() const;      //!< [m]
   [[nodiscard]] double elevationOffset() const;  //!< [rad]
-  /** Of all elevations that were seen, ascending. */
-  [[nodiscard]] std::vector<BeamSums> sums() const;
+  /** Adds what the beams tell about their calibration. */
+  void addTo(CalibrationFindings& findings) const;
 
  private:
   /** An offset of the beams of one elevation. */
@@ -53,6 +58,9 @@ class BeamErrors
 
   Offsets range_, elevation_;
   std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
+  IncidenceBias incidence_;
+  std::size_t scans_ = 0;
+  double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 
 }  // namespace fastlio

@@ -72,11 +72,22 @@ struct BeamSums
       Eigen::Matrix<double, 2, 1, Eigen::DontAlign>::Zero();
 };
 
+/** Normal equation of a single unknown. */
+struct BiasSums
+{
+  double information = 0.0, weighted = 0.0;
+};
+
 /** All evidence of a run about the calibration it used. */
 struct CalibrationFindings
 {
   CalibrationSums sums;
   std::vector<BeamSums> beams;  //!< ascending by elevation, those that were seen
+  /** Of the bias of the range at 80 deg of incidence, measured less true [m]. */
+  BiasSums incidence;
+  /** Sums over upright surfaces, weighted by how far they determine the horizontal position
+   * [1/m^2], and the same times their range [1/m]. */
+  double upright_weight = 0.0, upright_range = 0.0;
 };
 
 }  // namespace fastlio

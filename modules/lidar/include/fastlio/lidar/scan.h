@@ -23,6 +23,9 @@ struct PointColumns
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void clear();
   void reserve(std::size_t n);
+  void resize(std::size_t n);
+  /** Copies a point over another one. */
+  void copy(std::size_t from, std::size_t to);
   void push_back(
       float px, float py, float pz, float point_intensity, std::int32_t offset_ns,
       std::uint16_t point_ring);

@@ -40,7 +40,7 @@ struct ScanTimeSummary
 /** Sums of the per-scan point counts. */
 struct PointTotals
 {
-  std::size_t in = 0, invalid = 0, near = 0, far = 0, downsampled = 0, effective = 0;
+  std::size_t in = 0, invalid = 0, near = 0, far = 0, own_body = 0, downsampled = 0, effective = 0;
 };
 
 /** Scans that did not constrain all directions of motion. */
