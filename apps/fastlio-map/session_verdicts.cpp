@@ -3,12 +3,31 @@
 
 #include "session_verdicts.h"
 
+#include <algorithm>
+
 namespace fastlio
 {
 bool isInMap(const BuiltMap& map, std::size_t session)
 {
   return session < map.result.anchors.size() && map.result.anchors[session].found;
 }
+
+namespace
+{
+/** Whether a closure joins a session to another one. */
+bool isTied(const MappingResult& result, std::size_t session)
+{
+  return std::any_of(
+      result.closures.begin(), result.closures.end(),
+      [&](const Closure& closure)
+      {
+        const std::size_t a = result.submaps.at(closure.a).session,
+                          b = result.submaps.at(closure.b).session;
+        return closure.verdict == ClosureVerdict::Accepted && a != b &&
+               (a == session || b == session);
+      });
+}
+}  // namespace
 
 ExitStatus statusOf(const BuiltMap& map, const std::vector<std::string>& output_problems)
 {
@@ -62,6 +81,12 @@ std::vector<std::string> notesOf(const std::vector<Session>& sessions, const Bui
           "have to show places that the map has; a longer recording, or one that passes more of "
           "the "
           "same places, may be found");
+  for (std::size_t i = 1; i < map.sessions.size(); ++i)
+    if (isInMap(map, i) && !isTied(map.result, i))
+      notes.push_back(
+          map.sessions[i].name +
+          ": no closure ties it to the sessions before; it lies where its submaps were recognised, "
+          "which is known to about 1 m only");
   if (map.wheels.readings > 0) notes.push_back(wheelSentence(map.wheels));
   if (const std::size_t fixes = map.gnss.fixes; fixes > 0) notes.push_back(gnssSentence(map.gnss));
   return notes;

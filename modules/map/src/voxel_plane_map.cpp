@@ -32,6 +32,21 @@ const VoxelPlaneOptions& validated(const VoxelPlaneOptions& options)
   return options;
 }
 
+/** The plane of a voxel with its normal on the side that it was seen from. */
+VoxelPlane facingSensor(const PlaneVoxel& voxel)
+{
+  const PlaneVoxel::Contents c = voxel.contents();
+  VoxelPlane plane = c.plane;
+  const float along = plane.nx * c.beams[0] + plane.ny * c.beams[1] + plane.nz * c.beams[2];
+  if (along > 0.0F)
+  {
+    plane.nx = -plane.nx;
+    plane.ny = -plane.ny;
+    plane.nz = -plane.nz;
+  }
+  return plane;
+}
+
 /** rms distance of a voxel's points from their mean along the plane's normal [m]. */
 float spreadAcross(const PlaneVoxel& voxel)
 {
@@ -150,7 +165,7 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) c
         {
           const VoxelPlane& plane = storage.voxel(voxel).plane();
           if (!plane.valid()) continue;
-          planes.push_back(plane);
+          planes.push_back(facingSensor(storage.voxel(voxel)));
           measured.push_back(spreadAcross(storage.voxel(voxel)));
           numbers.push_back(VoxelShards::numberOf(voxel, shard));
           centroids.x.push_back(plane.qx);

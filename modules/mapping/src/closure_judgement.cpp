@@ -66,12 +66,21 @@ std::optional<Shortcoming> shortcomingOf(
         mrpt::format(
             "another place, %.1f m away, is nearly as likely (margin %.1f, at least %.1f)",
             found.rival.norm(), found.margin, limits.min_margin)};
-  const double std = largestPositionStd(registration.motion.covariance);
+  const double std = positionStd(registration.motion.covariance, 2 - limits.open_directions);
   if (std > limits.max_position_std)
     return Shortcoming{
         ClosureVerdict::Uninformative,
         mrpt::format("the surfaces leave a direction open: %.2f m", std)};
   return std::nullopt;
+}
+
+ClosureLimits Mapper::limitsFor(const RelativePose& predicted) const
+{
+  ClosureLimits limits = limits_;
+  if (largestPositionStd(predicted.covariance) > limits.known_place_std) return limits;
+  limits.min_overlap = limits.min_upright = limits.known_place_overlap;
+  limits.open_directions = 1;
+  return limits;
 }
 
 void Mapper::judge(Closure& closure) const
@@ -81,10 +90,14 @@ void Mapper::judge(Closure& closure) const
     closure.verdict = verdict;
     closure.reason = std::move(reason);
   };
-  if (auto shortcoming = shortcomingOf(closure.registration, limits_))
+  const ClosureLimits limits = limitsFor(closure.predicted);
+  if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(shortcoming->verdict, std::move(shortcoming->reason));
   const RegistrationEvidence& found = closure.registration.evidence;
   GraphEdge edge{0, 1, closure.registration.motion, true};
+  // Along an open direction the odometry decides alone.
+  const bool is_open = largestPositionStd(edge.measured.covariance) > limits.max_position_std;
+  if (is_open) edge.measured.covariance.setZero();
   edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
   const double squared = squaredError(edge, Pose{}, closure.predicted.T_a_b);
   const double moved = (closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
@@ -95,9 +108,10 @@ void Mapper::judge(Closure& closure) const
             "%.2f m from where the odometry has it: %.1f of its standard deviations", moved,
             std::sqrt(squared)));
   decide(
-      ClosureVerdict::Accepted, mrpt::format(
-                                    "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m",
-                                    moved, 100.0 * found.score, found.residual_rms));
+      ClosureVerdict::Accepted,
+      mrpt::format(
+          "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s", moved, 100.0 * found.score,
+          found.residual_rms, is_open ? "; one direction stays open" : ""));
 }
 
 }  // namespace fastlio

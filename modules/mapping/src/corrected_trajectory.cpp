@@ -23,7 +23,7 @@ Matrix6 extrinsicCovariance(const Pose& first, const Pose& T_world_imu, const Ma
 }
 
 CorrectedTrajectory::CorrectedTrajectory(const MappingResult& result, std::size_t session)
-    : changes_(result.corrected)
+    : changes_(result.moves(session))
 {
   if (!result.estimate.nodes.empty()) first_ = result.estimate.nodes.front();
   if (session < result.extrinsic_moments.size())

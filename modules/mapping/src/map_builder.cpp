@@ -76,7 +76,7 @@ BuiltMap buildMap(
     }
     built.interrupted = built.sessions.back().pass.stopped;
   }
-  built.result = mapper.finish();
+  built.result = std::move(mapper).result();
   built.wheels = wheels.applyTo(built.result);
   built.gnss = gnss.applyTo(built.result);
   return built;

@@ -136,7 +136,7 @@ std::string apartFigure(const MapAccount& account)
   PlotSeries before{"before", kBefore, {}}, after{"after", kAfter, {}};
   for (const ClosureAgreement& one : account.agreements)
   {
-    before.points.push_back({static_cast<double>(one.closure), one.before});
+    if (one.before) before.points.push_back({static_cast<double>(one.closure), *one.before});
     after.points.push_back({static_cast<double>(one.closure), one.after});
   }
   panel.series = {before, after};
@@ -191,12 +191,13 @@ std::string wallsFigure(const MappingResult& r, const Closure& closure, bool cor
 std::string wallFigures(const MapAccount& account)
 {
   if (account.agreements.empty()) return {};
+  // An empty value is the least.
   const auto worst = std::max_element(
       account.agreements.begin(), account.agreements.end(),
       [](const ClosureAgreement& a, const ClosureAgreement& b) { return a.before < b.before; });
   const MappingResult& r = account.map.result;
   const Closure& closure = r.closures.at(worst->closure);
-  return wallsFigure(r, closure, false) + wallsFigure(r, closure, true);
+  return (worst->before ? wallsFigure(r, closure, false) : "") + wallsFigure(r, closure, true);
 }
 
 std::string row(const std::vector<std::string>& cells)
@@ -255,9 +256,12 @@ std::vector<ClosureAgreement> agreements(const MappingResult& r)
     const SubmapRegistration target(r.submaps.at(closure.a).planes);
     const auto apart = [&](const Pose& a, const Pose& b)
     { return target.medianDistance(r.submaps.at(closure.b).planes, a.inverse() * b); };
-    all.push_back(
-        {i, apart(odometryPose(r, closure.a), odometryPose(r, closure.b)),
-         apart(r.estimate.nodes.at(closure.a), r.estimate.nodes.at(closure.b))});
+    ClosureAgreement agreement;
+    agreement.closure = i;
+    agreement.after = apart(r.estimate.nodes.at(closure.a), r.estimate.nodes.at(closure.b));
+    if (r.submaps.at(closure.a).session == r.submaps.at(closure.b).session)
+      agreement.before = apart(odometryPose(r, closure.a), odometryPose(r, closure.b));
+    all.push_back(agreement);
   }
   return all;
 }

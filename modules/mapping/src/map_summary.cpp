@@ -20,12 +20,22 @@ MapJson vectorJson(const Vec3& v)
   return {v.x(), v.y(), v.z()};
 }
 
-double medianOf(const std::vector<ClosureAgreement>& all, double ClosureAgreement::*member)
+double medianAfter(const std::vector<ClosureAgreement>& all)
 {
   std::vector<double> values;
   values.reserve(all.size());
   for (const ClosureAgreement& one : all)
-    values.push_back(one.*member);
+    values.push_back(one.after);
+  return median(std::move(values));
+}
+
+/** Nothing where all closures are between sessions. */
+std::optional<double> medianBefore(const std::vector<ClosureAgreement>& all)
+{
+  std::vector<double> values;
+  for (const ClosureAgreement& one : all)
+    if (one.before) values.push_back(*one.before);
+  if (values.empty()) return std::nullopt;
   return median(std::move(values));
 }
 
@@ -202,13 +212,17 @@ MapJson placeJson(const std::optional<Georeference>& place)
       {"control_points", residuals}};
 }
 
+/** From where the odometry has the submaps, in a session that was placed: from its place. */
 double largestMove(const MappingResult& result)
 {
   double largest = 0.0;
   for (std::size_t i = 0; i < result.submaps.size(); ++i)
-    largest = std::max(
-        largest,
-        (result.estimate.nodes.at(i).p - result.submaps[i].reference.T_world_body.p).norm());
+  {
+    const Submap& submap = result.submaps[i];
+    const Vec3 odometry =
+        result.anchors.at(submap.session).T_world_session * submap.reference.T_world_body.p;
+    largest = std::max(largest, (result.estimate.nodes.at(i).p - odometry).norm());
+  }
   return largest;
 }
 }  // namespace
@@ -225,11 +239,11 @@ std::string mapSentence(const MapAccount& account)
     return looked +
            "none was accepted; trajectory and map are those of the odometry. A run that passes no "
            "place twice has none";
+  const std::optional<double> before = medianBefore(account.agreements);
   return looked + std::to_string(result.accepted()) + " accepted. Poses moved by up to " +
          fixedText(largestMove(result), 3) + " m; surfaces that were seen twice are " +
-         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::after), 0) +
-         " mm apart (median), before " +
-         fixedText(1e3 * medianOf(account.agreements, &ClosureAgreement::before), 0) + " mm" +
+         fixedText(1e3 * medianAfter(account.agreements), 0) + " mm apart (median)" +
+         (before ? ", before " + fixedText(1e3 * *before, 0) + " mm" : "") +
          wallsSentence(account.walls);
 }
 
@@ -239,6 +253,7 @@ std::string mapSummaryJson(const MapAccount& account)
   MapJson outputs = MapJson::array();
   for (const OutputFile& file : account.outputs)
     outputs.push_back({{"path", file.path}, {"bytes", file.bytes}});
+  const std::optional<double> before = medianBefore(account.agreements);
   const MapJson json = {
       {"program", "fastlio-map"},
       {"version", account.version},
@@ -254,8 +269,8 @@ std::string mapSummaryJson(const MapAccount& account)
       {"corrected", result.corrected},
       {"closures_accepted", result.accepted()},
       {"largest_correction_m", largestMove(result)},
-      {"surfaces_apart_before_m", medianOf(account.agreements, &ClosureAgreement::before)},
-      {"surfaces_apart_after_m", medianOf(account.agreements, &ClosureAgreement::after)},
+      {"surfaces_apart_before_m", before ? MapJson(*before) : MapJson(nullptr)},
+      {"surfaces_apart_after_m", medianAfter(account.agreements)},
       {"wall_thickness", wallsJson(account.walls)},
       {"gnss", gnssJson(account.map.gnss)},
       {"wheels", wheelsJson(account.map.wheels)},

@@ -3,7 +3,6 @@
 
 #include "mapper_parts.h"
 #include <fastlio/mapping/mapper.h>
-#include <fastlio/math/statistics.h>
 
 #include <mrpt/core/format.h>
 
@@ -16,27 +15,30 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kWidestDoubt = 8.0;   // submaps farther apart are not compared [m]
+constexpr double kWidestReach = 8.0;   // of the search beyond ClosureLimits::distance [m]
 constexpr std::size_t kApart = 3;      // candidates of one pass are so many submaps apart
 constexpr double kTiltFloor = 0.0003;  // [rad]
 // The graph is optimised anew when it has grown by this part.
 constexpr double kGrowth = 0.02;
 constexpr double kAnchorAttitude = 0.02;  // of a session that was found, to begin with [rad]
 constexpr double kAnchorPosition = 0.5;   // [m]
-// Lasers that are off move a scan this way on one surface and that way on another.
-constexpr double kScanAttitude = 2e-4;   // [rad]
+// Lasers that are off move a scan this way on one surface and that way on another; they turn it the
+// more, the nearer the surfaces are.
 constexpr double kScanPosition = 0.002;  // [m]
+constexpr double kNearest = 1.0;         // surfaces that determine the attitude [m]
 // Drift of an odometry before loops and gravity show it: lasers whose elevation is off by 0.1 deg
 // bend a road by some mdeg a metre; lengths are right, as ranges are.
 constexpr double kDriftRotation = 1e-4;     // [rad/m]
 constexpr double kDriftTranslation = 2e-4;  // [m/m]
 constexpr double kUsualBias = 0.02;         // of the accelerometer, over gravity
 
-/** What the filter does not know of the error of a motion between two scans. */
-Matrix6 ofBeams()
+/** What the filter does not know of the error of a motion between two scans.
+ * \param range to the surfaces [m] */
+Matrix6 ofBeams(double range)
 {
   Matrix6 covariance = Matrix6::Zero();
-  covariance.diagonal().head<3>().setConstant(kScanAttitude * kScanAttitude);
+  covariance.diagonal().head<3>().setConstant(
+      std::pow(kScanPosition / std::max(range, kNearest), 2));
   covariance.diagonal().tail<3>().setConstant(kScanPosition * kScanPosition);
   return covariance;
 }
@@ -64,28 +66,7 @@ TiltFactor tiltOf(const Submap& submap, std::size_t node)
   return tilt;
 }
 
-/** How much larger the squared errors of closures are than their covariances say: surfaces that are
- * seen by other beams bend otherwise, and a registration does not know of that. */
-double closureExcess(const PoseGraph& graph, const GraphEstimate& estimate)
-{
-  constexpr double kMedian = 5.348;  // of chi-square, 6 degrees of freedom
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < graph.edges.size(); ++i)
-  {
-    const GraphEdge& edge = graph.edges[i];
-    if (edge.robust && estimate.edge_weights[i] >= 0.5)
-      errors.push_back(squaredError(edge, estimate.nodes[edge.a], estimate.nodes[edge.b]));
-  }
-  return median(std::move(errors)) / kMedian;
-}
 }  // namespace
-
-std::size_t MappingResult::accepted() const
-{
-  return static_cast<std::size_t>(std::count_if(
-      closures.begin(), closures.end(),
-      [](const Closure& c) { return c.verdict == ClosureVerdict::Accepted; }));
-}
 
 void Mapper::add(Submap submap)
 {
@@ -138,7 +119,7 @@ void Mapper::addOdometry()
   if (begins) return beginSession(latest, b);
   const Submap& earlier = result_.submaps[b - 1];
   RelativePose motion = relativePose(earlier.reference, latest.reference);
-  motion.covariance += ofBeams();
+  motion.covariance += ofBeams(std::min(earlier.range, latest.range));
   const double travel = latest.travel - earlier.travel;
   graph.edges.push_back({b - 1, b, motion, false, travel, latest.session});
   chain_.advance(motion, travel);
@@ -181,10 +162,9 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     const bool same_pass =
         earlier.session == latest.session && latest.travel - earlier.travel < limits_.least_travel;
     if (same_pass) continue;
-    const double doubt = std::min(
-        kWidestDoubt,
-        limits_.odometry_doubt * largestPositionStd(covariances_[b] + covariances_[a]));
-    const double reach = limits_.distance + doubt;
+    const double std =
+        limits_.odometry_std_factor * largestPositionStd(covariances_[b] + covariances_[a]);
+    const double reach = limits_.distance + std::min(kWidestReach, std);
     const double squared = (poses_[a].p - poses_[b].p).squaredNorm();
     if (squared < reach * reach) near.emplace_back(squared, a);
   }
@@ -226,13 +206,13 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
  * far as they have a way in common; their sum is an upper bound. */
 RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 {
-  const double doubt2 = limits_.odometry_doubt * limits_.odometry_doubt;
+  const double factor2 = limits_.odometry_std_factor * limits_.odometry_std_factor;
   Matrix6 turn = Matrix6::Identity();
   turn.bottomRightCorner<3, 3>() = poses_[a].R.transpose();
   RelativePose motion;
   motion.T_a_b = poses_[a].inverse() * poses_[b];
   motion.covariance =
-      withFloor(turn * (doubt2 * (covariances_[a] + covariances_[b])) * turn.transpose());
+      withFloor(turn * (factor2 * (covariances_[a] + covariances_[b])) * turn.transpose());
   return motion;
 }
 
@@ -248,49 +228,11 @@ void Mapper::settle()
       estimate.drift_covariances[session]);
 }
 
-Matrix6 extrinsicMoment(const CalibrationCheck& check)
-{
-  Vector6 found, std;
-  found << check.rotation, check.translation;
-  std << check.rotation_std, check.translation_std;
-  const Matrix6 spread = std.cwiseAbs2().asDiagonal();
-  return found * found.transpose() + spread;
-}
-
 void Mapper::setExtrinsicMoment(std::size_t session, const Matrix6& moment)
 {
   auto& moments = result_.extrinsic_moments;
   if (moments.size() <= session) moments.resize(session + 1, Matrix6::Zero());
   moments[session] = moment;
-}
-
-MappingResult Mapper::finish()
-{
-  PoseGraph& graph = result_.graph;
-  result_.estimate = optimize(graph);
-  const double excess = closureExcess(graph, result_.estimate);
-  if (excess > 1.0)
-  {
-    for (GraphEdge& edge : graph.edges)
-      if (edge.robust) edge.measured.covariance *= excess;
-    result_.estimate = optimize(graph);
-  }
-  std::size_t edge = 0;
-  for (Closure& closure : result_.closures)
-  {
-    if (closure.verdict != ClosureVerdict::Accepted) continue;
-    while (!graph.edges[edge].robust)
-      ++edge;
-    if (result_.estimate.edge_weights[edge++] >= 0.5) continue;
-    closure.verdict = ClosureVerdict::Contradicted;
-    closure.reason += "; all other measurements exclude it";
-  }
-  result_.corrected = result_.accepted() > 0;
-  if (result_.corrected)
-    makeLevel(result_);
-  else
-    stayAsOdometry(result_);
-  return std::move(result_);
 }
 
 }  // namespace fastlio

@@ -25,11 +25,16 @@ namespace fastlio
   return result;
 }
 
-/** Along the direction that is known least [m]. */
+/** Along a principal direction: 0 the one that is known best, 2 the one that is known least [m]. */
+[[nodiscard]] inline double positionStd(const Matrix6& covariance, int direction)
+{
+  const auto system = symmetricEigensystem(Mat3(covariance.bottomRightCorner<3, 3>()));
+  return std::sqrt(std::max(0.0, system.values[direction]));
+}
+
 [[nodiscard]] inline double largestPositionStd(const Matrix6& covariance)
 {
-  return std::sqrt(
-      std::max(0.0, symmetricEigensystem(Mat3(covariance.bottomRightCorner<3, 3>())).values.z()));
+  return positionStd(covariance, 2);
 }
 
 /** Why a registration is not taken. */

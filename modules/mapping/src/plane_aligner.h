@@ -112,7 +112,8 @@ class PlaneAligner
   [[nodiscard]] bool empty() const { return cloud_.patches.empty(); }
   [[nodiscard]] const Workers& workers() const { return *workers_; }
 
-  /** The nearest plane with the same direction. */
+  /** The nearest plane with the same normal: the other side of a wall or of a ceiling is another
+   * surface. */
   [[nodiscard]] std::optional<Pair> partnerOf(
       const Patch& source, const Pose& T, double reach) const
   {
@@ -125,7 +126,7 @@ class PlaneAligner
     for (std::size_t i = 0; i < found && distances.at(i) < reach * reach; ++i)
     {
       const Patch& target = cloud_.patches[indices.at(i)];
-      if (std::abs(target.normal.dot(normal)) < kLeastCosine) continue;
+      if (target.normal.dot(normal) < kLeastCosine) continue;
       return pairOf(source, target, at);
     }
     return std::nullopt;

@@ -115,7 +115,8 @@ Registration SubmapRegistration::search(
     return found;
   };
   const std::vector<Pose> starts = startsAround(predicted, up);
-  std::vector<Pose> places;
+  // A wide search that finds little in common may leave a place that is known well.
+  std::vector<Pose> places{predicted.T_a_b};
   for (const Found& found : distinct(follow(starts, coarse, kCoarse), kMostRivals))
     places.push_back(found.pose);
   const std::vector<Found> refined = distinct(follow(places, fine, kFine), kMostRivals);

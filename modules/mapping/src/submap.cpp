@@ -51,9 +51,9 @@ void SubmapBuilder::begin(
   current_.reference = pose;
   current_.travel = travel_;
   surfaces_->clear();
-  const double range = medianRange(registered, pose.T_world_body.p - origin);
-  length_ =
-      rule_.length > 0.0 ? rule_.length : std::clamp(kLengthOverRange * range, kShortest, kLongest);
+  current_.range = medianRange(registered, pose.T_world_body.p - origin);
+  length_ = rule_.length > 0.0 ? rule_.length
+                               : std::clamp(kLengthOverRange * current_.range, kShortest, kLongest);
 }
 
 std::optional<Submap> SubmapBuilder::add(

@@ -133,6 +133,26 @@ TEST(SubmapRegistration, AnotherPlaceDoesNotFit)
   EXPECT_LT(found.evidence.score, 0.6);
 }
 
+/** A wall that is seen from its other side is another surface, 0.3 m away or not. */
+TEST(SubmapRegistration, TheOtherSideOfASurfaceIsAnotherOne)
+{
+  const auto source = yard({}, 2);
+  std::vector<VoxelPlane> from_behind = yard({}, 1);
+  for (VoxelPlane& plane : from_behind)
+  {
+    plane.nx = -plane.nx;
+    plane.ny = -plane.ny;
+    plane.nz = -plane.nz;
+  }
+  const RelativePose predicted = predictedAt({}, 0.05, 0.01);
+  EXPECT_GT(
+      SubmapRegistration(yard({}, 1)).search(source, predicted, Vec3::UnitZ()).evidence.overlap,
+      0.9);
+  EXPECT_LT(
+      SubmapRegistration(from_behind).search(source, predicted, Vec3::UnitZ()).evidence.overlap,
+      0.1);
+}
+
 TEST(SubmapRegistration, OfNothingDoesNotConverge)
 {
   const SubmapRegistration target(yard({}, 1)), nothing({});

@@ -49,7 +49,7 @@ class Ride
   }
 
   /** Once, after all factors were made. */
-  [[nodiscard]] MappingResult finish() { return mapper_.finish(); }
+  [[nodiscard]] MappingResult finish() { return std::move(mapper_).result(); }
 
   /** Of the submaps, when the first one is at its true place; rms [m]. */
   [[nodiscard]] double errorOf(const MappingResult& result) const

@@ -63,10 +63,12 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 by_b = byLatter(a.T_world_body);
   const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
-  const TwistCovariance growth = positivePart(
-      twistCovariance(b.map_covariance, b.T_world_body) -
-      twistCovariance(a.map_covariance, a.T_world_body));
-  const Matrix6 of_b = own_b + poseCovariance(growth, b.T_world_body);
+  const TwistCovariance growth = twistCovariance(b.map_covariance, b.T_world_body) -
+                                 twistCovariance(a.map_covariance, a.T_world_body);
+  // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
+  // what had grown on the way.
+  const TwistCovariance changed = positivePart(growth) + positivePart(-growth);
+  const Matrix6 of_b = own_b + poseCovariance(changed, b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
 }

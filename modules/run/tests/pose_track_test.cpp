@@ -126,6 +126,19 @@ TEST(RelativePose, WhatBothShareDoesNotCount)
   EXPECT_GT(grown.trace(), same.trace() + 1e-3);
 }
 
+/** Back in an older part of the map, the motion corrects what had grown on the way: then it is not
+ * known better than that. */
+TEST(RelativePose, AMapErrorThatShrinksCounts)
+{
+  const Pose A{expSO3({0.3, -0.2, 0.9}), {1.0, -2.0, 0.5}};
+  const Pose B{expSO3({-0.1, 0.4, 1.2}), {2.0, -1.0, 0.7}};
+  const Matrix6 same = relativePose(tracked(A, 1.0, 60.0), tracked(B, 1.0, 60.0)).covariance;
+  const Matrix6 grown = relativePose(tracked(A, 1.0, 10.0), tracked(B, 1.0, 60.0)).covariance;
+  const Matrix6 shrunk = relativePose(tracked(A, 1.0, 60.0), tracked(B, 1.0, 10.0)).covariance;
+  EXPECT_GT(grown.trace(), 2.0 * same.trace());
+  EXPECT_NEAR(shrunk.trace(), grown.trace(), 0.2 * grown.trace());
+}
+
 TEST(MrptPoses, CovarianceIsThatOfTheAngles)
 {
   const Pose pose{expSO3({0.5, -0.7, 1.9}), {1.0, 2.0, 3.0}};

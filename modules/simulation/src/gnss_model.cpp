@@ -92,9 +92,9 @@ bool isInOutage(const SimulationSettings& s, double t)
 }
 }  // namespace
 
-std::vector<GnssFix> simulateGnss(const Motion& motion, const SimulationSettings& settings)
+std::vector<SimulatedFix> simulateGnss(const Motion& motion, const SimulationSettings& settings)
 {
-  std::vector<GnssFix> fixes;
+  std::vector<SimulatedFix> fixes;
   if (settings.gnss.rate <= 0.0) return fixes;
   FixNoise noise(settings);
   Multipath multipath(settings);
@@ -104,7 +104,7 @@ std::vector<GnssFix> simulateGnss(const Motion& motion, const SimulationSettings
     if (t > settings.duration) return fixes;
     // All numbers are drawn for every fix, so that an outage does not change the others.
     const Vec3 reflected = multipath.at(t);
-    GnssFix fix;
+    SimulatedFix fix;
     fix.stamp_ns = settings.start_ns + toNanoseconds(t);
     fix.known = !isInOutage(settings, t);
     fix.multipath = reflected != Vec3::Zero();

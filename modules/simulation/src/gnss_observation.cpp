@@ -58,7 +58,7 @@ std::uint8_t qualityFor(double noise)
   return noise < 0.1 ? kRealTimeKinematic : noise < 0.6 ? kDifferential : kStandard;
 }
 
-Message_NMEA_GGA messageOf(const GnssFix& fix, const GnssSettings& settings)
+Message_NMEA_GGA messageOf(const SimulatedFix& fix, const GnssSettings& settings)
 {
   Message_NMEA_GGA message;
   auto& f = message.fields;
@@ -103,7 +103,7 @@ void setCovariance(Observation& observation, double noise)
 }
 }  // namespace
 
-CObservationGPS::Ptr toGnssObservation(const GnssFix& fix, const GnssSettings& settings)
+CObservationGPS::Ptr toGnssObservation(const SimulatedFix& fix, const GnssSettings& settings)
 {
   auto observation = CObservationGPS::Create();
   observation->sensorLabel = kGnssLabel;

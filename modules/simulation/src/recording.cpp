@@ -96,7 +96,7 @@ class RawlogFile
 std::vector<Encoded> encodeAids(const Simulation& simulation)
 {
   std::vector<Encoded> aids;
-  for (const GnssFix& fix : simulation.gnss())
+  for (const SimulatedFix& fix : simulation.gnss())
     aids.push_back({fix.stamp_ns, serialized(*toGnssObservation(fix, simulation.settings().gnss))});
   for (const WheelReading& reading : simulation.wheels())
     aids.push_back({reading.stamp_ns, serialized(*toWheelObservation(reading))});

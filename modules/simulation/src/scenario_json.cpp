@@ -53,7 +53,7 @@ Json spansJson(const Simulation& simulation, Predicate holds)
 {
   Json spans = Json::array();
   bool held = false;
-  for (const GnssFix& fix : simulation.gnss())
+  for (const SimulatedFix& fix : simulation.gnss())
   {
     const double t = simulation.secondsSinceStart(fix.stamp_ns);
     if (holds(fix) && !held) spans.push_back({t, t});
@@ -72,8 +72,8 @@ Json gnssJson(const Simulation& simulation)
        {{"latitude_deg", s.latitude}, {"longitude_deg", s.longitude}, {"height_m", s.height}}},
       {"geoid_m", s.geoid},
       {"lever_arm_m", vectorJson(s.lever_arm)},
-      {"outages_s", spansJson(simulation, [](const GnssFix& f) { return !f.known; })},
-      {"multipath_s", spansJson(simulation, [](const GnssFix& f) { return f.multipath; })}};
+      {"outages_s", spansJson(simulation, [](const SimulatedFix& f) { return !f.known; })},
+      {"multipath_s", spansJson(simulation, [](const SimulatedFix& f) { return f.multipath; })}};
 }
 
 double pathLength(const Simulation& simulation)

@@ -32,13 +32,13 @@ SimulationSettings longRest()
   return settings;
 }
 
-std::vector<GnssFix> fixesOf(const SimulationSettings& settings)
+std::vector<SimulatedFix> fixesOf(const SimulationSettings& settings)
 {
   return simulateGnss(Motion({}, {}), settings);
 }
 
 /** Mean product of an axis' errors that lie so many fixes apart. */
-double covarianceOf(const std::vector<GnssFix>& fixes, Eigen::Index axis, std::size_t apart)
+double covarianceOf(const std::vector<SimulatedFix>& fixes, Eigen::Index axis, std::size_t apart)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i + apart < fixes.size(); ++i)
@@ -129,7 +129,7 @@ TEST(Gnss, MeasuresTheAntennaAtItsLeverArm)
   settings.gnss.noise = 0.0;
   const Simulation simulation(settings);
   ASSERT_EQ(simulation.gnss().size(), 41U);
-  for (const GnssFix& fix : simulation.gnss())
+  for (const SimulatedFix& fix : simulation.gnss())
   {
     const Pose pose = simulation.truth(fix.stamp_ns).T_world_imu;
     EXPECT_LT((fix.antenna - pose * settings.gnss.lever_arm).norm(), 1e-12);
@@ -179,7 +179,7 @@ TEST(Gnss, FixesSurviveTheRecordingInTheOrderOfStamps)
     const auto gnss = std::dynamic_pointer_cast<CObservationGPS>(observation);
     if (!gnss) continue;
     ASSERT_LT(fixes, simulation.gnss().size());
-    const GnssFix& meant = simulation.gnss()[fixes++];
+    const SimulatedFix& meant = simulation.gnss()[fixes++];
     const auto& gga = gnss->getMsgByClass<Message_NMEA_GGA>().fields;
     EXPECT_EQ(gnss->sensorLabel, "gnss");
     EXPECT_EQ(last, meant.stamp_ns);
@@ -196,7 +196,7 @@ TEST(Gnss, FixesSurviveTheRecordingInTheOrderOfStamps)
 
 TEST(Gnss, MessagesTellTimeHeightsAndQuality)
 {
-  GnssFix fix;
+  SimulatedFix fix;
   fix.stamp_ns = 1'700'000'000'250'000'000;  // 2023-11-14 22:13:20.25
   fix.antenna = {0.0, 0.0, 3.0};
   GnssSettings settings;
@@ -239,7 +239,7 @@ TEST(Gnss, PlacesOnTheEarthLieAsInTheWorld)
       settings.longitude = longitude;
       const auto placeOf = [&](const Vec3& world)
       {
-        GnssFix fix;
+        SimulatedFix fix;
         fix.antenna = world;
         const auto f = toGnssObservation(fix, settings)->getMsgByClass<Message_NMEA_GGA>().fields;
         EXPECT_LE(std::abs(f.longitude_degrees), 180.0);

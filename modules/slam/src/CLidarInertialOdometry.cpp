@@ -103,7 +103,7 @@ class CLidarInertialOdometry::Impl
     if (!were_known && sensors_.areKnown()) startAnew();
     for (BridgeOutput& output : outputs)
     {
-      if (auto* sample = std::get_if<ImuSample>(&output)) odometry_->addImu(*sample);
+      if (auto* sample = std::get_if<ImuSample>(&output)) add(*sample);
       if (auto* scan = std::get_if<LidarScan>(&output)) odometry_->addScan(std::move(*scan));
     }
     return sensors_.takeMessage();
@@ -149,8 +149,15 @@ class CLidarInertialOdometry::Impl
 
   std::optional<OdometryEstimate> latest;
   Callback callback;
+  std::function<void(const ImuSample&)> sample_callback;
 
  private:
+  void add(const ImuSample& sample)
+  {
+    odometry_->addImu(sample);
+    if (sample_callback) sample_callback(sample);
+  }
+
   void announce(const ScanResult& result)
   {
     if (hasPose(result.status)) start_.reset();
@@ -230,8 +237,10 @@ void CLidarInertialOdometry::initialize(const Config& config)
 void CLidarInertialOdometry::start(const Config& config, OptionFilter is_given)
 {
   Callback callback = std::move(impl_->callback);
+  auto sample_callback = std::move(impl_->sample_callback);
   impl_ = std::make_unique<Impl>(config, std::move(is_given));
   impl_->callback = std::move(callback);
+  impl_->sample_callback = std::move(sample_callback);
 }
 
 void CLidarInertialOdometry::onNewObservation(const mrpt::obs::CObservation::ConstPtr& observation)
@@ -242,7 +251,8 @@ void CLidarInertialOdometry::onNewObservation(const mrpt::obs::CObservation::Con
   impl_->drain(false);
 }
 
-std::optional<LidarScan> CLidarInertialOdometry::decode(const mrpt::obs::CObservation& observation)
+std::optional<LidarScan> CLidarInertialOdometry::decode(
+    const mrpt::obs::CObservation& observation) const
 {
   return impl_->decode(observation);
 }
@@ -265,6 +275,16 @@ void CLidarInertialOdometry::finish()
 void CLidarInertialOdometry::setCallback(Callback callback)
 {
   impl_->callback = std::move(callback);
+}
+
+void CLidarInertialOdometry::setSampleCallback(std::function<void(const ImuSample&)> callback)
+{
+  impl_->sample_callback = std::move(callback);
+}
+
+const Odometry& CLidarInertialOdometry::estimator() const
+{
+  return impl_->odometry();
 }
 
 const std::optional<OdometryEstimate>& CLidarInertialOdometry::latest() const

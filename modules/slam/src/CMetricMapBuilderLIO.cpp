@@ -88,12 +88,18 @@ void CMetricMapBuilderLIO::initialize(
   T_map_world_.reset();
   waiting_.clear();
   views_ = initialMap;
+  initial_views_ = views_.size();
   metric_map_.setListOfMaps(definitions_);
-  for (std::size_t i = 0; i < views_.size(); ++i)
+  insertInitialViews(metric_map_);
+}
+
+void CMetricMapBuilderLIO::insertInitialViews(mrpt::maps::CMultiMetricMap& metric_map) const
+{
+  for (std::size_t i = 0; i < initial_views_; ++i)
   {
     const KeyFrameView view = keyFrame(views_, i);
     const mrpt::poses::CPose3D pose = view.pose->getMeanVal();
-    view.frame->insertObservationsInto(metric_map_, pose);
+    view.frame->insertObservationsInto(metric_map, pose);
   }
 }
 
@@ -147,27 +153,65 @@ void CMetricMapBuilderLIO::takeKeyFrames()
 
 void CMetricMapBuilderLIO::addKeyFrame(const Waiting& waiting, const TrackedPose& pose)
 {
-  const LidarScan& scan = waiting.scan;
-  const PoseTrack& track = odometry_.track();
-  const Pose T_world_lidar = pose.T_world_body * mountingOn(track, scan);
-  const auto cloud = compensatedCloud(scan, track, T_world_lidar);
-  // MRPT 2.5 takes no notice of the robot's pose for this class, so the sensor's says it all.
-  cloud->sensorPose = toMrptPose(*T_map_world_ * T_world_lidar);
-  const auto planar = pseudo2dScan(scan, track, planarOptions());
-  const mrpt::poses::CPose3D ground(
-      mrpt::poses::CPose2D(toMrptPose(*T_map_world_)) + onGround(pose.T_world_body));
-  for (auto& map : metric_map_.maps)
-    if (!map->insertObservation(*cloud, mrpt::poses::CPose3D()) && planar)
-      map->insertObservation(*planar, ground);
-
+  const TrackedPose in_map = fromStart(pose);
+  insertScan(waiting.scan, pose, in_map.T_world_body, metric_map_);
   auto frame = mrpt::obs::CSensoryFrame::Create();
   frame->insert(waiting.raw);
-  const Vec3& v = pose.velocity;
-  const Vec3& w = pose.angular_velocity;
-  const TrackedPose in_map = fromStart(pose);
+  insertView(frame, in_map, views_);
+}
+
+void CMetricMapBuilderLIO::insertScan(
+    const LidarScan& scan, const TrackedPose& pose, const Pose& T_map_vehicle,
+    mrpt::maps::CMultiMetricMap& metric_map) const
+{
+  const PoseTrack& track = odometry_.track();
+  const Pose T_vehicle_lidar = mountingOn(track, scan);
+  const auto cloud = compensatedCloud(scan, track, pose.T_world_body * T_vehicle_lidar);
+  // MRPT 2.5 takes no notice of the robot's pose for this class, so the sensor's says it all.
+  cloud->sensorPose = toMrptPose(T_map_vehicle * T_vehicle_lidar);
+  const auto planar = pseudo2dScan(scan, track, planarOptions());
+  const mrpt::poses::CPose3D ground(onGround(T_map_vehicle));
+  for (auto& map : metric_map.maps)
+    if (!map->insertObservation(*cloud, mrpt::poses::CPose3D()) && planar)
+      map->insertObservation(*planar, ground);
+}
+
+void CMetricMapBuilderLIO::insertView(
+    const mrpt::obs::CSensoryFrame::Ptr& frame, const TrackedPose& in_map,
+    mrpt::maps::CSimpleMap& views) const
+{
+  const Vec3& v = in_map.velocity;
+  const Vec3& w = in_map.angular_velocity;
   insertKeyFrame(
-      views_, toMrptPdf(in_map.T_world_body, in_map.covariance), frame,
+      views, toMrptPdf(in_map.T_world_body, in_map.covariance), frame,
       {v.x(), v.y(), v.z(), w.x(), w.y(), w.z()});
+}
+
+void CMetricMapBuilderLIO::rebuild(
+    const Correction& correction, mrpt::maps::CSimpleMap& views,
+    mrpt::maps::CMultiMetricMap& metric_map) const
+{
+  views = views_;
+  while (views.size() > initial_views_)
+    views.remove(views.size() - 1);
+  metric_map.setListOfMaps(definitions_);
+  insertInitialViews(metric_map);
+  for (std::size_t i = initial_views_; i < views_.size(); ++i)
+  {
+    const KeyFrameView view = keyFrame(views_, i);
+    // Decoded again: with the raw data alone, a key frame needs half the memory.
+    const CObservation::Ptr& raw = *view.frame->begin();
+    auto scan = odometry_.decode(*raw);
+    if (!scan) continue;
+    scan->stamp_ns += nanoseconds(config_.odometry.lidar.time_offset);
+    const auto pose = odometry_.track().at(scan->stamp_ns);
+    if (!pose) continue;
+    const TrackedPose in_map = fromStart(correction(*pose));
+    insertScan(*scan, *pose, in_map.T_world_body, metric_map);
+    auto frame = mrpt::obs::CSensoryFrame::Create();
+    frame->insert(raw);
+    insertView(frame, in_map, views);
+  }
 }
 
 Pseudo2dScanOptions CMetricMapBuilderLIO::planarOptions() const
@@ -213,9 +257,9 @@ unsigned int CMetricMapBuilderLIO::getCurrentlyBuiltMapSize()
   return static_cast<unsigned int>(views_.size());
 }
 
-BuiltMap CMetricMapBuilderLIO::getCurrentlyBuiltMetricMap() const
+MetricMapOfBuilder CMetricMapBuilderLIO::getCurrentlyBuiltMetricMap() const
 {
-  return asBuiltMap<BuiltMap>(metric_map_);
+  return asBuiltMap<MetricMapOfBuilder>(metric_map_);
 }
 
 void CMetricMapBuilderLIO::saveCurrentEstimationToImage(

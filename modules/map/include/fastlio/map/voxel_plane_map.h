@@ -66,7 +66,7 @@ class VoxelPlaneMap : public SurfaceMap
   /** The options that it was made with. */
   [[nodiscard]] const VoxelPlaneOptions& options() const;
   /** Planes that are the best known ones at their own centroid: each surface once, at the scale
-   * that fits it. */
+   * that fits it. Normals point to the side that a surface was seen from. */
   [[nodiscard]] std::vector<VoxelPlane> bestPlanes() const;
   /** The same.
    * \param spreads of each plane, rms distance of its points across it, as measured [m]: unlike

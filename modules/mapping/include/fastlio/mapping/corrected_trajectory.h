@@ -27,7 +27,7 @@ namespace fastlio
 class CorrectedTrajectory
 {
  public:
-  /** \param result outlives this object \param session whose poses are corrected */
+  /** \param session whose poses are corrected */
   CorrectedTrajectory(const MappingResult& result, std::size_t session);
 
   /** The scan with its corrected state and covariance; the result as it is where nothing was
@@ -37,6 +37,7 @@ class CorrectedTrajectory
   /** T_corrected_odometry at a scan: takes points of the odometry's world to the corrected one. */
   [[nodiscard]] Pose correctionAt(std::int64_t stamp_ns, const Pose& T_world_imu) const;
 
+  /** MappingResult::moves(). */
   [[nodiscard]] bool changes() const { return changes_; }
 
  private:

@@ -22,8 +22,9 @@ namespace fastlio
 struct ClosureAgreement
 {
   std::size_t closure = 0;  //!< index among MappingResult::closures
-  double before = 0.0;      //!< with the poses of the odometry [m]
-  double after = 0.0;       //!< with the corrected ones [m]
+  /** With the poses of the odometry [m]; sessions have none in common. */
+  std::optional<double> before;
+  double after = 0.0;  //!< with the corrected ones [m]
 };
 
 /** Of the accepted closures. */

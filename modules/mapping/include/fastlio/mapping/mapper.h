@@ -64,9 +64,16 @@ struct ClosureLimits
   double max_residual = 0.06;     //!< RegistrationEvidence::residual_rms [m]
   double min_margin = 25.0;       //!< RegistrationEvidence::margin
   double max_position_std = 0.3;  //!< of a closure, in its least known direction [m]
+  /** Least known directions of the position that are exempt from it: along a corridor, a closure
+   * may determine the rest. */
+  int open_directions = 0;
   /** Standard deviations of the odometry count so many times: real sensors have errors that it does
    * not know of. */
-  double odometry_doubt = 2.0;
+  double odometry_std_factor = 2.0;
+  /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
+   * fewer surfaces suffice, and the closure may leave one direction open. */
+  double known_place_std = 0.5;
+  double known_place_overlap = 0.2;  //!< instead of min_overlap and min_upright
 };
 
 /** How a session was found in the map of those before. */
@@ -91,6 +98,9 @@ struct MappingResult
   bool corrected = false;                  //!< false: nothing was added to what the odometry knows
 
   [[nodiscard]] std::size_t accepted() const;
+  /** Whether poses of a session are not those of its odometry: something corrects them, or the
+   * session was placed in the map of those before. */
+  [[nodiscard]] bool moves(std::size_t session) const;
 };
 
 /** Finds loops while submaps come in. Not thread-safe. The result depends on the submaps and their
@@ -114,8 +124,11 @@ class Mapper
   /** How wrong the extrinsic of a session may be. */
   void setExtrinsicMoment(std::size_t session, const Matrix6& moment);
 
-  /** The optimum of everything, from the odometry on. Call once, in the end. */
-  [[nodiscard]] MappingResult finish();
+  /** The optimum of everything, from the odometry on. It does not depend on earlier calls, and
+   * submaps may follow. */
+  [[nodiscard]] MappingResult result() const&;
+  /** The same without a copy of the submaps, in the end. */
+  [[nodiscard]] MappingResult result() &&;
 
   [[nodiscard]] const std::vector<Submap>& submaps() const { return result_.submaps; }
   [[nodiscard]] const std::vector<Closure>& closures() const { return result_.closures; }
@@ -138,6 +151,7 @@ class Mapper
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
   void judge(Closure& closure) const;
+  [[nodiscard]] ClosureLimits limitsFor(const RelativePose& predicted) const;
   void settle();
 
   ClosureLimits limits_;

@@ -31,6 +31,7 @@ struct Submap
   std::optional<GravityReading> gravity;  //!< over the stretch, in the frame of the reference
   std::int64_t last_ns = 0;               //!< end of the last scan
   double travel = 0.0;                    //!< of the run, up to the reference [m]
+  double range = 0.0;                     //!< median, of the first scan [m]
   std::size_t scans = 0;
   std::vector<VoxelPlane> planes;  //!< each surface once; frame of the reference [m]
   std::vector<float> spreads;      //!< of each plane, rms distance of its points across it [m]

@@ -37,7 +37,7 @@ struct RelativePose
 
 /** From \a a to \a b. The filter gives the covariance of each pose, not what they have in common;
  * so this is an upper bound: errors of the poses' own count as independent, and of the map's part,
- * which is nearly the same for both, only what it grew by counts. */
+ * which is nearly the same for both, only what it changed by counts. */
 [[nodiscard]] RelativePose relativePose(const TrackedPose& a, const TrackedPose& b);
 
 /** Collects the poses of scans that have one. */

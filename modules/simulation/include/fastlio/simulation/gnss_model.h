@@ -13,7 +13,7 @@
 namespace fastlio
 {
 /** The fix of the receiver at an instant. */
-struct GnssFix
+struct SimulatedFix
 {
   std::int64_t stamp_ns = 0;
   bool known = true;            //!< false: an outage, no position
@@ -28,7 +28,7 @@ struct GnssFix
  * variance; and 5 to 30 m horizontally (up to as much vertically) more while there is multipath.
  *
  * \param settings with a duration that is not zero */
-[[nodiscard]] std::vector<GnssFix> simulateGnss(
+[[nodiscard]] std::vector<SimulatedFix> simulateGnss(
     const Motion& motion, const SimulationSettings& settings);
 
 }  // namespace fastlio

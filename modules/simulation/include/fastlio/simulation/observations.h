@@ -28,7 +28,7 @@ constexpr const char* kWheelsLabel = "wheels";
  * 0 in an outage, whose coordinates are 0. The sensor pose is the lever arm. Where MRPT's class has
  * a covariance_enu, it is that of the noise. */
 [[nodiscard]] mrpt::obs::CObservationGPS::Ptr toGnssObservation(
-    const GnssFix& fix, const GnssSettings& settings);
+    const SimulatedFix& fix, const GnssSettings& settings);
 
 /** Pose in the plane since the start and velocity ahead and of the turn. */
 [[nodiscard]] mrpt::obs::CObservationOdometry::Ptr toWheelObservation(const WheelReading& reading);

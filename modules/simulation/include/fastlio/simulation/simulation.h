@@ -56,7 +56,7 @@ class Simulation
   [[nodiscard]] const Motion& motion() const { return motion_; }
   [[nodiscard]] const World& world() const { return world_; }
   [[nodiscard]] const ImuRecording& imu() const { return imu_; }
-  [[nodiscard]] const std::vector<GnssFix>& gnss() const { return gnss_; }
+  [[nodiscard]] const std::vector<SimulatedFix>& gnss() const { return gnss_; }
   [[nodiscard]] const std::vector<WheelReading>& wheels() const { return wheels_; }
   [[nodiscard]] const LidarErrors& lidarErrors() const { return lidar_errors_; }
 
@@ -84,7 +84,7 @@ class Simulation
   Motion motion_;
   World world_;
   ImuRecording imu_;
-  std::vector<GnssFix> gnss_;
+  std::vector<SimulatedFix> gnss_;
   std::vector<WheelReading> wheels_;
   std::unique_ptr<const LidarModel> lidar_;
   LidarErrors lidar_errors_;

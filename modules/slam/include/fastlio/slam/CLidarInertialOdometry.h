@@ -23,6 +23,8 @@
 
 namespace fastlio
 {
+class Odometry;
+
 /** The outcome of a scan. */
 struct OdometryEstimate
 {
@@ -101,12 +103,18 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** Called for every scan, from within onNewObservation() and finish(). */
   void setCallback(Callback callback);
 
+  /** Called for every inertial sample in use, before the scans that need it. */
+  void setSampleCallback(std::function<void(const ImuSample&)> callback);
+
+  /** The estimator within: in a callback, it has the registered points of this scan. */
+  [[nodiscard]] const Odometry& estimator() const;
+
   /** The latest scan's result; nothing before the first. */
   [[nodiscard]] const std::optional<OdometryEstimate>& latest() const;
 
   /** The points of a scan of the LiDAR in use, without taking it in; nothing for observations of
    * other sensors, and as long as the sensors are not known. */
-  [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation) const;
 
   /** All poses of the vehicle so far. */
   [[nodiscard]] const PoseTrack& track() const;

@@ -13,7 +13,9 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/slam/CMetricMapBuilder.h>
 
+#include <cstddef>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -21,7 +23,7 @@
 namespace fastlio
 {
 /** How a builder hands over its metric map. */
-using BuiltMap = BuiltMapOf<mrpt::slam::CMetricMapBuilder>;
+using MetricMapOfBuilder = BuiltMapOf<mrpt::slam::CMetricMapBuilder>;
 
 /** CMetricMapBuilder over CLidarInertialOdometry: sensory frames with scans and inertial samples
  * in, poses and maps out. Actions are not used: the motion is measured.
@@ -55,11 +57,25 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
 
   void getCurrentlyBuiltMap(mrpt::maps::CSimpleMap& out_map) const override;
   [[nodiscard]] unsigned int getCurrentlyBuiltMapSize() override;
-  [[nodiscard]] BuiltMap getCurrentlyBuiltMetricMap() const override;
+  [[nodiscard]] MetricMapOfBuilder getCurrentlyBuiltMetricMap() const override;
   /** The metric map's own representation in files whose names begin with \a file. */
   void saveCurrentEstimationToImage(const std::string& file, bool formatEMF_BMP = true) override;
 
   [[nodiscard]] const CLidarInertialOdometry& odometry() const { return odometry_; }
+
+ protected:
+  /** Of the vehicle in the odometry's world, by that of the odometry. */
+  using Correction = std::function<TrackedPose(const TrackedPose&)>;
+
+  /** Both maps anew, with corrected poses of the key frames. */
+  void rebuild(
+      const Correction& correction, mrpt::maps::CSimpleMap& views,
+      mrpt::maps::CMultiMetricMap& metric_map) const;
+  /** A pose of the vehicle in the odometry's world as one in the map. */
+  [[nodiscard]] TrackedPose fromStart(const TrackedPose& pose) const;
+  [[nodiscard]] CLidarInertialOdometry& driver() { return odometry_; }
+  [[nodiscard]] std::recursive_mutex& mutex() const { return mutex_; }
+  [[nodiscard]] std::size_t keyFrames() const { return views_.size(); }
 
  private:
   void placeOrigin();
@@ -70,7 +86,13 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
     LidarScan scan;
   };
   void addKeyFrame(const Waiting& waiting, const TrackedPose& pose);
-  [[nodiscard]] TrackedPose fromStart(const TrackedPose& pose) const;
+  void insertScan(
+      const LidarScan& scan, const TrackedPose& pose, const Pose& T_map_vehicle,
+      mrpt::maps::CMultiMetricMap& metric_map) const;
+  void insertView(
+      const mrpt::obs::CSensoryFrame::Ptr& frame, const TrackedPose& in_map,
+      mrpt::maps::CSimpleMap& views) const;
+  void insertInitialViews(mrpt::maps::CMultiMetricMap& metric_map) const;
   [[nodiscard]] Pseudo2dScanOptions planarOptions() const;
 
   mutable std::recursive_mutex mutex_;
@@ -82,7 +104,8 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
   std::optional<Pose> T_map_world_;  //!< the odometry's world in the map, known with the first pose
   mrpt::maps::CMultiMetricMap metric_map_;
   mrpt::maps::CSimpleMap views_;
-  std::deque<Waiting> waiting_;  //!< scans whose pose is not known yet
+  std::size_t initial_views_ = 0;  //!< of them
+  std::deque<Waiting> waiting_;    //!< scans whose pose is not known yet
 };
 
 }  // namespace fastlio
