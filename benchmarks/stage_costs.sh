@@ -33,7 +33,7 @@ stages() {
       for (i = 1; i <= 5; ++i) cost[what, i] = field[i] == "." ? 0 : field[i]
     }
     stage("Estimator::process(") { note("all") }
-    stage("Estimator::predict(") { note("propagate") }
+    stage("ScanPredictor::predict(") { note("propagate") }
     stage("Estimator::downsample(") { note("downsample") }
     stage("Estimator::deskew(") { note("deskew") }
     stage("ScanMatcher::associate(") { note("match") }

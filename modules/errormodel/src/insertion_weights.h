@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <vector>
 
@@ -36,13 +37,20 @@ void weighInsertions(
   for (Insertion& insertion : insertions)
     insertion.weight = 0.0;
   double total = 0.0;
+  auto next = insertions.begin();
+  std::uint32_t looked_up = 0;  // no insertion has that number
   for (const PlaneGroup& group : groups)
   {
     const double weight = weight_of(group);
     total += weight;
-    const auto next = std::upper_bound(
-        insertions.begin(), insertions.end(), group.created_insertion,
-        [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
+    // Neighbours in a scan mostly lie on planes of the same insertion.
+    if (group.created_insertion != looked_up)
+    {
+      looked_up = group.created_insertion;
+      next = std::upper_bound(
+          insertions.begin(), insertions.end(), looked_up,
+          [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
+    }
     if (next != insertions.begin()) std::prev(next)->weight += weight;
   }
   if (!(total > 0.0)) return;

@@ -140,6 +140,7 @@ TwistCovariance MapErrorModel::meanOfInsertions() const
   {
     const double part = insertion.weight;
     remembered *= insertion.memory;
+    if (part == 0.0) continue;  // most of them: long out of sight
     mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
     remembered += part * insertion.own;
   }
