@@ -11,6 +11,7 @@ SCENARIOS_DIR ?= scenarios-output
 CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
 TUNE_DIR ?= tune-output
+GROWTH_DIR ?= growth-output
 MAP_DIR ?= map-output
 MOLA_SOURCES ?=
 FUZZ_SECONDS ?= 600
@@ -18,11 +19,12 @@ FUZZ_SECONDS ?= 600
 BUILD_DIR := build/$(PRESET)
 # Tests are of the build that packages are made of, which is the same on every machine, unless a preset is given.
 TEST_PRESET := $(if $(filter file,$(origin PRESET)),baseline,$(PRESET))
-PROGRAMS := fastlio-sim fastlio-replay fastlio-eval fastlio-info fastlio-tune
+DEMO_PROGRAMS := fastlio-sim fastlio-replay fastlio-eval
+TUNE_PROGRAMS := $(DEMO_PROGRAMS) fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
+  benchmark growth stage-costs demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
   experiments docs format lint packages test-packages test-trixie test-mola test-mola-trixie clean
 
 help:
@@ -35,6 +37,8 @@ help:
 	@echo "make sanitize  every test with address and undefined-behaviour sanitizers, then with that of threads"
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
+	@echo "make growth  time per scan and memory over an hour, 10 km, points per scan and rates (20 minutes)"
+	@echo "make stage-costs RECORDINGS=DIR  instructions and cache misses of each stage (valgrind)"
 	@echo "make calibration-table  errors of realistic rigs before and after fastlio-calibrate"
 	@echo "make map-table  errors of realistic rides before and after fastlio-map"
 	@echo "make tune-demo  fastlio-tune makes a bad parameter file better, on simulated recordings"
@@ -51,7 +55,7 @@ help:
 	@echo "make test-packages  installs them in a clean Debian 12 root and runs them there (needs root)"
 	@echo "make test-trixie builds and tests in a Debian 13 root, with MRPT 2.14 (needs root)"
 	@echo "make test-mola MOLA_SOURCES=DIR   builds MOLA and our module, runs the real mola-cli; test-mola-trixie: in Debian 13"
-	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/, $(EXPERIMENTS_DIR)/ and $(TUNE_DIR)/"
+	@echo "make clean   remove build/, $(DEMO_DIR)/, $(SCENARIOS_DIR)/, $(EXPERIMENTS_DIR)/, $(GROWTH_DIR)/ and $(TUNE_DIR)/"
 
 dependencies:
 	@cmake/install_dependencies.sh build
@@ -108,12 +112,22 @@ benchmark:
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-benchmark fastlio-microbenchmark
 	benchmarks/run.sh $(BUILD_DIR) $(RECORDINGS)
 
+growth: configure
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-sim fastlio-replay
+	benchmarks/growth.sh $(BUILD_DIR) $(GROWTH_DIR)
+
+stage-costs:
+	@cmake/install_dependencies.sh build benchmark instructions
+	cmake --preset baseline -DMRPT_FASTLIO_BENCHMARKS=ON
+	cmake --build --preset baseline --parallel $(JOBS) --target fastlio-benchmark
+	benchmarks/stage_costs.sh build/baseline $(wildcard $(RECORDINGS)/*.rawlog)
+
 replay: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-replay
 	@echo "Built: $(BUILD_DIR)/bin/fastlio-replay"
 
 demo: configure
-	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(DEMO_PROGRAMS)
 	cmake/demo.sh $(BUILD_DIR) $(DEMO_DIR)
 
 calibration-table: build
@@ -123,15 +137,15 @@ map-table: build
 	benchmarks/map_table.sh $(BUILD_DIR) $(MAP_DIR)
 
 tune-demo: configure
-	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(DEMO_PROGRAMS)
 	JOBS=$(JOBS) cmake/tune_demo.sh $(BUILD_DIR) $(TUNE_DIR)/demo
 
 tune-proxy: configure
-	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(TUNE_PROGRAMS)
 	JOBS=$(JOBS) benchmarks/tune_proxy.sh $(BUILD_DIR) $(TUNE_DIR)/proxy $(RECORDINGS)
 
 tune-effects: configure
-	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(PROGRAMS)
+	cmake --build --preset $(PRESET) --parallel $(JOBS) --target $(TUNE_PROGRAMS)
 	JOBS=$(JOBS) benchmarks/tune_effects.sh $(BUILD_DIR) $(TUNE_DIR)/effects
 
 scenarios: build
@@ -179,4 +193,4 @@ test-mola-trixie:
 	cmake/test_in_trixie.sh build/trixie "$(MOLA_SOURCES)"
 
 clean:
-	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR) $(TUNE_DIR)
+	$(RM) -r build $(DEMO_DIR) $(SCENARIOS_DIR) $(EXPERIMENTS_DIR) $(GROWTH_DIR) $(TUNE_DIR)
