@@ -100,8 +100,10 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
   const FilterState from = withUncertainPlace(
       standingAt(predicted, best.posterior.x.pose()), options_.initialization,
       std::pow(kShrink, kGivenPosePasses));
-  return {
-      matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_)), true, std::nullopt};
+  latest = matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_));
+  if (!latest.update.updated || ratioOf(latest.update) < kGivenMapInlierRatio)
+    return notFound(std::move(latest), predicted, best.last, 0);
+  return {std::move(latest), true, std::nullopt};
 }
 
 MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candidate) const

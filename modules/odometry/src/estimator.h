@@ -52,6 +52,13 @@ class Estimator
   void start(
       const FilterState& state, std::int64_t stamp_ns,
       const std::optional<MotionWindow>& motion_window);
+  /** There is a state, whose motion is known. */
+  [[nodiscard]] bool canGoOn() const;
+  /** Goes on in a map of an earlier run, as useSavedMap(); relocalize() must follow. */
+  void goOnIn(const SavedMap& saved);
+  /** Searches the pose in the map around this one, which it is uncertain about by so much [m, rad],
+   * until it is found. With canGoOn() only. */
+  void relocalize(const Pose& T_map_imu, double position_std, double yaw_std);
   /** No scans until reinitialise(). */
   void suspend();
   /** Goes on from a start of its own with the carried pose: searches for the map of before, and

@@ -8,6 +8,7 @@
 #include <fastlio/initialization/start_in_map.h>
 #include <fastlio/math/time.h>
 
+#include <limits>
 #include <utility>
 
 namespace fastlio
@@ -16,6 +17,8 @@ namespace
 {
 // After a re-initialisation the old map is searched for so long: fifteen scans at 10 Hz [s].
 constexpr double kMapSearchTime = 1.5;
+// What a scan that is matched can correct until the next one comes [m/s].
+constexpr double kKnownVelocityStd = 1.0;
 
 FilterRun startedRun(
     std::int64_t stamp_ns, bool trusted, const std::optional<MotionWindow>& motion_window)
@@ -50,6 +53,39 @@ void Estimator::start(
     mode_ = EnteringMap{std::move(run), *T_map_imu};
   else
     mode_ = Tracking{std::move(run), false, nullptr};
+}
+
+bool Estimator::canGoOn() const
+{
+  return started() && isFinite(state_.filter.x) && state_.filter.P.allFinite() &&
+         state_.filter.P.block<3, 3>(kVelocity, kVelocity).diagonal().maxCoeff() <
+             kKnownVelocityStd * kKnownVelocityStd;
+}
+
+void Estimator::goOnIn(const SavedMap& saved)
+{
+  map_ = LocalMap(options_, workers_, saved);
+}
+
+void Estimator::relocalize(const Pose& T_map_imu, double position_std, double yaw_std)
+{
+  skipScan();
+  rest_.reset();
+  agreement_.restart();
+  FilterState& filter = state_.filter;
+  filter.x.p.setZero();
+  filter = placedInMap(filter, T_map_imu);
+  // Nothing that the run knew of its place counts.
+  filter.P.middleRows<3>(kPosition).setZero();
+  filter.P.middleCols<3>(kPosition).setZero();
+  InitializationOptions guess = options_.initialization;
+  guess.pose_position_std = position_std;
+  guess.pose_yaw_std = yaw_std;
+  filter = withUncertainPlace(filter, guess, 1.0);
+  if (map_.isGiven())
+    map_.startCalibrationError(filter.x, options_.initialization.align_with_gravity);
+  mode_ = Relocalizing{
+      startedRun(state_.stamp_ns, false, std::nullopt), std::numeric_limits<std::int64_t>::max()};
 }
 
 void Estimator::suspend()

@@ -22,6 +22,11 @@ void Odometry::startIn(const SavedMap& map)
   impl_->startIn(map);
 }
 
+bool Odometry::relocalize(const PoseGuess& guess, const SavedMap* other)
+{
+  return impl_->relocalize(guess, other);
+}
+
 void Odometry::addImu(const ImuSample& sample)
 {
   impl_->addImu(sample);

@@ -28,6 +28,7 @@ class Odometry::Impl
   explicit Impl(const OdometryOptions& options);
 
   void startIn(const SavedMap& map);
+  [[nodiscard]] bool relocalize(const PoseGuess& guess, const SavedMap* other);
   void addImu(const ImuSample& sample);
   void addScan(LidarScan scan);
   std::optional<ScanResult> next(bool at_end);

@@ -20,6 +20,26 @@ constexpr std::int64_t kStartHoldBeforeNs = 20'000'000;
 constexpr double kUpsideDown = -0.5;  // z of the upward direction in the IMU frame
 }  // namespace
 
+bool Odometry::Impl::relocalize(const PoseGuess& guess, const SavedMap* other)
+{
+  if (other != nullptr && other->empty()) return false;
+  if (!estimator_.canGoOn() || (other == nullptr && estimator_.map().pointCount() == 0))
+    return false;
+  const std::int64_t stamp_ns = estimator_.stamp();
+  if (other != nullptr)
+  {
+    estimator_.goOnIn(*other);
+    map_origin_ = other->origin;
+  }
+  const Pose T_map_imu{guess.T_world_imu.R, guess.T_world_imu.p - map_origin_};
+  estimator_.relocalize(T_map_imu, guess.position_std, guess.yaw_std);
+  reinitialization_.forgetPoses();
+  diagnostics_.report(
+      stamp_ns, other == nullptr ? "the pose is searched around one that was given"
+                                 : "the run goes on in a map that was given");
+  return true;
+}
+
 void Odometry::Impl::start(const StartDecision& decision)
 {
   if (reinitialization_.pending())

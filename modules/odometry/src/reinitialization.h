@@ -48,6 +48,13 @@ class Reinitialization
   [[nodiscard]] std::optional<std::string> detectTrackingLoss(
       const ScanResult& result, const FilterState& state, bool relocalizing);
 
+  /** The pose of the run is another one now. */
+  void forgetPoses()
+  {
+    last_good_.reset();
+    lost_since_ns_ = 0;
+  }
+
   [[nodiscard]] bool pending() const { return last_believed_.has_value(); }
   /** What the new start goes on with: nothing is known between the last state that is believed and
    * the start, however long that took. */

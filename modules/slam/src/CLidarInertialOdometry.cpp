@@ -6,11 +6,15 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/map/register_classes.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <mrpt/core/initializer.h>
 
+#include <memory>
+#include <stdexcept>
 #include <utility>
 
 IMPLEMENTS_MRPT_OBJECT(CLidarInertialOdometry, mrpt::rtti::CObject, fastlio)
@@ -50,6 +54,32 @@ OptionFilter differsFromDefault(const Config& config)
     return valueText(row, config) != valueText(row, Config{});
   };
 }
+
+/** A copy of the map in use. */
+SavedMap savedMapOf(const Odometry& odometry)
+{
+  SavedMap saved;
+  saved.origin = odometry.mapOrigin();
+  if (const auto* planes = dynamic_cast<const VoxelPlaneMap*>(&odometry.map()))
+    saved.planes = std::make_shared<const VoxelPlaneMap>(*planes);
+  const auto points = odometry.map().toPointsMap();
+  const auto &x = points->getPointsBufferRef_x(), &y = points->getPointsBufferRef_y(),
+             &z = points->getPointsBufferRef_z();
+  saved.points.x.assign(x.begin(), x.end());
+  saved.points.y.assign(y.begin(), y.end());
+  saved.points.z.assign(z.begin(), z.end());
+  return saved;
+}
+
+void requireUsable(const VehicleGuess& guess)
+{
+  constexpr double kMostPosition = 100.0;  // as initialization.pose_position_std
+  const auto within = [](double value, double most) { return value >= 0.0 && value <= most; };
+  if (!guess.T_map_vehicle.R.allFinite() || !guess.T_map_vehicle.p.allFinite() ||
+      !within(guess.position_std, kMostPosition) || !within(guess.yaw_std, 180.0 * kRadPerDeg))
+    throw std::invalid_argument(
+        "a pose to start at must be finite, its standard deviations 0 to 100 m and 0 to 180 deg");
+}
 }  // namespace
 
 class CLidarInertialOdometry::Impl
@@ -67,7 +97,7 @@ class CLidarInertialOdometry::Impl
     const bool were_known = sensors_.areKnown();
     auto outputs = sensors_.convert(observation);
     // With the preset of the LiDAR, before the first sample.
-    if (!were_known && sensors_.areKnown()) odometry_.emplace(sensors_.config().odometry);
+    if (!were_known && sensors_.areKnown()) startAnew();
     for (BridgeOutput& output : outputs)
     {
       if (auto* sample = std::get_if<ImuSample>(&output)) odometry_->addImu(*sample);
@@ -79,6 +109,30 @@ class CLidarInertialOdometry::Impl
   std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation)
   {
     return sensors_.decode(observation);
+  }
+
+  void startIn(SavedMap map, const VehicleGuess& guess)
+  {
+    if (map.empty()) throw std::invalid_argument("the map to start in has no points");
+    requireUsable(guess);
+    if (odometry_->relocalize(ofImu(guess), &map))
+      start_.reset();
+    else
+      begin({std::move(map), guess});
+    latest.reset();
+    track_ = PoseTrack({});
+  }
+
+  [[nodiscard]] bool relocalize(const VehicleGuess& guess)
+  {
+    requireUsable(guess);
+    if (!odometry_->relocalize(ofImu(guess)))
+    {
+      if (!start_ && odometry_->map().pointCount() == 0) return false;
+      begin({start_ ? std::move(start_->map) : savedMapOf(*odometry_), guess});
+    }
+    latest.reset();
+    return true;
   }
 
   void drain(bool at_end)
@@ -96,6 +150,7 @@ class CLidarInertialOdometry::Impl
  private:
   void announce(const ScanResult& result)
   {
+    if (hasPose(result.status)) start_.reset();
     if (track_.poses().empty()) track_ = PoseTrack({"vehicle", sensors_.T_vehicle_imu().inverse()});
     track_.add(result);
     latest = OdometryEstimate{result, std::nullopt};
@@ -103,7 +158,51 @@ class CLidarInertialOdometry::Impl
     if (callback) callback(*latest);
   }
 
+  struct StartInMap
+  {
+    SavedMap map;
+    VehicleGuess guess;
+  };
+
+  /** Of a run without a state to go on with. */
+  void begin(StartInMap start)
+  {
+    in_motion_ = in_motion_ || latest.has_value();
+    start_ = std::move(start);
+    startAnew();
+  }
+
+  [[nodiscard]] PoseGuess ofImu(const VehicleGuess& guess) const
+  {
+    return {guess.T_map_vehicle * sensors_.T_vehicle_imu(), guess.position_std, guess.yaw_std};
+  }
+
+  /** With what is known of the sensors; scans that wait for inertial samples are given up. */
+  void startAnew()
+  {
+    if (!start_)
+    {
+      odometry_.emplace(sensors_.config().odometry);
+      return;
+    }
+    odometry_.emplace(optionsFor(start_->guess));
+    start_->map.T_map_imu = ofImu(start_->guess).T_world_imu;
+    odometry_->startIn(start_->map);
+  }
+
+  [[nodiscard]] OdometryOptions optionsFor(const VehicleGuess& guess) const
+  {
+    OdometryOptions options = sensors_.config().odometry;
+    options.initialization.pose_position_std = guess.position_std;
+    options.initialization.pose_yaw_std = guess.yaw_std;
+    // In the middle of a run nobody waits for a rest.
+    if (in_motion_) options.initialization.mode = InitializationMode::Auto;
+    return options;
+  }
+
   std::optional<Odometry> odometry_;  // always there
+  std::optional<StartInMap> start_;   // until the vehicle is found in the map
+  bool in_motion_ = false;            // as far as anybody knows, at that start
   OnlineSensors sensors_;
   PoseTrack track_{{}};
 };
@@ -145,6 +244,16 @@ std::optional<LidarScan> CLidarInertialOdometry::decode(const mrpt::obs::CObserv
   return impl_->decode(observation);
 }
 
+void CLidarInertialOdometry::startIn(SavedMap map, const VehicleGuess& guess)
+{
+  impl_->startIn(std::move(map), guess);
+}
+
+bool CLidarInertialOdometry::relocalize(const VehicleGuess& guess)
+{
+  return impl_->relocalize(guess);
+}
+
 void CLidarInertialOdometry::finish()
 {
   impl_->drain(true);
@@ -168,6 +277,11 @@ const PoseTrack& CLidarInertialOdometry::track() const
 mrpt::maps::CSimplePointsMap::Ptr CLidarInertialOdometry::map() const
 {
   return impl_->odometry().map().toPointsMap();
+}
+
+SavedMap CLidarInertialOdometry::savedMap() const
+{
+  return savedMapOf(impl_->odometry());
 }
 
 const OdometryOptions& CLidarInertialOdometry::parameters() const

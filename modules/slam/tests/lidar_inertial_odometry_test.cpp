@@ -130,5 +130,120 @@ TEST(CLidarInertialOdometry, InitializeStartsAnew)
   EXPECT_EQ(ends[0], ends[1]);
 }
 
+/** Feeds a part of the walk, in hundredths of its observations. */
+void feed(CLidarInertialOdometry& odometry, std::size_t from, std::size_t to)
+{
+  const std::size_t count = observations().size();
+  for (std::size_t i = count * from / 100; i < count * to / 100; ++i)
+    odometry.onNewObservation(observations()[i]);
+}
+
+CLidarInertialOdometry::Ptr following(const Config& config)
+{
+  const auto odometry = madeByName();
+  odometry->initialize(config);
+  return odometry;
+}
+
+/** An undisturbed run of the walk: others are compared with it, and use its map. */
+const CLidarInertialOdometry& undisturbed()
+{
+  static const auto odometry = []
+  {
+    auto run = following(matchingConfig(walk().settings()));
+    feed(*run, 0, 100);
+    return run;
+  }();
+  return *odometry;
+}
+
+/** Where the vehicle is after so many hundredths, as somebody would guess it. */
+VehicleGuess guessAt(std::size_t hundredths)
+{
+  const auto& at = *observations()[observations().size() * hundredths / 100];
+  VehicleGuess guess;
+  guess.T_map_vehicle = undisturbed().track().at(toNanoseconds(at.timestamp)).value().T_world_body;
+  guess.T_map_vehicle.p += Vec3(-0.2, 0.2, 0.0);
+  guess.T_map_vehicle.R = guess.T_map_vehicle.R * expSO3({0.0, 0.0, 0.05});
+  return guess;
+}
+
+/** Compares the poses from \a first on with the undisturbed run. \return their number */
+std::size_t posesInMap(const CLidarInertialOdometry& odometry, std::size_t first)
+{
+  const auto& poses = odometry.track().poses();
+  std::size_t compared = 0;
+  for (std::size_t i = first; i < poses.size(); ++i)
+  {
+    const auto expected = undisturbed().track().at(poses[i].stamp_ns);
+    if (!expected) continue;  // the end, by an estimated offset of the clocks
+    EXPECT_LT((expected->T_world_body.p - poses[i].T_world_body.p).norm(), 0.05) << i;
+    ++compared;
+  }
+  return compared;
+}
+
+TEST(CLidarInertialOdometry, GoesOnInAMapThatIsLoadedInTheMiddleOfARun)
+{
+  const auto odometry = following(matchingConfig(walk().settings()));
+  feed(*odometry, 0, 50);
+  const std::size_t before = odometry->track().poses().size();
+  EXPECT_GT(before, 10U);
+  EXPECT_THROW(odometry->startIn({}, guessAt(50)), std::invalid_argument);
+  EXPECT_EQ(odometry->track().poses().size(), before);
+  odometry->startIn(undisturbed().savedMap(), guessAt(50));
+  EXPECT_TRUE(odometry->track().poses().empty());
+  feed(*odometry, 50, 75);
+  const std::size_t found = posesInMap(*odometry, 0);
+  EXPECT_GT(found, 10U);
+  EXPECT_TRUE(odometry->relocalize(guessAt(75)));
+  feed(*odometry, 75, 100);
+  EXPECT_GT(posesInMap(*odometry, found), 10U);
+}
+
+TEST(CLidarInertialOdometry, AMapMayBeLoadedBeforeTheSensorsAreKnown)
+{
+  const auto odometry = following(matchingConfig(walk().settings()));
+  odometry->startIn(undisturbed().savedMap(), {});
+  feed(*odometry, 0, 35);
+  EXPECT_GT(posesInMap(*odometry, 0), 5U);
+  EXPECT_GT(odometry->map()->size(), undisturbed().map()->size() / 2);
+}
+
+TEST(CLidarInertialOdometry, AMapOfPlanesIsPointsForARunThatTakesNoPlanes)
+{
+  Config config = matchingConfig(walk().settings());
+  config.odometry.map.type = MapType::Knn;
+  const auto odometry = following(config);
+  odometry->startIn(undisturbed().savedMap(), {});
+  EXPECT_GT(odometry->map()->size(), undisturbed().map()->size() / 4);
+}
+
+// A guess that is far off, and believed to be near: no pose is better than a wrong one.
+TEST(CLidarInertialOdometry, IsRelocalizedWhereItIsAndNowhereElse)
+{
+  const auto odometry = following(matchingConfig(walk().settings()));
+  EXPECT_FALSE(odometry->relocalize({}));
+  feed(*odometry, 0, 60);
+  const std::size_t before = odometry->track().poses().size();
+  const std::size_t points = odometry->map()->size();
+  VehicleGuess far;
+  far.T_map_vehicle.p = {60.0, -40.0, 0.0};
+  EXPECT_TRUE(odometry->relocalize(far));
+  feed(*odometry, 60, 63);
+  EXPECT_EQ(odometry->track().poses().size(), before);
+  EXPECT_FALSE(odometry->latest() && odometry->latest()->vehicle);
+
+  EXPECT_TRUE(odometry->relocalize(guessAt(63)));
+  feed(*odometry, 63, 100);
+  EXPECT_GT(posesInMap(*odometry, before), 10U);
+  EXPECT_GT(odometry->map()->size(), points / 2);
+
+  const std::size_t at_end = odometry->track().poses().size();
+  far.position_std = -1.0;
+  EXPECT_THROW((void)odometry->relocalize(far), std::invalid_argument);
+  EXPECT_EQ(odometry->track().poses().size(), at_end);
+}
+
 }  // namespace
 }  // namespace fastlio

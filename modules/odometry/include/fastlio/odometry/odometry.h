@@ -36,6 +36,15 @@ struct InputStatistics
   std::int64_t newest_imu_ns = 0;      //!< stamp of the newest sample that is believed; 0: none
 };
 
+/** About where the platform is, by other knowledge than the run's. Roll and pitch of the pose do
+ * not count: they are known from gravity. */
+struct PoseGuess
+{
+  Pose T_world_imu;
+  double position_std = 0.0;  //!< of each coordinate [m]
+  double yaw_std = 0.0;       //!< [rad]
+};
+
 /** FAST-LIO: feed samples and scans in any interleaving, then drain next().
  *
  * A scan is processed once an IMU sample at or after its end has arrived; until then next() returns
@@ -55,6 +64,14 @@ class Odometry
    * stays as it is. Nothing is dropped from it for being far away. \exception std::invalid_argument
    * the map is empty \exception std::logic_error scans were processed before */
   void startIn(const SavedMap& map);
+
+  /** Searches the pose around a guess from the next scan on, whatever the run believed of it.
+   * Motion, gravity and biases stay known, and so does the map, unless another one is given. Scans
+   * are Diverged until the pose is found.
+   * \param other map to go on in, instead of the one in use; poses are in its world from then on
+   * \return false: the run has not started, its motion is not known well enough to go on with, or
+   * there is no map; nothing has changed then */
+  [[nodiscard]] bool relocalize(const PoseGuess& guess, const SavedMap* other = nullptr);
 
   /** Samples that are not finite, repeated, late or absurd are counted and dropped. A sample that
    * jumps (in value or time) waits for the next one, the first 0.2 s for the unit of the

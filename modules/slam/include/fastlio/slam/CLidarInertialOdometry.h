@@ -8,6 +8,7 @@
 #include <fastlio/config/config.h>
 #include <fastlio/config/config_document.h>
 #include <fastlio/interface/scan_result.h>
+#include <fastlio/localmap/saved_map.h>
 #include <fastlio/run/pose_track.h>
 
 #include <mrpt/containers/yaml.h>
@@ -29,6 +30,15 @@ struct OdometryEstimate
   /** Of the vehicle, to which the sensorPoses of the observations refer; nothing when the pose is
    * not to be trusted. */
   std::optional<TrackedPose> vehicle;
+};
+
+/** About where the vehicle is in a map. The pose is searched as far around as the standard
+ * deviations reach; gravity shows roll and pitch. */
+struct VehicleGuess
+{
+  Pose T_map_vehicle;
+  double position_std = InitializationOptions{}.pose_position_std;  //!< [m], 0 to 100
+  double yaw_std = InitializationOptions{}.pose_yaw_std;            //!< [rad], 0 to pi
 };
 
 /** LiDAR-inertial odometry behind the interface of MRPT's class registry:
@@ -72,6 +82,19 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
    * the defaults count. Data never throw: what cannot be used is logged. */
   void onNewObservation(const mrpt::obs::CObservation::ConstPtr& observation);
 
+  /** Goes on in another map. Poses and track() refer to it from now on; there are none until the
+   * vehicle is found in it. Sensors that are known stay so.
+   * \param map its T_map_imu does not count
+   * \exception std::invalid_argument the map is empty, or the guess is out of range; nothing has
+   * changed then */
+  void startIn(SavedMap map, const VehicleGuess& guess);
+
+  /** Searches the vehicle anew in the map in use, which stays. There are no poses until it is
+   * found.
+   * \return false: there is no map yet; nothing has changed
+   * \exception std::invalid_argument as startIn() */
+  bool relocalize(const VehicleGuess& guess);
+
   /** No more observations: also processes scans that reach beyond the inertial data. */
   void finish();
 
@@ -90,6 +113,10 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
 
   /** The points of the map that scans are matched with: a copy. */
   [[nodiscard]] mrpt::maps::CSimplePointsMap::Ptr map() const;
+
+  /** The map in use as it is, with its planes where it has some: for startIn(), there or in another
+   * run. A copy. */
+  [[nodiscard]] SavedMap savedMap() const;
 
   /** In use; with the preset of the LiDAR once it is known. */
   [[nodiscard]] const OdometryOptions& parameters() const;
