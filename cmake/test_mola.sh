@@ -47,7 +47,7 @@ done
 if [ ! -d "$sources/mp2p_icp" ]; then
   echo "mp2p_icp: no sources; its tools are not run"
 elif ! pkg-config --atleast-version=2.11.5 mrpt-core 2>/dev/null && [ "$(dpkg-query --show --showformat='${Version}' libmrpt-dev |
-    sed 's/^[0-9]*://; s/+.*//' | awk -F . '{ print ($1 * 1000 + $2) * 1000 + $3 >= 2011005 }')" != 1 ]; then
+    sed 's/^[0-9]*://; s/+.*//' | awk -F . '{ print (($1 * 1000 + $2) * 1000 + $3 >= 2011005) }')" != 1 ]; then
   echo "mp2p_icp: needs MRPT 2.11.5; its tools are not run"
 else
   package mp2p_icp "$sources/mp2p_icp"

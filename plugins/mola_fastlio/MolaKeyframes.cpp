@@ -3,8 +3,8 @@
 
 #include "MolaKeyframes.h"
 
-#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/obs/CObservationIMU.h>
@@ -43,7 +43,7 @@ std::optional<mola::SharedKeyframeMap::KeyframeInsertRequest> MolaKeyframes::tak
     if (!scan || std::abs(spanOf(*scan).end_ns - vehicle.stamp_ns) > kSameScanNs) continue;
     mola::SharedKeyframeMap::KeyframeInsertRequest request;
     request.timestamp = toMrptTime(vehicle.stamp_ns);
-    request.source_frame_id = "lidar_inertial_keyframes";
+    request.source_frame_id = frame_;
     request.pose_in_source = mrpt::poses::CPose3DPDFGaussian(
         toMrptPose(vehicle.T_world_body), mrptCovariance(vehicle.T_world_body, vehicle.covariance));
     // A frame wants pointers to observations that may change; nobody changes them here.

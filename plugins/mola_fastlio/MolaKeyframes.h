@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 
 #if __has_include(<mola_kernel/interfaces/SharedKeyframeMap.h>)
 #define FASTLIO_MOLA_HAS_KEYFRAME_MAP 1
@@ -28,6 +29,13 @@ class MolaKeyframes
   /** The vehicle has moved on from the keyframe before. */
   [[nodiscard]] bool isDue(const Pose& T_world_vehicle) const;
 
+  /** Poses are in another frame from now on: that of a map that was loaded (1, 2, ...). */
+  void beginFrame(std::size_t map)
+  {
+    latest_.reset();
+    frame_ = kFrame + std::string("_") + std::to_string(map);
+  }
+
 #if FASTLIO_MOLA_HAS_KEYFRAME_MAP
   /** The keyframe at this estimate, with the scan as it was recorded.
    * \param odometry that the estimate is of; tells which observation the scan is
@@ -37,6 +45,9 @@ class MolaKeyframes
 #endif
 
  private:
+  static constexpr const char* kFrame = "lidar_inertial_keyframes";
+
+  std::string frame_ = kFrame;
   std::deque<mrpt::obs::CObservation::ConstPtr> recent_;
   std::optional<Pose> latest_;  // of the vehicle, at the keyframe before
 };

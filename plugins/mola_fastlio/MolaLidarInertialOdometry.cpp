@@ -4,7 +4,6 @@
 #include "MolaLidarInertialOdometry.h"
 
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/files/gzip_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/pose_output.h>
@@ -12,9 +11,6 @@
 
 #include <mrpt/core/initializer.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/serialization/CArchive.h>
-
-#include <stdexcept>
 
 IMPLEMENTS_MRPT_OBJECT(MolaLidarInertialOdometry, mola::FrontEndBase, fastlio)
 
@@ -73,20 +69,19 @@ void MolaLidarInertialOdometry::onQuit()
   spinOnce();
   const std::lock_guard lock(odometry_mutex_);
   odometry_.finish();
-  writeTrajectory();
+  writeTrajectory(output_tum_path_);
 }
 
-void MolaLidarInertialOdometry::writeTrajectory()
+void MolaLidarInertialOdometry::writeTrajectory(const std::string& path)
 {
-  if (output_tum_path_.empty()) return;
+  if (path.empty()) return;
   std::string text;
   for (const TrackedPose& pose : odometry_.track().poses())
     text += secondsText(pose.stamp_ns) + " " + poseColumns(pose.T_world_body, ' ') + "\n";
   try
   {
-    writeFileAtomically(output_tum_path_, text);
-    MRPT_LOG_INFO_STREAM(
-        odometry_.track().poses().size() << " poses written to '" << output_tum_path_ << "'");
+    writeFileAtomically(path, text);
+    MRPT_LOG_INFO_STREAM(odometry_.track().poses().size() << " poses written to '" << path << "'");
   }
   catch (const std::exception& e)
   {
@@ -136,39 +131,6 @@ void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& estimate)
 void MolaLidarInertialOdometry::offerKeyframe(const OdometryEstimate& /*estimate*/)
 {
   // This MOLA has no mapper that takes keyframes.
-}
-#endif
-
-#if FASTLIO_MOLA_HAS_MAP_SERVER
-mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_save(const std::string& path)
-{
-  ReturnStatus status;
-  try
-  {
-    mrpt::maps::CSimplePointsMap::Ptr map;
-    {
-      const std::lock_guard lock(odometry_mutex_);
-      map = odometry_.map();
-    }
-    if (!map || map->empty()) throw std::runtime_error("there is no map yet");
-    GzipFile file(path + ".metricmap");
-    mrpt::serialization::archiveFrom(file) << *map;
-    file.commit();
-    status.success = true;
-  }
-  catch (const std::exception& e)
-  {
-    status.error_message = e.what();
-    MRPT_LOG_ERROR_STREAM("the map is not saved: " << e.what());
-  }
-  return status;
-}
-
-mola::MapServer::ReturnStatus MolaLidarInertialOdometry::map_load(const std::string& /*path*/)
-{
-  ReturnStatus status;
-  status.error_message = "the odometry does not change its map while it runs";
-  return status;
 }
 #endif
 

@@ -20,6 +20,7 @@
 #define FASTLIO_TEST_NEWER 1
 #include <mola_kernel/interfaces/DiagnosticsProvider.h>
 #include <mola_kernel/interfaces/MapServer.h>
+#include <mola_kernel/interfaces/Relocalization.h>
 #include <mola_kernel/interfaces/SharedKeyframeMap.h>
 using KeyframeSink = mola::SharedKeyframeMap;
 #else
@@ -32,7 +33,8 @@ struct KeyframeSink
 namespace fastlio_test
 {
 /** Parameters: `output`, a file with a line per pose and per map; `stop_after`, poses after which
- * the system is asked to end (0: when none has come for three seconds). */
+ * the system is asked to end (0: when none has come for three seconds); `load`, a map that the
+ * odometry goes on in after 50 poses. */
 class MolaListener : public mola::ExecutableBase, public KeyframeSink
 {
   DEFINE_MRPT_OBJECT(MolaListener, fastlio_test)
@@ -46,6 +48,7 @@ class MolaListener : public mola::ExecutableBase, public KeyframeSink
     output_ = params["output"].as<std::string>();
     out_.open(output_);
     stop_after_ = params.getOrDefault<std::size_t>("stop_after", 0);
+    load_ = params.getOrDefault<std::string>("load", "");
     for (const auto& source : findService<mola::LocalizationSourceBase>())
       std::dynamic_pointer_cast<mola::LocalizationSourceBase>(source)
           ->subscribeToLocalizationUpdates([this](const auto& update) { note(update); });
@@ -56,6 +59,7 @@ class MolaListener : public mola::ExecutableBase, public KeyframeSink
 
   void spinOnce() override
   {
+    loadOnce();
     if (!isOver()) return;
     askForMore();
     requestShutdown();
@@ -109,10 +113,40 @@ class MolaListener : public mola::ExecutableBase, public KeyframeSink
     {
       const auto server = std::dynamic_pointer_cast<mola::MapServer>(module);
       out_ << "saved " << server->map_save(output_).success << ' '
-           << server->map_save("/nowhere/map").success << ' ' << server->map_load(output_).success
-           << '\n';
+           << server->map_save("/nowhere/map").success << '\n';
     }
     out_ << std::flush;
+#endif
+  }
+
+  // As somebody does who loads a map and clicks at the vehicle in it.
+  void loadOnce()
+  {
+#if FASTLIO_TEST_NEWER
+    constexpr std::size_t kPoses = 50;
+    mrpt::poses::CPose3DPDFGaussian near;
+    {
+      const std::lock_guard lock(mutex_);
+      if (load_.empty() || poses_ < kPoses) return;
+      near.mean = mrpt::poses::CPose3D(latest_pose_);
+    }
+    near.cov.setDiagonal(6, 0.25);
+    near.cov(3, 3) = 0.01;
+    for (const auto& module : findService<mola::MapServer>())
+    {
+      const auto server = std::dynamic_pointer_cast<mola::MapServer>(module);
+      const bool nonsense = server->map_load("/nowhere/map").success;
+      const bool loaded = server->map_load(load_).success;
+      const std::lock_guard lock(mutex_);
+      out_ << "loaded " << loaded << ' ' << nonsense << '\n' << std::flush;
+    }
+    for (const auto& module : findService<mola::Relocalization>())
+    {
+      const auto finder = std::dynamic_pointer_cast<mola::Relocalization>(module);
+      finder->relocalize_near_pose_pdf(near);
+      finder->relocalize_from_gnss();
+    }
+    load_.clear();
 #endif
   }
 
@@ -121,6 +155,7 @@ class MolaListener : public mola::ExecutableBase, public KeyframeSink
     const std::lock_guard lock(mutex_);
     ++poses_;
     latest_ = std::chrono::steady_clock::now();
+    latest_pose_ = update.pose;
     char line[200];
     std::snprintf(
         line, sizeof line, "pose %.6f %.6f %.6f %.6f %s %.3g\n",
@@ -136,11 +171,12 @@ class MolaListener : public mola::ExecutableBase, public KeyframeSink
     out_ << "map " << (points ? points->size() : 0) << '\n' << std::flush;
   }
 
-  std::string output_;
+  std::string output_, load_;
   std::ofstream out_;
   std::mutex mutex_;
   std::size_t poses_ = 0, stop_after_ = 0, keyframes_ = 0;
   std::chrono::steady_clock::time_point latest_;
+  mrpt::math::TPose3D latest_pose_;
 };
 }  // namespace fastlio_test
 

@@ -15,7 +15,7 @@ fail() { echo "FAILED: $1"; tail -n 30 mola.log; exit 1; }
 mv simulated/recording.rawlog walk.rawlog
 "$programs/fastlio-replay" walk.rawlog -o replay --set map.voxel_size=0.3 --export trajectory,simplemap --quiet
 
-# launch NAME STOP_AFTER
+# launch NAME STOP_AFTER [LOAD]
 launch() {
   cat >"$1.yaml" <<END
 modules:
@@ -43,6 +43,7 @@ modules:
     params:
       output: '$PWD/$1.txt'
       stop_after: $2
+      load: '${3:-}'
 END
   MOLA_MODULES_LIB_PATH=$modules:$prefix/lib LD_LIBRARY_PATH=$prefix/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} \
     timeout --signal=INT 120 "$prefix/bin/mola-cli" "$1.yaml" >mola.log 2>&1 || fail "mola-cli ended with $?"
@@ -75,10 +76,23 @@ if [ -n "${newer:-}" ]; then
   awk '$1 == "keyframe" { ++n; if ($6 != 1 || $7 <= 0.5 || $8 < 0.09 || $8 > 0.11 || $9 != "lidar_inertial_keyframes") bad = 1 }
     END { exit bad || n < 5 }' newer.txt || fail 'keyframes do not arrive, or are others'
   grep -q '^diagnostic 0 6 tracking$' newer.txt || fail 'the health is not told'
-  grep -q '^saved 1 0 0$' newer.txt || fail 'the map is not saved, or nonsense is not refused'
+  grep -q '^saved 1 0$' newer.txt || fail 'the map is not saved, or nonsense is not refused'
   "$programs/fastlio-replay" walk.rawlog -o again --set map.voxel_size=0.3 --map-in newer.txt.metricmap --export trajectory --quiet ||
     fail 'the saved map is not one to start in'
-  echo "newer interfaces: $(grep -c '^keyframe' newer.txt) keyframes, health, map"
+
+  # A map is loaded in the middle, and the vehicle is pointed at: another trajectory begins, at the same places.
+  launch loaded 0 "$PWD/newer.txt"
+  grep -q '^loaded 1 0$' loaded.txt || fail 'the map is not loaded, or nonsense is not refused'
+  grep -q 'does not use GNSS' mola.log || fail 'that GNSS does not help is not logged'
+  before=$(wc -l <loaded_1.tum)
+  [ "$before" -ge 50 ] || fail 'the poses before the map are lost'
+  cmp loaded_1.tum <(head -n "$before" replay/trajectory.tum) || fail 'a map that is loaded changes what came before'
+  [ "$((before + $(wc -l <loaded.tum)))" -eq "$(grep -c '^pose' loaded.txt)" ] || fail 'poses in the map were not advertised'
+  awk 'NR == FNR { x[$1] = $2; y[$1] = $3; z[$1] = $4; next }
+    { d = ($2 - x[$1]) ^ 2 + ($3 - y[$1]) ^ 2 + ($4 - z[$1]) ^ 2; if (!($1 in x) || d > 0.1 ^ 2) bad = 1 }
+    END { exit bad || FNR < 15 }' replay/trajectory.tum loaded.tum || fail 'the vehicle is not found in the map, or elsewhere'
+  grep -q '^keyframe .* lidar_inertial_keyframes_1$' loaded.txt || fail 'keyframes do not go on in the map'
+  echo "newer interfaces: $(grep -c '^keyframe' newer.txt) keyframes, health, map saved and loaded, vehicle found in it"
 fi
 
 # The tools of mp2p_icp, where they are (MRPT 2.11.5 and newer).
