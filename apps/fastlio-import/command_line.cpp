@@ -5,7 +5,7 @@
 
 #include "../shared/unknown_option.h"
 #include "mcap_output.h"
-#include <fastlio/recordings/recording_reader.h>
+#include <fastlio/formats/recording_formats.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>

@@ -8,10 +8,10 @@
 #include "topic_list.h"
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/printable.h>
-#include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 

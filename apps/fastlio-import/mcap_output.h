@@ -6,7 +6,7 @@
 
 #include "rawlog_parts.h"
 #include "run_results.h"
-#include <fastlio/recordings/mcap_writer.h>
+#include <fastlio/bags/mcap_writer.h>
 
 #include <cstddef>
 #include <string>

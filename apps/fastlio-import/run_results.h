@@ -4,8 +4,8 @@
 /** \file run_results.h What a run has found, out of the files of its folder. */
 #pragma once
 
+#include <fastlio/bags/mcap_writer.h>
 #include <fastlio/evaluation/trajectory.h>
-#include <fastlio/recordings/mcap_writer.h>
 
 #include <cstdint>
 #include <string>

@@ -3,6 +3,7 @@
 
 #include "topic_list.h"
 
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/survey/sensor_selection.h>

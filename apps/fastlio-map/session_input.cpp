@@ -7,7 +7,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/recordings/recording_reader.h>
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/survey/recording_parts.h>
 
 #include <algorithm>

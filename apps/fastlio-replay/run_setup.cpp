@@ -10,11 +10,11 @@
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/rawlog/saved_map_file.h>
-#include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 

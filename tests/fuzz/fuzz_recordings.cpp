@@ -5,8 +5,9 @@
 
 #include "cloud_files.h"
 #include "fuzz_targets.h"
-#include "ouster_metadata.h"
-#include "ros_types.h"
+#include <fastlio/formats/recording_formats.h>
+#include <fastlio/messages/ros_types.h>
+#include <fastlio/packets/ouster_metadata.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 

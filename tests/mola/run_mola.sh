@@ -88,9 +88,11 @@ if [ -n "${newer:-}" ]; then
   [ "$before" -ge 50 ] || fail 'the poses before the map are lost'
   cmp loaded_1.tum <(head -n "$before" replay/trajectory.tum) || fail 'a map that is loaded changes what came before'
   [ "$((before + $(wc -l <loaded.tum)))" -eq "$(grep -c '^pose' loaded.txt)" ] || fail 'poses in the map were not advertised'
-  awk 'NR == FNR { x[$1] = $2; y[$1] = $3; z[$1] = $4; next }
-    { d = ($2 - x[$1]) ^ 2 + ($3 - y[$1]) ^ 2 + ($4 - z[$1]) ^ 2; if (!($1 in x) || d > 0.1 ^ 2) bad = 1 }
-    END { exit bad || FNR < 15 }' replay/trajectory.tum loaded.tum || fail 'the vehicle is not found in the map, or elsewhere'
+  # The offset of the clocks, which is estimated anew, moves the stamps by some microseconds.
+  [ "$(wc -l <loaded.tum)" -ge 15 ] || fail 'the vehicle is not found in the map'
+  paste -d ' ' loaded.tum <(tail -n "$(wc -l <loaded.tum)" replay/trajectory.tum) | awk '
+    { d = ($2 - $10) ^ 2 + ($3 - $11) ^ 2 + ($4 - $12) ^ 2; t = ($1 - $9) ^ 2; if (t > 0.001 ^ 2 || d > 0.05 ^ 2) bad = 1 }
+    END { exit bad }' || fail 'the vehicle is found elsewhere in the map'
   grep -q '^keyframe .* lidar_inertial_keyframes_1$' loaded.txt || fail 'keyframes do not go on in the map'
   echo "newer interfaces: $(grep -c '^keyframe' newer.txt) keyframes, health, map saved and loaded, vehicle found in it"
 fi

@@ -5,7 +5,7 @@
 
 #include "import_fixture.h"
 #include "mcap_file.h"
-#include "ros_messages.h"
+#include <fastlio/messages/ros_messages.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
 #include <mrpt/obs/CObservationPointCloud.h>

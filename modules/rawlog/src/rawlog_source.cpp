@@ -5,6 +5,7 @@
 #include "object_reader.h"
 #include "time_sorter.h"
 #include <fastlio/compat/register_classes.h>
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/time.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/recordings/recording_reader.h>

@@ -1,9 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "byte_source.h"
-
 #include <fastlio/files/input_file.h>
+#include <fastlio/recordings/byte_source.h>
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud_builder.h"
-
 #include <fastlio/compat/CGenericPointsMap.h>
+#include <fastlio/recordings/cloud_builder.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <algorithm>

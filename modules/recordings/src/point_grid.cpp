@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "point_grid.h"
+#include <fastlio/recordings/point_grid.h>
 
 #include <algorithm>
 #include <array>

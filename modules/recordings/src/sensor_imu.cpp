@@ -1,8 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "sensor_imu.h"
-
+#include <fastlio/recordings/sensor_imu.h>
 #include <fastlio/sensors/conversions.h>
 
 namespace fastlio

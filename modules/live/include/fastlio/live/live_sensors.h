@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/live/arrival_clock.h>
-#include <fastlio/recordings/packet_streams.h>
+#include <fastlio/packets/packet_streams.h>
 
 #include <cstddef>
 #include <cstdint>

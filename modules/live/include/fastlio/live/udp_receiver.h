@@ -4,7 +4,7 @@
 /** \file udp_receiver.h Packets from the network. */
 #pragma once
 
-#include <fastlio/recordings/packet_streams.h>
+#include <fastlio/packets/packet_streams.h>
 
 #include <chrono>
 #include <cstdint>

@@ -1,8 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file recording_reader.h Recordings of other makers: one reader per format, and the table of
- * them. */
+/** \file recording_reader.h Recordings of other makers: one reader per format. */
 #pragma once
 
 #include <fastlio/recordings/read_problem.h>
@@ -11,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <variant>
@@ -35,6 +35,9 @@ struct TopicReport
   std::size_t taken = 0;     //!< of these became observations
   std::string reason;        //!< what the topic is taken as, or why it is not
 };
+
+/** Observations that are complete, in their order. */
+using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
 
 /** Observations out of one recording, in the order of the file.
  *
@@ -62,7 +65,7 @@ class RecordingReader
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
 };
 
-/** A row of the table of formats. */
+/** A row of the table of formats, recordingFormats(). */
 struct RecordingFormat
 {
   const char* name;     //!< "rosbag1"
@@ -73,12 +76,6 @@ struct RecordingFormat
   /** \exception std::runtime_error it cannot be opened */
   std::unique_ptr<RecordingReader> (*open)(const std::string& path);
 };
-
-/** All formats but rawlogs. */
-[[nodiscard]] const std::vector<RecordingFormat>& recordingFormats();
-
-/** The format of a file or folder; null: none of the table. */
-[[nodiscard]] const RecordingFormat* recordingFormatOf(const std::string& path);
 
 /** The size of a file, or of the files below a folder [bytes]; zero where there is none. */
 [[nodiscard]] std::uint64_t recordingBytes(const std::string& path);

@@ -1,0 +1,246 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "folder_recording.h"
+
+#include "stamp_text.h"
+#include <fastlio/options/number_text.h>
+#include <fastlio/recordings/byte_source.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+
+namespace fastlio
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool isThere(const std::string& path)
+{
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/** A file for each stamp. */
+std::vector<TimedFile> timed(
+    const std::vector<std::string>& files, const std::vector<std::int64_t>& stamps,
+    const std::string& times)
+{
+  if (files.size() != stamps.size())
+    throw std::runtime_error(
+        "has " + std::to_string(files.size()) + " clouds or samples, but '" + times + "' has " +
+        std::to_string(stamps.size()) + " times");
+  std::vector<TimedFile> timed_files;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    timed_files.push_back({stamps[i], files[i]});
+  std::stable_sort(
+      timed_files.begin(), timed_files.end(),
+      [](const TimedFile& a, const TimedFile& b) { return a.stamp_ns < b.stamp_ns; });
+  return timed_files;
+}
+
+// KITTI leaves out files of lost frames and keeps their times: the name of a file is its number.
+std::vector<TimedFile> timedByNumber(
+    const std::vector<std::string>& files, const std::vector<std::int64_t>& stamps)
+{
+  std::vector<TimedFile> timed_files;
+  for (const std::string& file : files)
+  {
+    const auto number = parsed<std::size_t>(fs::path(file).stem().string());
+    if (!number || *number >= stamps.size())
+      throw std::runtime_error("has no time for '" + file + "'");
+    timed_files.push_back({stamps[*number], file});
+  }
+  return timed_files;
+}
+
+/** "R: nine numbers" and "T: three numbers" of KITTI's calibration. */
+std::optional<Pose> kittiPose(const std::string& path)
+{
+  constexpr std::size_t kLargest = 65536;
+  const std::string text = headOf(path, kLargest);
+  const auto numbersBehind = [&](const std::string& name, std::size_t count)
+  {
+    std::vector<double> numbers;
+    std::size_t at = text.find(name);
+    if (at == std::string::npos) return numbers;
+    for (at += name.size(); numbers.size() < count;)
+    {
+      at = text.find_first_not_of(" \t", at);
+      if (at == std::string::npos) break;
+      const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+      const auto number = parsed<double>(std::string_view(text).substr(at, end - at));
+      if (!number) break;
+      numbers.push_back(*number);
+      at = end;
+    }
+    return numbers;
+  };
+  const auto R = numbersBehind("R:", 9), p = numbersBehind("T:", 3);
+  if (R.size() != 9 || p.size() != 3) return std::nullopt;
+  Pose pose;
+  for (int i = 0; i < 9; ++i)
+    pose.R(i / 3, i % 3) = R[static_cast<std::size_t>(i)];
+  pose.p = Vec3(p[0], p[1], p[2]);
+  if (!(pose.R * pose.R.transpose()).isIdentity(1e-3)) return std::nullopt;
+  return pose;
+}
+
+const std::string kWithoutTimes =
+    "LiDAR, clouds without times of their points (docs/inputs.md explains how to make them)";
+
+/** Where a folder keeps its clouds. */
+std::string cloudsOf(const std::string& path)
+{
+  constexpr std::array<const char*, 9> kNames{"clouds", "scans",    "pcd", "pcds",  "lidar",
+                                              "points", "velodyne", "bin", "frames"};
+  if (!filesIn(path, {".pcd", ".bin"}).empty()) return path;
+  for (const char* name : kNames)
+    if (!filesIn(path + "/" + name, {".pcd", ".bin"}).empty()) return path + "/" + name;
+  return "";
+}
+
+std::string tableOf(const std::string& path)
+{
+  for (const char* name : {"imu.csv", "imu.txt", "IMU.csv", "imu/imu.csv", "imu0/data.csv"})
+    if (isThere(path + "/" + name)) return path + "/" + name;
+  return "";
+}
+
+/** The file with a time for each cloud, if there is one. */
+std::string timesOf(const std::string& path, const std::string& clouds)
+{
+  for (const std::string& folder : {clouds, path})
+    for (const char* name :
+         {"times.txt", "timestamps.txt", "timestamp.txt", "stamps.txt", "times.csv"})
+      if (isThere(folder + "/" + name)) return folder + "/" + name;
+  return "";
+}
+
+std::vector<std::int64_t> stampsOfNames(const std::vector<std::string>& files)
+{
+  std::vector<std::int64_t> stamps;
+  for (const std::string& file : files)
+    if (const auto stamp = stampOf(fs::path(file).stem().string())) stamps.push_back(*stamp);
+  return stamps;
+}
+}  // namespace
+
+NextRecorded FolderRecording::next()
+{
+  TimedStream* first = nullptr;
+  for (const auto& stream : streams_)
+    if (stream->stamp() && (first == nullptr || *stream->stamp() < *first->stamp()))
+      first = stream.get();
+  if (first == nullptr) return EndOfRecording{};
+  return first->take();
+}
+
+std::uint64_t FolderRecording::position() const
+{
+  std::uint64_t bytes = 0;
+  for (const auto& stream : streams_)
+    bytes += stream->bytes();
+  return bytes;
+}
+
+std::vector<TopicReport> FolderRecording::topics() const
+{
+  std::vector<TopicReport> reports;
+  for (const auto& stream : streams_)
+    reports.push_back(stream->report());
+  return reports;
+}
+
+bool isKittiDrive(const std::string& path)
+{
+  return isThere(path + "/velodyne_points/data") &&
+         isThere(path + "/velodyne_points/timestamps.txt");
+}
+
+std::unique_ptr<RecordingReader> openKittiDrive(const std::string& path)
+{
+  const std::string velodyne = path + "/velodyne_points", oxts = path + "/oxts";
+  std::vector<std::string> notes;
+  // The calibration lies with the date, above its drives; the unit's frame is the vehicle's.
+  std::optional<Pose> T_imu_velodyne;
+  for (const std::string& folder : {path, path + "/.."})
+    if (const auto T_velodyne_imu = kittiPose(folder + "/calib_imu_to_velo.txt"))
+      T_imu_velodyne = T_velodyne_imu->inverse();
+  notes.emplace_back(
+      T_imu_velodyne ? "The pose of the LiDAR is that of calib_imu_to_velo.txt."
+                     : "There is no calib_imu_to_velo.txt: the pose of the LiDAR is not known.");
+  std::vector<std::unique_ptr<TimedStream>> streams;
+  streams.push_back(std::make_unique<CloudStream>(
+      "velodyne",
+      timedByNumber(
+          filesIn(velodyne + "/data", {".bin"}), stampsOfFile(velodyne + "/timestamps.txt")),
+      kWithoutTimes, T_imu_velodyne));
+  if (isThere(oxts + "/data"))
+    streams.push_back(std::make_unique<OxtsStream>(
+        timedByNumber(filesIn(oxts + "/data", {".txt"}), stampsOfFile(oxts + "/timestamps.txt"))));
+  return std::make_unique<FolderRecording>(std::move(streams), std::move(notes));
+}
+
+bool isKittiSequence(const std::string& path)
+{
+  return isThere(path + "/times.txt") && !filesIn(path + "/velodyne", {".bin"}).empty() &&
+         tableOf(path).empty();
+}
+
+std::unique_ptr<RecordingReader> openKittiSequence(const std::string& path)
+{
+  std::vector<std::unique_ptr<TimedStream>> streams;
+  streams.push_back(std::make_unique<CloudStream>(
+      "velodyne",
+      timedByNumber(filesIn(path + "/velodyne", {".bin"}), stampsOfFile(path + "/times.txt")),
+      "LiDAR, clouds that are motion compensated"));
+  return std::make_unique<FolderRecording>(
+      std::move(streams), std::vector<std::string>{"The benchmark has no inertial data."});
+}
+
+bool isCloudFolder(const std::string& path)
+{
+  const std::string clouds = cloudsOf(path);
+  if (clouds.empty()) return false;
+  const auto files = filesIn(clouds, {".pcd", ".bin"});
+  return !timesOf(path, clouds).empty() || stampsOfNames(files).size() == files.size();
+}
+
+std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)
+{
+  const std::string clouds = cloudsOf(path), times = timesOf(path, clouds), table = tableOf(path);
+  const auto files = filesIn(clouds, {".pcd", ".bin"});
+  std::vector<std::unique_ptr<TimedStream>> streams;
+  streams.push_back(std::make_unique<CloudStream>(
+      "lidar", timed(files, times.empty() ? stampsOfNames(files) : stampsOfFile(times), times),
+      "LiDAR; stamps from " + (times.empty() ? "the names of the files" : "'" + times + "'")));
+  if (!table.empty()) streams.push_back(std::make_unique<ImuTable>(table));
+  return std::make_unique<FolderRecording>(std::move(streams), std::vector<std::string>{});
+}
+
+// The extension is asked for, too: trajectories are tables of numbers as well.
+bool isImuTable(const std::string& path)
+{
+  if (fs::path(path).extension() != ".csv" || headOf(path, 1).empty()) return false;
+  try
+  {
+    return ImuTable(path).stamp().has_value();
+  }
+  catch (const std::runtime_error&)
+  {
+    return false;
+  }
+}
+
+std::unique_ptr<RecordingReader> openImuTable(const std::string& path)
+{
+  std::vector<std::unique_ptr<TimedStream>> streams;
+  streams.push_back(std::make_unique<ImuTable>(path));
+  return std::make_unique<FolderRecording>(std::move(streams), std::vector<std::string>{});
+}
+
+}  // namespace fastlio

@@ -1,0 +1,68 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// KITTI's files of the inertial and GNSS unit (dataformat.txt of the raw data).
+
+#include "timed_stream.h"
+#include <fastlio/options/number_text.h>
+#include <fastlio/recordings/byte_source.h>
+#include <fastlio/recordings/sensor_imu.h>
+
+#include <array>
+
+namespace fastlio
+{
+namespace
+{
+constexpr std::size_t kOxtsValues = 30, kAccelerationAt = 11, kRateAt = 17;
+constexpr std::size_t kLongestOxts = 4096;
+
+std::optional<std::array<double, kOxtsValues>> oxtsOf(const std::string& path)
+{
+  const std::string text = headOf(path, kLongestOxts);
+  std::array<double, kOxtsValues> values{};
+  std::size_t at = 0;
+  for (double& value : values)
+  {
+    at = text.find_first_not_of(" \t\r\n", at);
+    if (at == std::string::npos) return std::nullopt;
+    const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+    const auto number = parsed<double>(std::string_view(text).substr(at, end - at));
+    if (!number) return std::nullopt;
+    value = *number;
+    at = end;
+  }
+  return values;
+}
+}  // namespace
+
+std::optional<std::int64_t> OxtsStream::stamp() const
+{
+  if (next_ == files_.size()) return std::nullopt;
+  return files_[next_].stamp_ns;
+}
+
+NextRecorded OxtsStream::take()
+{
+  const TimedFile& file = files_[next_++];
+  bytes_ += recordingBytes(file.path);
+  const auto values = oxtsOf(file.path);
+  if (!values)
+    return ReadProblem{
+        file.path, 0,
+        0,         ReadProblemKind::Corrupt,
+        "",        file.path + ": the file does not hold the 30 numbers of an OXTS sample.",
+        1};
+  ++taken_;
+  const auto vectorAt = [&](std::size_t at)
+  { return Vec3(values->at(at), values->at(at + 1), values->at(at + 2)); };
+  return mrpt::obs::CObservation::Ptr(
+      makeImu("oxts", file.stamp_ns, vectorAt(kRateAt), vectorAt(kAccelerationAt)));
+}
+
+TopicReport OxtsStream::report() const
+{
+  return {"oxts", "OXTS", next_, taken_, "IMU"};
+}
+
+}  // namespace fastlio

@@ -1,0 +1,46 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file ros_types.h The types of messages that become observations. */
+#pragma once
+
+#include <fastlio/messages/ros_messages.h>
+
+#include <string>
+
+namespace fastlio
+{
+/** The use of a message. */
+enum class RosRole
+{
+  Observation,
+  Transforms,     //!< where frames are
+  Text,           //!< metadata, perhaps
+  OusterPackets,  //!< a part of a scan, or an inertial sample
+  FixedPackets,   //!< packets that tell their sensor, PacketMessage::Fixed
+  VariedPackets,  //!< PacketMessage::Varied
+  SinglePackets,  //!< PacketMessage::Single
+};
+
+/** A row: a type and what is made of it. */
+struct RosType
+{
+  const char* type;     //!< in the form of ROS 1: "sensor_msgs/Imu"
+  const char* meaning;  //!< for people
+  RosObservation (*read)(WireReader&, const std::string& label) =
+      nullptr;  //!< null: it is not read
+  RosRole role = RosRole::Observation;
+
+  /** Its messages become observations. */
+  [[nodiscard]] bool isTaken() const
+  {
+    return read != nullptr ||
+           (role != RosRole::Observation && role != RosRole::Transforms && role != RosRole::Text);
+  }
+};
+
+/** The row of a type, in the form of ROS 1 ("sensor_msgs/Imu"), of ROS 2 ("sensor_msgs/msg/Imu") or
+ * of DDS ("sensor_msgs::msg::dds_::Imu_"). */
+[[nodiscard]] const RosType& rosTypeOf(const std::string& type);
+
+}  // namespace fastlio

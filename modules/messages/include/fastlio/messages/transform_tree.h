@@ -1,0 +1,60 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file transform_tree.h Where the frames of a recording are fixed to each other. */
+#pragma once
+
+#include <fastlio/messages/ros_messages.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace fastlio
+{
+/** Frames more than any vehicle has; further ones are left out. */
+inline constexpr std::size_t kMostFrames = 10000;
+
+/** The fixed transforms: all of tf_static; of tf those that never change. */
+class TransformTree
+{
+ public:
+  void addFixed(const RosTransform& transform);
+
+  /** Of tf: kept as long as it repeats itself. */
+  void addMoving(const RosTransform& transform);
+
+  /** The frame that poses of sensors refer to: base_link or another usual name, otherwise the one
+   * at the top of \a frame; nothing where nothing is known of the frame. */
+  [[nodiscard]] std::optional<std::string> vehicleFrameOf(const std::string& frame) const;
+
+  /** It is connected by tf_static to base_link, which goes before other names of the vehicle. */
+  [[nodiscard]] bool isFixedToVehicle(const std::string& frame) const;
+
+  /** Pose of \a frame in \a vehicle; nothing where they are not connected. */
+  [[nodiscard]] std::optional<Pose> poseOf(
+      const std::string& frame, const std::string& vehicle) const;
+
+ private:
+  struct Edge
+  {
+    std::string parent;
+    Pose T_parent_child;
+    bool fixed = false;  // of tf_static
+    bool moved = false;  // tf has said two different things
+    std::size_t seen = 0;
+  };
+  struct Top
+  {
+    std::string frame;
+    Pose T_top_frame;
+  };
+
+  void add(const RosTransform& transform, bool fixed);
+  [[nodiscard]] const Edge* edgeOf(const std::string& child) const;
+  [[nodiscard]] Top climb(const std::string& frame, const std::string& until) const;
+
+  std::map<std::string, Edge> edges_;  // by child
+};
+
+}  // namespace fastlio
