@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "checksum.h"
 #include <fastlio/files/input_file.h>
 #include <fastlio/recordings/byte_source.h>
 
@@ -9,7 +10,6 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
-#include <zlib.h>
 
 namespace fastlio
 {
@@ -117,7 +117,7 @@ std::size_t StretchBytes::read(std::uint8_t* data, std::size_t size)
     const std::size_t got = file_.read(data, wanted);
     left_ -= got;
     truncated_ |= got < wanted;
-    if (with_checksum_) checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, got));
+    if (with_checksum_) checksum_ = crc32With(checksum_, data, got);
     return got;
   }
   std::size_t done = takeReady(data, size);
@@ -134,7 +134,7 @@ std::size_t StretchBytes::read(std::uint8_t* data, std::size_t size)
     else
       done += inflate(data + done, size - done);
   }
-  if (with_checksum_) checksum_ = static_cast<std::uint32_t>(crc32_z(checksum_, data, done));
+  if (with_checksum_) checksum_ = crc32With(checksum_, data, done);
   return done;
 }
 

@@ -210,6 +210,15 @@ TEST(CLidarInertialOdometry, AMapMayBeLoadedBeforeTheSensorsAreKnown)
   EXPECT_GT(odometry->map()->size(), undisturbed().map()->size() / 2);
 }
 
+TEST(CLidarInertialOdometry, AMapOfPlanesIsPointsForARunThatTakesNoPlanes)
+{
+  Config config = matchingConfig(walk().settings());
+  config.odometry.map.type = MapType::Knn;
+  const auto odometry = following(config);
+  odometry->startIn(undisturbed().savedMap(), {});
+  EXPECT_GT(odometry->map()->size(), undisturbed().map()->size() / 4);
+}
+
 // A guess that is far off, and believed to be near: no pose is better than a wrong one.
 TEST(CLidarInertialOdometry, IsRelocalizedWhereItIsAndNowhereElse)
 {

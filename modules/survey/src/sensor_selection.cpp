@@ -62,7 +62,9 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
     return std::string("No ") + nameOf(kind) + " found in the recording. " +
            (kind == SensorKind::Imu
                 ? "Odometry needs a CObservationIMU with acceleration and angular rate."
-                : "Odometry needs CObservationVelodyneScan or CObservationPointCloud.");
+                : "Odometry needs CObservationVelodyneScan or CObservationPointCloud.") +
+           " Where it was recorded in another file, make one of both: fastlio-import --merge LIDAR "
+           "IMU -o BOTH.rawlog";
   if (!pattern.empty())
     return std::string("No usable ") + nameOf(kind) + " has a label that matches '" +
            fastlio::printable(pattern) + "'. Give another " + flagOf(kind) + ".";

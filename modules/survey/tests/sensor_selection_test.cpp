@@ -77,6 +77,7 @@ TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
 {
   EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "No IMU found in the recording"));
   EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "found: label 'lidar'"));
+  EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "fastlio-import --merge"));
   EXPECT_TRUE(contains(errorOf({imuAt(0)}), "No LiDAR found in the recording"));
   const std::string no_match = errorOf(recording(2), {"roof", ""});
   EXPECT_TRUE(contains(no_match, "matches 'roof'")) << no_match;
