@@ -5,6 +5,7 @@
 #pragma once
 
 #include "estimator_mode.h"
+#include "place_ambiguity.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
 #include <fastlio/errormodel/beam_errors.h>
@@ -142,6 +143,7 @@ class Estimator
   RestDetector rest_;
   CalibrationEvidence calibration_;
   BeamErrors beams_;
+  PlaceAmbiguity ambiguity_;
   MotionAgreement agreement_;
   ScanClassifier classifier_;
   Mode mode_;
