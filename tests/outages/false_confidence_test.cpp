@@ -38,16 +38,18 @@ TEST_P(Tunnel, ThePositionAlongItIsNeverSurerThanItIsRight)
   if (GetParam().realistic) settings = realistic(settings);
   const SimulatedRun run = runOdometry(Simulation(settings), matchingParameters(settings));
   EXPECT_EQ(confidentlyWrong(run), 0);
-  const ScanResult& last = run.scans.back().result;
-  EXPECT_EQ(last.health.cause, HealthCause::DegenerateDirection);
-  EXPECT_LT(last.health.value, 0.5)
-      << "the position is uncertain by " << positionStd(run.scans.back()) << " m";
+  std::size_t open = 0;
+  double last_health = 1.0;
   for (const JudgedScan& scan : run.scans)
   {
-    if (scan.result.health.value >= 0.5) continue;
-    EXPECT_EQ(scan.result.health.cause, HealthCause::DegenerateDirection)
-        << scan.result.health.reason;
+    const ScanResult& result = scan.result;
+    if (result.statistics.constraints.unconstrained == 0) continue;
+    ++open;
+    EXPECT_EQ(result.health.cause, HealthCause::DegenerateDirection) << result.health.reason;
+    last_health = result.health.value;
   }
+  EXPECT_GT(open, 9 * run.scans.size() / 10);
+  EXPECT_LT(last_health, 0.5);
 }
 
 // The second one is of lasers with offsets: all normals of a wall are off together.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "simulated_run.h"
+#include <fastlio/run/run_health.h>
 #include <fastlio/scenarios/scenario.h>
 
 #include <cmath>
@@ -40,6 +41,15 @@ inline int confidentlyWrong(const SimulatedRun& run)
     if (error > 0.3 && error > 5.0 * positionStd(scan)) ++wrong;
   }
   return wrong;
+}
+
+/** As fastlio-replay names it: no scan is lost at the end, no stretch cannot be trusted. */
+inline bool endsOk(const SimulatedRun& run)
+{
+  RunHealth health;
+  for (const JudgedScan& scan : run.scans)
+    health.add(scan.result);
+  return countOf(run, ScanStatus::Diverged) == 0 && health.untrusted().empty();
 }
 
 }  // namespace fastlio::testing

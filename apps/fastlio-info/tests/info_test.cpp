@@ -186,6 +186,8 @@ TEST_F(Info, GapsAreFound)
       EXPECT_NEAR(sensor["longest_interval_s"], 0.2, 0.02);
     }
   expectInTable("gaps, the longest of 0.2");
+  jsonOf(record("rest", {{"duration", "8"}, {"imu.gap_interval", "4"}, {"imu.gap_length", "0.2"}}));
+  expectInTable("1 gap of 0.2");
 }
 
 TEST_F(Info, RealRecordingsOfTheFolder)

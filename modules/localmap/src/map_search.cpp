@@ -178,6 +178,7 @@ MapSearchResult MapSearch::around(
           scan_, correctedByPose(turned, found, unconstrainedMotions(latest.constraints)),
           map_.matched(), ordinary);
     poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_);
+    if (attitudes.size() > 1) poses.searched_heading_variance = std::pow(headingStd(predicted), 2);
     if (poses.accepted) return {std::move(latest), true, poses};
   }
   // The matches that are handed over are those of the whole scan, not of the sample.

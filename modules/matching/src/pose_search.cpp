@@ -196,6 +196,7 @@ PoseSearchResult searchPose(
 {
   PoseSearchResult result;
   result.searched_std = positionStd(predicted).maxCoeff();
+  result.searched_covariance = predicted.P.block<3, 3>(kPosition, kPosition);
   if (scan.surfaces.size() == 0) return result;
   const DeskewedScan sample = sampleOf(scan);
   const std::size_t most = std::max<std::size_t>(1, limits.most_candidates / attitudes.size());

@@ -77,6 +77,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
 
   Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
   work.outcome.search = matched.poses;
+  if (matched.poses) ambiguity_.add(*matched.poses);
   work.outcome.after_outage = matched.after_outage;
   state_.stamp_ns = span.end_ns;
   adopt(match, work, result);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "estimator_mode.h"
+#include "place_ambiguity.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
 #include <fastlio/errormodel/beam_errors.h>
@@ -146,6 +147,7 @@ class Estimator
   RestDetector rest_;
   CalibrationEvidence calibration_;
   BeamErrors beams_;
+  PlaceAmbiguity ambiguity_;
   MotionAgreement agreement_;
   ScanClassifier classifier_;
   Mode mode_;

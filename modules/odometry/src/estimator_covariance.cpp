@@ -81,8 +81,8 @@ void Estimator::report(ScanResult& result) const
   result.filter = state_.filter;
   result.filter.P *= calibration.innovation_scale;
   const StateMatrix by_calibration = map_.calibrationError().addition(calibration.second_moment);
-  const StateMatrix systematic =
-      calibration.innovation_scale * map_.error().addition() + by_calibration;
+  StateMatrix systematic = calibration.innovation_scale * map_.error().addition() + by_calibration;
+  ambiguity_.addTo(state_.filter.x, systematic);
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
@@ -119,9 +119,12 @@ CalibrationFindings Estimator::calibrationFindings() const
 StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
 {
   const CalibrationEstimate& calibration = calibration_.estimate();
-  return (calibration.innovation_scale - 1.0) * prediction.state.P +
-         calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
-         map_.calibrationError().additionAfter(prediction.transition, calibration.second_moment);
+  StateMatrix systematic =
+      (calibration.innovation_scale - 1.0) * prediction.state.P +
+      calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
+      map_.calibrationError().additionAfter(prediction.transition, calibration.second_moment);
+  ambiguity_.addTo(prediction.state.x, systematic);
+  return systematic;
 }
 
 }  // namespace fastlio

@@ -35,10 +35,10 @@ void reportRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const c
   const char* label = shown.c_str();
   if (stamps.gaps > 0)
     warn(
-        survey,
-        mrpt::format(
-            "%s '%s': %zu gaps, the longest of %.3f s at %.3f s after its start.", what, label,
-            stamps.gaps, stamps.longest_gap, toSeconds(stamps.longest_gap_ns - stamps.first_ns)));
+        survey, mrpt::format(
+                    "%s '%s': %zu %s of %.3f s at %.3f s after its start.", what, label,
+                    stamps.gaps, stamps.gaps == 1 ? "gap" : "gaps, the longest", stamps.longest_gap,
+                    toSeconds(stamps.longest_gap_ns - stamps.first_ns)));
   if (stamps.backwards + stamps.duplicates > 0)
     warn(
         survey, mrpt::format(

@@ -89,9 +89,11 @@ struct PoseSearchResult
    * best one. Rooms repeat: who cannot look everywhere does not know whether the best is right. */
   bool complete = true;
   std::optional<PoseCandidate> best;
-  double rival_score = 0.0;   //!< of the best candidate at another place
-  double searched_std = 0.0;  //!< of the prediction, along its worst axis [m]
-  bool accepted = false;      //!< enough evidence, and more than any rival has
+  double rival_score = 0.0;                 //!< of the best candidate at another place
+  double searched_std = 0.0;                //!< of the prediction, along its worst axis [m]
+  Mat3 searched_covariance = Mat3::Zero();  //!< of the predicted position, world frame [m^2]
+  double searched_heading_variance = 0.0;   //!< where several headings were tried [rad^2]
+  bool accepted = false;                    //!< enough evidence, and more than any rival has
 };
 
 /** Matches a sample of the scan from every candidate, and the whole scan from the best of them. A

@@ -1,0 +1,211 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// From one instant on a sensor is wrong: a cable, a driver, a hand in front of the LiDAR. The run
+// stays right, or it is reported.
+
+#include "repeats.h"
+#include "walks.h"
+#include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
+#include <fastlio/scenarios/realistic.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fastlio::testing
+{
+namespace
+{
+constexpr double kGravity = 9.80665;
+
+struct StrangeInput
+{
+  std::string name;
+  double length_s;
+  std::function<void(ImuSample&)> imu = [](ImuSample&) {};
+  std::function<bool(LidarScan&)> scan = [](LidarScan&) { return true; };
+};
+
+/** Points of the scan for which a condition holds. */
+template <typename Condition>
+bool keepIf(LidarScan& scan, const Condition& condition)
+{
+  const PointColumns all = std::exchange(scan.points, {});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (condition(all.x[i], all.y[i], all.z[i]))
+      scan.points.push_back(
+          all.x[i], all.y[i], all.z[i], all.intensity[i], all.time_offset_ns[i], all.ring[i]);
+  return true;
+}
+
+/** Something that moves with the sensor stands around it: a box without a lid. */
+bool boxAround(LidarScan& scan, double half_width)
+{
+  PointColumns& points = scan.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const double across = std::max(std::abs(points.x[i]), std::abs(points.y[i]));
+    const auto scale = static_cast<float>(half_width / std::max(across, 1e-3));
+    points.x[i] *= scale, points.y[i] *= scale, points.z[i] *= scale;
+  }
+  return true;
+}
+
+bool reversedTimes(LidarScan& scan)
+{
+  auto& times = scan.points.time_offset_ns;
+  if (times.empty()) return true;
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const auto sum = *first + *last;
+  for (auto& time : times)
+    time = sum - time;
+  return true;
+}
+
+constexpr double kForever = 1e3;  // [s]
+
+std::vector<StrangeInput> strangeImus()
+{
+  std::vector<StrangeInput> all;
+  const auto imu = [&](const char* name, double length, std::function<void(ImuSample&)> change) {
+    all.push_back({name, length, std::move(change)});
+  };
+  imu("gyro in deg/s", kForever, [](ImuSample& s) { s.gyro *= kDegPerRad; });
+  imu("accelerometer in g", kForever, [](ImuSample& s) { s.accel /= kGravity; });
+  imu("axes x and y exchanged", kForever,
+      [](ImuSample& s)
+      {
+        std::swap(s.gyro.x(), s.gyro.y());
+        std::swap(s.accel.x(), s.accel.y());
+      });
+  imu("rate about z inverted", kForever, [](ImuSample& s) { s.gyro.z() *= -1.0; });
+  imu("dead gyro about z", kForever, [](ImuSample& s) { s.gyro.z() = 0.0; });
+  imu("dead gyro", 3.0, [](ImuSample& s) { s.gyro.setZero(); });
+  imu("dead accelerometer", kForever, [](ImuSample& s) { s.accel.setZero(); });
+  imu("IMU stuck", kForever,
+      [kept = ImuSample{}](ImuSample& s) mutable
+      {
+        if (kept.stamp_ns == 0) kept = s;
+        s.gyro = kept.gyro, s.accel = kept.accel;
+      });
+  return all;
+}
+
+std::vector<StrangeInput> strangeScans()
+{
+  std::vector<StrangeInput> all;
+  const auto scan = [&](const char* name, double length, std::function<bool(LidarScan&)> change) {
+    all.push_back({name, length, [](ImuSample&) {}, std::move(change)});
+  };
+  scan("point times reversed", kForever, reversedTimes);
+  scan(
+      "scans late by 100 ms", kForever,
+      [](LidarScan& s)
+      {
+        s.stamp_ns += 100'000'000;
+        return true;
+      });
+  scan(
+      "scans early by 100 ms", kForever,
+      [](LidarScan& s)
+      {
+        s.stamp_ns -= 100'000'000;
+        return true;
+      });
+  scan("every second scan missing", kForever, [n = 0](LidarScan&) mutable { return ++n % 2 == 0; });
+  scan("one scan in ten", 8.0, [n = 0](LidarScan&) mutable { return ++n % 10 == 0; });
+  scan(
+      "half of the view", kForever,
+      [](LidarScan& s) { return keepIf(s, [](float x, float, float) { return x > 0.0F; }); });
+  scan(
+      "a quarter of the view", 6.0,
+      [](LidarScan& s)
+      { return keepIf(s, [](float x, float y, float) { return x > std::abs(y); }); });
+  scan("a box around the LiDAR", 3.0, [](LidarScan& s) { return boxAround(s, 0.6); });
+  scan("a cabin around the LiDAR", 8.0, [](LidarScan& s) { return boxAround(s, 2.0); });
+  scan(
+      "scans frozen", 8.0,
+      [kept = PointColumns{}](LidarScan& s) mutable
+      {
+        if (kept.size() == 0) kept = s.points;
+        s.points = kept;
+        return true;
+      });
+  scan(
+      "mirrored points", kForever,
+      [](LidarScan& s)
+      {
+        for (float& y : s.points.y)
+          y = -y;
+        return true;
+      });
+  scan(
+      "ranges 5 % too long", kForever,
+      [](LidarScan& s)
+      {
+        for (auto* column : {&s.points.x, &s.points.y, &s.points.z})
+          for (float& value : *column)
+            value *= 1.05F;
+        return true;
+      });
+  return all;
+}
+
+AlteredInputs from(const StrangeInput& strange, std::int64_t begin_ns)
+{
+  const std::int64_t end_ns = begin_ns + toNanoseconds(strange.length_s);
+  const auto hit = [=](std::int64_t ns) { return ns >= begin_ns && ns < end_ns; };
+  AlteredInputs inputs;
+  inputs.imu = [=, change = strange.imu](ImuSample& sample) mutable
+  {
+    if (hit(sample.stamp_ns)) change(sample);
+    return true;
+  };
+  inputs.scan = [=, change = strange.scan](LidarScan& scan) mutable
+  { return !hit(scan.stamp_ns) || change(scan); };
+  return inputs;
+}
+
+/** Sensors as exact as their options, or as imperfect as their datasheets. */
+class StrangeInputs : public ::testing::TestWithParam<bool>
+{
+};
+
+TEST_P(StrangeInputs, EndRightOrAreReported)
+{
+  SimulationSettings settings = walk("office");
+  settings.duration = everything() ? 24.0 : 14.0;
+  settings.lidar.stride = 4;
+  if (GetParam()) settings = realistic(settings);
+  const Simulation simulation(settings);
+  std::vector<LidarScan> scans;
+  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+    scans.push_back(simulation.scan(i));
+  OdometryOptions options = matchingParameters(settings);
+  options.threads = 2;
+  std::vector<StrangeInput> all = strangeImus();
+  for (StrangeInput& strange : strangeScans())
+    all.push_back(std::move(strange));
+  // A few of them on each walk, unless everything is asked for.
+  for (std::size_t i = everything() || !GetParam() ? 0 : 2; i < all.size();
+       i += everything() ? 1 : 4)
+  {
+    AlteredInputs inputs = from(all[i], settings.start_ns + toNanoseconds(10.0));
+    inputs.cast = &scans;
+    const SimulatedRun run = runOdometryWith(inputs, simulation, options);
+    if (!endsOk(run)) continue;
+    EXPECT_EQ(confidentlyWrong(run), 0) << all[i].name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(On, StrangeInputs, ::testing::Values(false, true));
+
+}  // namespace
+}  // namespace fastlio::testing
