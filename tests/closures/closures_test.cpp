@@ -7,15 +7,17 @@
 
 #include "repeats.h"
 #include <fastlio/evaluation/evaluate.h>
-#include <fastlio/mapping/mapper.h>
+#include <fastlio/loops/mapper.h>
 #include <fastlio/odometry/odometry.h>
 #include <fastlio/scenarios/realistic.h>
 #include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <functional>
@@ -29,7 +31,8 @@ namespace
 {
 constexpr const char* kTown = "town";
 
-// A registration that is farther off than its own errors and those of a mounting explain is false.
+// A registration that is farther off than its own errors and those of a mounting explain is false:
+// 0.5 m, and more only along a direction that it leaves open.
 constexpr double kFalse = 0.5;       // [m]
 constexpr double kRevisit = 10.0;    // [m]
 constexpr double kLeastTravel = 25;  // between passes [m]
@@ -69,6 +72,15 @@ MappingResult mapOf(const Simulation& simulation)
   return std::move(mapper).result();
 }
 
+bool isFalse(const RelativePose& motion, const Pose& truth)
+{
+  constexpr double kSigmas = 3.0;
+  const Vec3 off = truth.p - motion.T_a_b.p;
+  const Mat3 covariance = motion.covariance.bottomRightCorner<3, 3>() +
+                          std::pow(kFalse / kSigmas, 2) * Mat3::Identity();
+  return off.dot(covariance.inverse() * off) > kSigmas * kSigmas;
+}
+
 /** Whether two places are neighbours with nothing between them: what lies behind a wall or on
  * another floor has no surface in common. */
 bool isInSight(const World& world, const Vec3& a, const Vec3& b, double t)
@@ -96,7 +108,7 @@ struct Tally
       if (closure.verdict != ClosureVerdict::Accepted) continue;
       ++accepted;
       const Pose T_a_b = truth[closure.a].inverse() * truth[closure.b];
-      if ((T_a_b.p - closure.registration.motion.T_a_b.p).norm() > kFalse) ++wrong;
+      if (isFalse(closure.registration.motion, T_a_b)) ++wrong;
       is_closed[closure.b] = true;
     }
     submaps += truth.size();

@@ -1,7 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapper_parts.h"
 #include <fastlio/mapping/aids.h>
 #include <fastlio/mapping/map_builder.h>
 #include <fastlio/run/pose_output.h>

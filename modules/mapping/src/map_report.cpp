@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/mapping/map_report.h>
-#include <fastlio/mapping/registration.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
+#include <fastlio/submaps/registration.h>
 
 #include <algorithm>
 #include <cmath>

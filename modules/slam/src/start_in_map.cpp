@@ -17,10 +17,7 @@ SavedMap savedMapOf(const Odometry& odometry)
   SavedMap saved;
   saved.origin = odometry.mapOrigin();
   if (const auto* planes = dynamic_cast<const VoxelPlaneMap*>(&odometry.map()))
-  {
     saved.planes = std::make_shared<const VoxelPlaneMap>(*planes);
-    return saved;
-  }
   const auto points = odometry.map().toPointsMap();
   const auto &x = points->getPointsBufferRef_x(), &y = points->getPointsBufferRef_y(),
              &z = points->getPointsBufferRef_z();

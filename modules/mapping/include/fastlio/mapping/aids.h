@@ -4,9 +4,9 @@
 /** \file aids.h What a recording has beside LiDAR and IMU that helps to make a map. */
 #pragma once
 
-#include <fastlio/mapping/gnss.h>
+#include <fastlio/aiding/gnss.h>
+#include <fastlio/aiding/wheels.h>
 #include <fastlio/mapping/session.h>
-#include <fastlio/mapping/wheels.h>
 
 #include <string>
 #include <vector>

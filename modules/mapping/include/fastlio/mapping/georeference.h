@@ -5,9 +5,9 @@
  * the coordinates of surveyors. */
 #pragma once
 
+#include <fastlio/aiding/gnss.h>
 #include <fastlio/earth/control_points.h>
 #include <fastlio/earth/reference_system.h>
-#include <fastlio/mapping/gnss.h>
 #include <fastlio/run/output_map.h>
 
 #include <optional>

@@ -5,12 +5,12 @@
  * poses, the second one puts every scan where it belongs. */
 #pragma once
 
+#include <fastlio/aiding/gnss.h>
+#include <fastlio/aiding/wheels.h>
 #include <fastlio/imu/imu_report.h>
-#include <fastlio/mapping/corrected_trajectory.h>
-#include <fastlio/mapping/gnss.h>
-#include <fastlio/mapping/mapper.h>
+#include <fastlio/loops/corrected_trajectory.h>
+#include <fastlio/loops/mapper.h>
 #include <fastlio/mapping/session.h>
-#include <fastlio/mapping/wheels.h>
 #include <fastlio/run/output_map.h>
 #include <fastlio/run/run_statistics.h>
 

@@ -5,10 +5,10 @@
 #pragma once
 
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/loops/wall_thickness.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/mapping/map_builder.h>
 #include <fastlio/mapping/moving_objects.h>
-#include <fastlio/mapping/wall_thickness.h>
 #include <fastlio/run/run_summary.h>
 
 #include <optional>

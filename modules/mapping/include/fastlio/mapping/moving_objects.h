@@ -4,7 +4,7 @@
 /** \file moving_objects.h A map without what moved while it was recorded. */
 #pragma once
 
-#include <fastlio/mapping/free_space.h>
+#include <fastlio/freespace/free_space.h>
 #include <fastlio/mapping/map_builder.h>
 
 #include <cstddef>

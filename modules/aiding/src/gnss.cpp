@@ -1,0 +1,199 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/aiding/gnss.h>
+#include <fastlio/math/statistics.h>
+#include <fastlio/posegraph/graph_factors.h>
+
+#include <mrpt/core/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kLeastFixes = 10;
+constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
+constexpr double kMostCorrelation = 0.98;
+constexpr double kGaussian = 1.4826;  // standard deviation over median absolute deviation
+}  // namespace
+
+std::string gnssSentence(const GnssOutcome& outcome)
+{
+  if (!outcome.used) return "GNSS is not used: " + outcome.reason;
+  return mrpt::format(
+      "GNSS: %zu of %zu positions agree, to %.2f m horizontally and %.2f m vertically; errors that "
+      "follow each other are correlated by %.2f",
+      outcome.fixes - outcome.rejected, outcome.fixes, outcome.horizontal_std, outcome.vertical_std,
+      outcome.correlation);
+}
+
+void GnssFactors::add(
+    const std::vector<GnssFix>& fixes, const PoseTrack& track, std::size_t session,
+    const Mapper& mapper)
+{
+  if (fixes.empty()) return;
+  if (!frame_) frame_.emplace(fixes.front().place);
+  const std::vector<Submap>& submaps = mapper.submaps();
+  for (const GnssFix& fix : fixes)
+  {
+    const auto pose = track.at(fix.stamp_ns);
+    if (!pose) continue;
+    std::optional<std::size_t> node;
+    for (std::size_t i = 0; i < submaps.size(); ++i)
+      if (submaps[i].session == session && submaps[i].reference.stamp_ns <= fix.stamp_ns) node = i;
+    if (!node) continue;
+    Sighting sighting;
+    sighting.stamp_ns = fix.stamp_ns;
+    sighting.factor.node = *node;
+    sighting.factor.lever =
+        submaps[*node].reference.T_world_body.inverse() * (pose->T_world_body * fix.antenna);
+    sighting.factor.position = frame_->enuOf(fix.place);
+    const double h2 = fix.horizontal_std * fix.horizontal_std;
+    sighting.factor.covariance = Vec3(h2, h2, fix.vertical_std * fix.vertical_std).asDiagonal();
+    sightings_.push_back(sighting);
+  }
+}
+
+namespace
+{
+/** How good the fixes are, and for how long their errors last, by what is left over. */
+void measure(
+    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps,
+    GnssOutcome& outcome)
+{
+  std::vector<double> horizontal, vertical;
+  double product = 0.0, square = 0.0;
+  Vec3 before = Vec3::Zero();
+  std::size_t session_before = 0;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    const PositionFactor& factor = graph.positions[i];
+    if (estimate.position_weights[i] < 0.5) continue;
+    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
+    horizontal.push_back(std::abs(e.x()));
+    horizontal.push_back(std::abs(e.y()));
+    vertical.push_back(std::abs(e.z()));
+    const std::size_t session = submaps.at(factor.node).session;
+    if (square > 0.0 && session == session_before) product += e.head<2>().dot(before.head<2>());
+    square += e.head<2>().squaredNorm();
+    before = e;
+    session_before = session;
+  }
+  outcome.horizontal_std = std::max(0.005, kGaussian * median(std::move(horizontal)));
+  outcome.vertical_std = std::max(0.01, kGaussian * median(std::move(vertical)));
+  outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
+}
+
+/** The number of successive fixes that together are worth a single one: one, plus twice the
+ * correlations over all lags, as far as they are significant. Errors of satellites last for half a
+ * minute; the correlation with the next fix alone does not show that where white noise hides it. */
+double lastingOf(
+    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps)
+{
+  constexpr double kNoCorrelation = 0.05;
+  std::vector<Eigen::Vector2d> errors;
+  std::vector<std::size_t> sessions;
+  double square = 0.0;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    const PositionFactor& factor = graph.positions[i];
+    if (estimate.position_weights[i] < 0.5) continue;
+    errors.emplace_back(
+        errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value.head<2>());
+    sessions.push_back(submaps.at(factor.node).session);
+    square += errors.back().squaredNorm();
+  }
+  double lasting = 1.0;
+  for (std::size_t lag = 1; lag < errors.size() / 4; ++lag)
+  {
+    double product = 0.0;
+    for (std::size_t i = lag; i < errors.size(); ++i)
+      if (sessions[i] == sessions[i - lag]) product += errors[i].dot(errors[i - lag]);
+    const double correlation = product / std::max(square, 1e-12);
+    if (correlation < kNoCorrelation) break;
+    lasting += 2.0 * correlation;
+  }
+  return lasting;
+}
+
+/** Leaves out the fixes that contradict the others, and gives the rest the noise that was measured.
+ * \return how many were left out */
+std::size_t keepAgreeing(
+    PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome, double lasting)
+{
+  const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
+  const double v2 = lasting * std::pow(outcome.vertical_std, 2);
+  // The wider covariance must not let wrong fixes in: those that were found out stay out.
+  std::vector<PositionFactor> kept;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    if (estimate.position_weights[i] < 0.5) continue;
+    kept.push_back(graph.positions[i]);
+    kept.back().covariance = Vec3(h2, h2, v2).asDiagonal();
+  }
+  const std::size_t rejected = graph.positions.size() - kept.size();
+  graph.positions = std::move(kept);
+  return rejected;
+}
+}  // namespace
+
+GnssOutcome GnssFactors::applyTo(MappingResult& result) const
+{
+  GnssOutcome outcome;
+  outcome.fixes = sightings_.size();
+  if (static_cast<double>(sightings_.size()) < kLeastFixes)
+  {
+    outcome.reason = "there are " + std::to_string(sightings_.size()) +
+                     " positions of GNSS at poses of the run: too few";
+    return outcome;
+  }
+  outcome.datum = frame_->datum();
+  std::vector<Correspondence> points;
+  double way = 0.0;
+  for (const Sighting& sighting : sightings_)
+  {
+    const PositionFactor& factor = sighting.factor;
+    points.push_back(
+        {result.estimate.nodes.at(factor.node) * factor.lever,
+         factor.position,
+         std::sqrt(factor.covariance(2, 2)),
+         {}});
+    way = std::max(way, result.submaps.at(factor.node).travel);
+  }
+  EarthFitOptions options;
+  options.map_std_m = kDriftOfOdometry * way;
+  options.most_yaw_std_deg = 15.0;  // the graph makes it better
+  PoseGraph graph = result.graph;
+  try
+  {
+    graph.T_earth_world = fitToEarth(points, options).T_enu_map;
+  }
+  catch (const std::exception& e)
+  {
+    outcome.reason = e.what();
+    return outcome;
+  }
+  graph.nodes = result.estimate.nodes;
+  for (const Sighting& sighting : sightings_)
+    graph.positions.push_back(sighting.factor);
+  GraphEstimate estimate = optimize(graph, false);
+  measure(graph, estimate, result.submaps, outcome);
+  outcome.rejected =
+      keepAgreeing(graph, estimate, outcome, lastingOf(graph, estimate, result.submaps));
+  graph.nodes = estimate.nodes;
+  graph.T_earth_world = estimate.T_earth_world;
+  estimate = optimize(graph);
+  result.graph = std::move(graph);
+  result.estimate = std::move(estimate);
+  makeLevel(result);
+  outcome.used = true;
+  outcome.T_enu_world = *result.estimate.T_earth_world;
+  outcome.covariance = result.estimate.earth_covariance;
+  result.corrected = true;
+  return outcome;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,132 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapper_parts.h"
+#include <fastlio/loops/mapper.h>
+
+#include <mrpt/core/format.h>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kPredictionQuantile = 22.46;  // chi-square, 6 degrees of freedom, 99.9 %
+// Doors and pillars that are alike pull a registration along a corridor by more than it knows of.
+constexpr double kWeak = 0.1;   // [m]
+constexpr double kOpen = 10.0;  // as of directions that nothing constrains [m]
+
+/** A direction of the position that is known weakly counts as not known. \return whether there is
+ * one */
+bool openWeakDirection(RelativePose& motion)
+{
+  const Mat3 position = motion.covariance.bottomRightCorner<3, 3>();
+  const auto system = symmetricEigensystem(position);
+  if (system.values.z() <= kWeak * kWeak) return false;
+  const Vec3 direction = system.vectors.col(2);
+  motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * direction * direction.transpose();
+  return true;
+}
+}  // namespace
+
+const char* toString(ClosureVerdict verdict)
+{
+  switch (verdict)
+  {
+    case ClosureVerdict::Accepted:
+      return "accepted";
+    case ClosureVerdict::FewPlanes:
+      return "few_planes";
+    case ClosureVerdict::LittleOverlap:
+      return "little_overlap";
+    case ClosureVerdict::PoorFit:
+      return "poor_fit";
+    case ClosureVerdict::Ambiguous:
+      return "ambiguous";
+    case ClosureVerdict::OutOfReach:
+      return "out_of_reach";
+    case ClosureVerdict::Uninformative:
+      return "uninformative";
+    case ClosureVerdict::Contradicted:
+      return "contradicted";
+  }
+  return "unknown";
+}
+
+std::optional<Shortcoming> shortcomingOf(
+    const Registration& registration, const ClosureLimits& limits)
+{
+  const RegistrationEvidence& found = registration.evidence;
+  if (!registration.converged || found.overlap < limits.min_overlap)
+    return Shortcoming{
+        ClosureVerdict::LittleOverlap,
+        mrpt::format(
+            "%.0f %% of the surfaces have a counterpart, below %.0f %%", 100.0 * found.overlap,
+            100.0 * limits.min_overlap)};
+  if (found.upright_score < limits.min_upright)
+    return Shortcoming{
+        ClosureVerdict::LittleOverlap,
+        mrpt::format(
+            "%.0f %% of the upright surfaces agree, below %.0f %%", 100.0 * found.upright_score,
+            100.0 * limits.min_upright)};
+  if (found.inlier_ratio < limits.min_inlier_ratio || found.residual_rms > limits.max_residual)
+    return Shortcoming{
+        ClosureVerdict::PoorFit,
+        mrpt::format(
+            "%.0f %% of the counterparts agree (at least %.0f %%), to %.3f m (at most %.3f m)",
+            100.0 * found.inlier_ratio, 100.0 * limits.min_inlier_ratio, found.residual_rms,
+            limits.max_residual)};
+  if (found.margin < limits.min_margin)
+    return Shortcoming{
+        ClosureVerdict::Ambiguous,
+        mrpt::format(
+            "another place, %.1f m away, is nearly as likely (margin %.1f, at least %.1f)",
+            found.rival.norm(), found.margin, limits.min_margin)};
+  const double std = positionStd(registration.motion.covariance, 2 - limits.open_directions);
+  if (std > limits.max_position_std)
+    return Shortcoming{
+        ClosureVerdict::Uninformative,
+        mrpt::format("the surfaces leave a direction open: %.2f m", std)};
+  return std::nullopt;
+}
+
+ClosureLimits Mapper::limitsFor(const RelativePose& predicted) const
+{
+  ClosureLimits limits = limits_;
+  if (largestPositionStd(predicted.covariance) > limits.known_place_std) return limits;
+  limits.min_overlap = limits.min_upright = limits.known_place_overlap;
+  limits.open_directions = 1;
+  return limits;
+}
+
+void Mapper::judge(Closure& closure) const
+{
+  const auto decide = [&closure](ClosureVerdict verdict, std::string reason)
+  {
+    closure.verdict = verdict;
+    closure.reason = std::move(reason);
+  };
+  const ClosureLimits limits = limitsFor(closure.predicted);
+  if (auto shortcoming = shortcomingOf(closure.registration, limits))
+    return decide(shortcoming->verdict, std::move(shortcoming->reason));
+  const RegistrationEvidence& found = closure.registration.evidence;
+  GraphEdge edge{0, 1, closure.registration.motion, true};
+  // Along an open direction the odometry decides alone.
+  const bool is_open = limits.open_directions > 0 && openWeakDirection(closure.registration.motion);
+  if (is_open) edge.measured.covariance.setZero();
+  edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
+  const double squared = squaredError(edge, Pose{}, closure.predicted.T_a_b);
+  const double moved = (closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
+  if (squared > kPredictionQuantile)
+    return decide(
+        ClosureVerdict::OutOfReach,
+        mrpt::format(
+            "%.2f m from where the odometry has it: %.1f of its standard deviations", moved,
+            std::sqrt(squared)));
+  decide(
+      ClosureVerdict::Accepted,
+      mrpt::format(
+          "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s", moved, 100.0 * found.score,
+          found.residual_rms, is_open ? "; one direction stays open" : ""));
+}
+
+}  // namespace fastlio

@@ -1,0 +1,96 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapper_parts.h"
+#include <fastlio/loops/corrected_trajectory.h>
+#include <fastlio/math/time.h>
+#include <fastlio/run/pose_output.h>
+
+#include <algorithm>
+
+namespace fastlio
+{
+Matrix6 extrinsicCovariance(const Pose& first, const Pose& T_world_imu, const Matrix6& moment)
+{
+  const Pose back = T_world_imu.inverse() * first;  // A^-1
+  Matrix6 J = -Matrix6::Identity();
+  J.topLeftCorner<3, 3>() += back.R;
+  J.bottomLeftCorner<3, 3>() += skew(back.p) * back.R;
+  J.bottomRightCorner<3, 3>() += back.R;
+  Matrix6 turn = Matrix6::Identity();
+  turn.bottomRightCorner<3, 3>() = T_world_imu.R;
+  return turn * J * moment * J.transpose() * turn.transpose();
+}
+
+CorrectedTrajectory::CorrectedTrajectory(const MappingResult& result, std::size_t session)
+    : changes_(result.moves(session))
+{
+  if (!result.estimate.nodes.empty()) first_ = result.estimate.nodes.front();
+  if (session < result.extrinsic_moments.size())
+    extrinsic_moment_ = result.extrinsic_moments[session];
+  for (std::size_t i = 0; i < result.submaps.size(); ++i)
+    if (result.submaps[i].session == session)
+      nodes_.push_back(
+          {result.submaps[i].reference, result.estimate.nodes.at(i),
+           result.estimate.covariances.at(i)});
+}
+
+CorrectedTrajectory::Place CorrectedTrajectory::placeOf(std::int64_t stamp_ns) const
+{
+  const auto after = std::upper_bound(
+      nodes_.begin(), nodes_.end(), stamp_ns,
+      [](std::int64_t stamp, const Node& node) { return stamp < node.odometry.stamp_ns; });
+  if (after == nodes_.begin()) return {&nodes_.front(), nullptr, 0.0};
+  const Node& before = *std::prev(after);
+  if (after == nodes_.end()) return {&before, nullptr, 0.0};
+  const double length = toSeconds(after->odometry.stamp_ns - before.odometry.stamp_ns);
+  return {&before, &*after, toSeconds(stamp_ns - before.odometry.stamp_ns) / length};
+}
+
+Pose CorrectedTrajectory::poseAt(const Place& place, const Pose& T_world_imu) const
+{
+  const auto movedWith = [&T_world_imu](const Node& node)
+  { return node.corrected * (node.odometry.T_world_body.inverse() * T_world_imu); };
+  const Pose a = movedWith(*place.before);
+  if (place.after == nullptr) return a;
+  const Pose b = movedWith(*place.after);
+  return {
+      normalizeRotation(a.R * expSO3(place.fraction * logSO3(a.R.transpose() * b.R))),
+      a.p + place.fraction * (b.p - a.p)};
+}
+
+Pose CorrectedTrajectory::correctionAt(std::int64_t stamp_ns, const Pose& T_world_imu) const
+{
+  if (!changes_ || nodes_.empty()) return {};
+  return poseAt(placeOf(stamp_ns), T_world_imu) * T_world_imu.inverse();
+}
+
+ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
+{
+  if (!changes_ || nodes_.empty() || !hasPose(result.status)) return result;
+  ScanResult moved = result;
+  const Place place = placeOf(result.stamp_ns);
+  const Pose odometry = result.filter.x.pose();
+  const Pose pose = poseAt(place, odometry);
+  const Mat3 turn = pose.R * odometry.R.transpose();
+  NavState& x = moved.filter.x;
+  x.R = pose.R;
+  x.p = pose.p;
+  x.v = turn * x.v;
+  const TrackedPose here = mappingPoseOf(result);
+  const Node& node = *place.before;
+  Matrix6 covariance = carried(node.corrected, node.covariance, relativePose(node.odometry, here));
+  if (place.after != nullptr)
+    covariance = (1.0 - place.fraction) * covariance + place.fraction * place.after->covariance;
+  const Matrix6 by_extrinsic = extrinsicCovariance(first_, pose, extrinsic_moment_);
+  covariance += by_extrinsic;
+  // What the pose shares with the rest of the state is not known any more.
+  moved.filter.P.topRows<6>().setZero();
+  moved.filter.P.leftCols<6>().setZero();
+  moved.filter.P.topLeftCorner<6, 6>() = covariance;
+  moved.map_covariance = covariance;
+  moved.calibration_covariance = by_extrinsic;
+  return moved;
+}
+
+}  // namespace fastlio

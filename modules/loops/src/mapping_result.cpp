@@ -1,0 +1,94 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapper_parts.h"
+#include <fastlio/loops/mapper.h>
+#include <fastlio/math/statistics.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace fastlio
+{
+std::size_t MappingResult::accepted() const
+{
+  return static_cast<std::size_t>(std::count_if(
+      closures.begin(), closures.end(),
+      [](const Closure& c) { return c.verdict == ClosureVerdict::Accepted; }));
+}
+
+bool MappingResult::moves(std::size_t session) const
+{
+  const bool was_placed =
+      session < anchors.size() && anchors[session].found && anchors[session].tried > 0;
+  return corrected || was_placed;
+}
+
+Matrix6 extrinsicMoment(const CalibrationCheck& check)
+{
+  Vector6 found, std;
+  found << check.rotation, check.translation;
+  std << check.rotation_std, check.translation_std;
+  const Matrix6 spread = std.cwiseAbs2().asDiagonal();
+  return found * found.transpose() + spread;
+}
+
+namespace
+{
+/** How much larger the squared errors of closures are than their covariances say: surfaces that are
+ * seen by other beams bend otherwise, and a registration does not know of that. */
+double closureExcess(const PoseGraph& graph, const GraphEstimate& estimate)
+{
+  constexpr double kMedian = 5.348;  // of chi-square, 6 degrees of freedom
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i)
+  {
+    const GraphEdge& edge = graph.edges[i];
+    if (edge.robust && estimate.edge_weights[i] >= 0.5)
+      errors.push_back(squaredError(edge, estimate.nodes[edge.a], estimate.nodes[edge.b]));
+  }
+  return median(std::move(errors)) / kMedian;
+}
+/** The optimum of everything, and what it makes of the closures. */
+MappingResult optimized(MappingResult result)
+{
+  PoseGraph& graph = result.graph;
+  result.estimate = optimize(graph);
+  const double excess = closureExcess(graph, result.estimate);
+  if (excess > 1.0)
+  {
+    for (GraphEdge& edge : graph.edges)
+      if (edge.robust) edge.measured.covariance *= excess;
+    result.estimate = optimize(graph);
+  }
+  std::size_t edge = 0;
+  for (Closure& closure : result.closures)
+  {
+    if (closure.verdict != ClosureVerdict::Accepted) continue;
+    while (!graph.edges[edge].robust)
+      ++edge;
+    if (result.estimate.edge_weights[edge++] >= 0.5) continue;
+    closure.verdict = ClosureVerdict::Contradicted;
+    closure.reason += "; all other measurements exclude it";
+  }
+  result.corrected = result.accepted() > 0;
+  if (result.corrected)
+    makeLevel(result);
+  else
+    stayAsOdometry(result);
+  return result;
+}
+}  // namespace
+
+MappingResult Mapper::result() const&
+{
+  return optimized(result_);
+}
+
+MappingResult Mapper::result() &&
+{
+  return optimized(std::move(result_));
+}
+
+}  // namespace fastlio

@@ -1,0 +1,137 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "linearized_graph.h"
+
+#include <fastlio/posegraph/graph_factors.h>
+
+namespace fastlio
+{
+namespace
+{
+using Aligned6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr int kNode = GraphLayout::kNode;
+constexpr double kEarthTilt = 0.02;  // gravity is the same for both [rad]
+
+class Linearization
+{
+ public:
+  Linearization(
+      const PoseGraph& graph, const Informations& informations, const GraphEstimate& estimate,
+      const GraphLayout& layout)
+      : graph_(graph), informations_(informations), estimate_(estimate), layout_(layout)
+  {
+  }
+
+  [[nodiscard]] NormalEquations run() const
+  {
+    NormalEquations equations(layout_.size());
+    const EdgeError first = errorOf(RelativePose{graph_.nodes.front(), {}}, Pose{}, node(0));
+    equations.add(first.value, informations_.first, PartOf{0, first.by_b});
+    addEdges(equations);
+    addTilts(equations);
+    for (std::size_t i = 0; i < graph_.sensors.size(); ++i)
+    {
+      equations.add(
+          estimate_.drifts[i], informations_.drifts[i],
+          PartOf{layout_.driftAt(i), Aligned6(Aligned6::Identity())});
+      equations.add(
+          estimate_.biases[i], informations_.biases[i],
+          PartOf{layout_.biasAt(i), Mat3(Mat3::Identity())});
+    }
+    addPositions(equations);
+    return equations;
+  }
+
+ private:
+  [[nodiscard]] const Pose& node(std::size_t i) const { return estimate_.nodes[i]; }
+
+  void addTilts(NormalEquations& equations) const
+  {
+    for (std::size_t i = 0; i < graph_.tilts.size(); ++i)
+    {
+      const TiltFactor& factor = graph_.tilts[i];
+      const TiltError error =
+          errorOf(factor, node(factor.node), estimate_.up, estimate_.biases[factor.sensor]);
+      equations.add(
+          error.value, informations_.tilts[i],
+          PartOf{GraphLayout::at(factor.node), error.by_attitude},
+          PartOf{layout_.upAt(), error.by_up},
+          PartOf{layout_.biasAt(factor.sensor), error.by_bias});
+    }
+  }
+
+  void addEdges(NormalEquations& equations) const
+  {
+    for (std::size_t i = 0; i < graph_.edges.size(); ++i)
+    {
+      const GraphEdge& edge = graph_.edges[i];
+      if (estimate_.edge_weights[i] <= 0.0) continue;
+      const EdgeError error = errorOf(edge.measured, node(edge.a), node(edge.b));
+      const Aligned6 information = estimate_.edge_weights[i] * informations_.edges[i];
+      const PartOf by_a{GraphLayout::at(edge.a), error.by_a},
+          by_b{GraphLayout::at(edge.b), error.by_b};
+      if (edge.travel == 0.0)
+      {
+        equations.add(error.value, information, by_a, by_b);
+        continue;
+      }
+      const Vector6 value = error.value + edge.travel * estimate_.drifts[edge.sensor];
+      equations.add(
+          value, information, by_a, by_b,
+          PartOf{layout_.driftAt(edge.sensor), Aligned6(edge.travel * Aligned6::Identity())});
+    }
+  }
+
+  void addPositions(NormalEquations& equations) const
+  {
+    if (!layout_.hasEarth()) return;
+    const Pose& T_earth_world = *estimate_.T_earth_world;
+    for (std::size_t i = 0; i < graph_.positions.size(); ++i)
+    {
+      const PositionFactor& factor = graph_.positions[i];
+      if (estimate_.position_weights[i] <= 0.0) continue;
+      const PositionError error = errorOf(factor, node(factor.node), T_earth_world);
+      equations.add(
+          error.value, (estimate_.position_weights[i] * informations_.positions[i]).eval(),
+          PartOf{GraphLayout::at(factor.node), error.by_node},
+          PartOf{layout_.earthAt(), error.by_earth});
+    }
+    levelEarth(equations);
+    // Keeps the system solvable where positions do not determine the heading.
+    equations.addBlock(layout_.earthAt(), layout_.earthAt(), (1e-9 * Aligned6::Identity()).eval());
+  }
+
+  /** The earth's z axis points up, too. */
+  void levelEarth(NormalEquations& equations) const
+  {
+    const Mat3& R = estimate_.T_earth_world->R;
+    const Vec3 up = R * estimate_.up;
+    const Eigen::Vector2d error = up.head<2>();
+    const Eigen::Matrix2d information = Eigen::Matrix2d::Identity() / (kEarthTilt * kEarthTilt);
+    Eigen::Matrix<double, 2, kNode> by_earth = Eigen::Matrix<double, 2, kNode>::Zero();
+    by_earth.leftCols<3>() = -(R * skew(estimate_.up)).topRows<2>();
+    const Eigen::Matrix2d by_up = (R * acrossOf(estimate_.up)).topRows<2>();
+    if (layout_.hasUp())
+      equations.add(
+          error, information, PartOf{layout_.earthAt(), by_earth}, PartOf{layout_.upAt(), by_up});
+    else
+      equations.add(error, information, PartOf{layout_.earthAt(), by_earth});
+  }
+
+  const PoseGraph& graph_;
+  const Informations& informations_;
+  const GraphEstimate& estimate_;
+  const GraphLayout& layout_;
+};
+}  // namespace
+
+NormalEquations linearized(
+    const PoseGraph& graph, const Informations& informations, const GraphEstimate& estimate,
+    const GraphLayout& layout)
+{
+  return Linearization(graph, informations, estimate, layout).run();
+}
+
+}  // namespace fastlio

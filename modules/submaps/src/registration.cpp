@@ -1,0 +1,158 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "plane_aligner.h"
+#include "registration_starts.h"
+#include <fastlio/math/statistics.h>
+#include <fastlio/submaps/registration.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kSameBasin = 0.3;          // registrations nearer than this are the same one [m]
+constexpr std::size_t kCoarsePlanes = 200;  // for looking around
+constexpr std::size_t kFinePlanes = 1500;   // for comparing what was found
+constexpr std::size_t kMostRivals = 6;      // places that are compared
+}  // namespace
+
+/** A class of its own for the tree and what is aligned with it. */
+class SubmapRegistration::Impl : public PlaneAligner
+{
+ public:
+  using PlaneAligner::PlaneAligner;
+};
+
+SubmapRegistration::SubmapRegistration(
+    const std::vector<VoxelPlane>& target, std::shared_ptr<const Workers> workers)
+    : impl_(std::make_unique<Impl>(target, std::move(workers)))
+{
+}
+
+SubmapRegistration::~SubmapRegistration() = default;
+
+namespace
+{
+/** A place that a start was pulled to. */
+struct Found
+{
+  Pose pose;
+  double cost = 0.0;  //!< minus the logarithm of its probability
+};
+
+bool isSamePlace(const Pose& a, const Pose& b)
+{
+  return (a.p - b.p).norm() < kSameBasin && logSO3(a.R.transpose() * b.R).norm() < 0.05;
+}
+
+/** The likeliest places, each once. */
+std::vector<Found> distinct(std::vector<Found> found, std::size_t most)
+{
+  std::stable_sort(
+      found.begin(), found.end(), [](const Found& a, const Found& b) { return a.cost < b.cost; });
+  std::vector<Found> places;
+  for (const Found& one : found)
+  {
+    const auto is_known = [&one](const Found& other) { return isSamePlace(one.pose, other.pose); };
+    if (std::any_of(places.begin(), places.end(), is_known)) continue;
+    places.push_back(one);
+    if (places.size() == most) break;
+  }
+  return places;
+}
+
+/** Half of the squared normalized distance from the prediction. */
+double priorCost(const RelativePose& predicted, const Pose& T)
+{
+  AlignedVector6 e;
+  e << logSO3(predicted.T_a_b.R.transpose() * T.R), T.p - predicted.T_a_b.p;
+  const Aligned6 covariance = predicted.covariance + floorOf();
+  return 0.5 * e.dot(covariance.ldlt().solve(e));
+}
+}  // namespace
+
+Registration SubmapRegistration::search(
+    const std::vector<VoxelPlane>& source, const RelativePose& predicted, const Vec3& up) const
+{
+  Registration none;
+  none.motion.T_a_b = predicted.T_a_b;
+  none.evidence.planes = source.size();
+  const std::vector<Patch> all = patchesOf(source);
+  if (impl_->empty() || all.empty()) return none;
+  const std::vector<Patch> coarse = sampleOf(all, kCoarsePlanes);
+  const std::vector<Patch> fine = sampleOf(all, kFinePlanes);
+  // Costs of samples count for all planes.
+  const auto costOf = [&](const std::vector<Patch>& sample, const Pose& T)
+  {
+    const double share = static_cast<double>(all.size()) / static_cast<double>(sample.size());
+    return share * impl_->costOf(sample, T) + priorCost(predicted, T);
+  };
+  const auto follow =
+      [&](const std::vector<Pose>& starts, const std::vector<Patch>& sample, const auto& stages)
+  {
+    std::vector<std::optional<Found>> ends(starts.size());
+    impl_->workers().forEach(
+        starts.size(),
+        [&](std::size_t i)
+        {
+          if (const auto pose = impl_->follow(sample, starts[i], stages))
+            ends[i] = Found{*pose, costOf(sample, *pose)};
+        });
+    std::vector<Found> found;
+    for (const auto& end : ends)
+      if (end) found.push_back(*end);
+    return found;
+  };
+  const std::vector<Pose> starts = startsAround(predicted, up);
+  // A wide search that finds little in common may leave a place that is known well.
+  std::vector<Pose> places{predicted.T_a_b};
+  for (const Found& found : distinct(follow(starts, coarse, kCoarse), kMostRivals))
+    places.push_back(found.pose);
+  const std::vector<Found> refined = distinct(follow(places, fine, kFine), kMostRivals);
+  if (refined.empty()) return none;
+  Registration result = impl_->finish(all, refined.front().pose);
+  result.evidence.upright_score = impl_->uprightScore(all, refined.front().pose, up);
+  result.evidence.starts = starts.size();
+  result.evidence.margin = std::numeric_limits<double>::infinity();
+  if (refined.size() > 1)
+  {
+    result.evidence.margin = refined[1].cost - refined[0].cost;
+    result.evidence.rival = refined[1].pose.p - refined[0].pose.p;
+  }
+  return result;
+}
+
+std::vector<PlanePair> SubmapRegistration::pairs(
+    const std::vector<VoxelPlane>& source, const Pose& T_target_source) const
+{
+  std::vector<PlanePair> found;
+  const std::vector<Patch> patches = patchesOf(source);
+  if (impl_->empty()) return found;
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (const auto pair = impl_->partnerOf(patches[i], T_target_source, kBeside))
+      found.push_back({i, pair->target->plane, pair->at});
+  return found;
+}
+
+double SubmapRegistration::medianDistance(
+    const std::vector<VoxelPlane>& source, const Pose& T_target_source) const
+{
+  std::vector<double> distances;
+  for (const Patch& patch : sampleOf(patchesOf(source), kFinePlanes))
+    if (const auto pair = impl_->partnerOf(patch, T_target_source, kBeside))
+      distances.push_back(std::abs(pair->distance));
+  return median(std::move(distances));
+}
+
+}  // namespace fastlio

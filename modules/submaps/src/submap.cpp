@@ -1,0 +1,116 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/math/statistics.h>
+#include <fastlio/run/pose_output.h>
+#include <fastlio/submaps/submap.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastlio
+{
+namespace
+{
+constexpr double kShortest = 3.0,
+                 kLongest = 12.0;  // of a submap, where the rule leaves it open [m]
+constexpr double kLengthOverRange = 0.5;
+
+double medianRange(const WorldPoints& points, const Vec3& sensor)
+{
+  std::vector<double> ranges;
+  ranges.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    ranges.push_back((Vec3(
+                          static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+                          static_cast<double>(points.z[i])) -
+                      sensor)
+                         .norm());
+  return median(std::move(ranges));
+}
+}  // namespace
+
+TrackedPose mappingPoseOf(const ScanResult& result)
+{
+  TrackedPose pose;
+  pose.stamp_ns = result.stamp_ns;
+  pose.T_world_body = result.filter.x.pose();
+  pose.covariance = result.filter.P.topLeftCorner<6, 6>() - result.calibration_covariance;
+  pose.map_covariance = result.map_covariance - result.calibration_covariance;
+  return pose;
+}
+
+void moved(const WorldPoints& points, const Vec3& origin, const Pose& motion, WorldPoints& result)
+{
+  result.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3 p =
+        motion * (origin + Vec3(
+                               static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+                               static_cast<double>(points.z[i])));
+    result.x[i] = static_cast<float>(p.x());
+    result.y[i] = static_cast<float>(p.y());
+    result.z[i] = static_cast<float>(p.z());
+  }
+}
+
+SubmapBuilder::SubmapBuilder(std::size_t session, SubmapRule rule)
+    : session_(session),
+      rule_(rule),
+      surfaces_(std::make_unique<VoxelPlaneMap>(VoxelPlaneOptions{}))
+{
+}
+
+SubmapBuilder::~SubmapBuilder() = default;
+SubmapBuilder::SubmapBuilder(SubmapBuilder&&) noexcept = default;
+SubmapBuilder& SubmapBuilder::operator=(SubmapBuilder&&) noexcept = default;
+
+void SubmapBuilder::begin(
+    const TrackedPose& pose, const WorldPoints& registered, const Vec3& origin)
+{
+  current_ = {};
+  current_.session = session_;
+  current_.reference = pose;
+  current_.travel = travel_;
+  surfaces_->clear();
+  current_.range = medianRange(registered, pose.T_world_body.p - origin);
+  length_ = rule_.length > 0.0 ? rule_.length
+                               : std::clamp(kLengthOverRange * current_.range, kShortest, kLongest);
+}
+
+std::optional<Submap> SubmapBuilder::add(
+    const ScanResult& result, const WorldPoints& registered, const Vec3& origin)
+{
+  if (!hasPose(result.status)) return std::nullopt;
+  const TrackedPose pose = mappingPoseOf(result);
+  if (last_.stamp_ns != 0) travel_ += (pose.T_world_body.p - last_.T_world_body.p).norm();
+  last_ = pose;
+  gravity_.addScan(result);
+  std::optional<Submap> ended;
+  const Pose& reference = current_.reference.T_world_body;
+  const bool is_full = travel_ - current_.travel >= length_ ||
+                       logSO3(reference.R.transpose() * pose.T_world_body.R).norm() >= rule_.turn;
+  const bool may_end = static_cast<double>(current_.scans) >= rule_.least_scans;
+  if (current_.scans > 0 && may_end && is_full) ended = finish();
+  if (current_.scans == 0) begin(pose, registered, origin);
+  moved(registered, origin, current_.reference.T_world_body.inverse(), local_);
+  if (local_.size() > 0)
+    surfaces_->insert(local_, current_.reference.T_world_body.inverse() * pose.T_world_body.p);
+  current_.last_ns = pose.stamp_ns;
+  ++current_.scans;
+  return ended;
+}
+
+std::optional<Submap> SubmapBuilder::finish()
+{
+  if (current_.scans == 0) return std::nullopt;
+  Submap ended = std::move(current_);
+  ended.gravity = gravity_.take();
+  ended.planes = surfaces_->bestPlanes(ended.spreads);
+  current_ = {};
+  return ended;
+}
+
+}  // namespace fastlio
