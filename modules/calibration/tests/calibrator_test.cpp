@@ -125,6 +125,36 @@ TEST(CalibrationTrial, RefusesWhatDoesNotExplainTheData)
   EXPECT_NE(describe(trial).find("not better"), std::string::npos);
 }
 
+TEST(CalibrationRows, AdviseARoomWhereFarWallsHideTheHeight)
+{
+  const int height = kExtrinsicError + 5;
+  RigEstimate estimate;
+  estimate.prior_std.segment<6>(kExtrinsicError).setConstant(0.01);
+  estimate.covariance(height, height) = 0.003 * 0.003 + 0.008 * 0.008;
+  const auto advice = [&]
+  {
+    for (const CalibrationRow& row : calibrationRows(Rig{}, estimate))
+      if (row.name == "LiDAR in the IMU frame, z") return row.advice;
+    return std::string("no such row");
+  };
+  EXPECT_NE(advice().find("turn about"), std::string::npos) << advice();
+  estimate.hidden_by_elevations = Vec3(0.0, 0.0, 0.008);
+  EXPECT_NE(advice().find("calibrate in a room"), std::string::npos) << advice();
+  estimate.covariance(height, height) = 0.003 * 0.003;
+  estimate.hidden_by_elevations.setZero();
+  EXPECT_EQ(advice(), "");
+}
+
+TEST(CalibrationRows, ShowTheBiasOverTheIncidence)
+{
+  RigEstimate estimate;
+  estimate.incidence = {-0.012, 0.008, 0.02};
+  const std::vector<CalibrationRow> rows = calibrationRows(Rig{}, estimate);
+  EXPECT_NEAR(valueOf(rows, "range at 80 deg of incidence"), -12.0, 1e-9);
+  estimate.incidence.std = 0.015;
+  EXPECT_NE(calibrationTable(Rig{}, estimate).find("pass walls"), std::string::npos);
+}
+
 TEST_F(CalibratorTest, TellsTheNoiseThatTheRestShows)
 {
   const Calibrator calibrator({record("walk", 6.0, 1)}, config_, 2);
