@@ -11,10 +11,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 namespace fastlio::testing
 {
@@ -122,6 +125,33 @@ TEST_F(Map, DoesNotDependOnTheThreads)
         0);
   for (const char* file : {"/covariance.csv", "/poses.graph", "/map.ply"})
     EXPECT_TRUE(textOf(folder_.file("1") + file) == textOf(folder_.file("3") + file)) << file;
+}
+
+/** Whatever was killed leaves no summary; started again, the program has the same bytes. */
+TEST_F(Map, KilledAndStartedAgainHasTheSameBytes)
+{
+  const std::string rawlog = record("walk", walk(16.0));
+  const auto arguments = [&](const std::string& name)
+  {
+    return std::vector<std::string>{
+        FASTLIO_MAP_PROGRAM, rawlog,     "-o",
+        folder_.file(name),  "--export", "trajectory,covariance,planes,summary"};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(Process(arguments("whole"), folder_.file("log.txt")).wait().exit_status, 0);
+  const auto whole = std::chrono::steady_clock::now() - start;
+  for (const int tenths : {3, 7})
+  {
+    Process process(arguments("killed"), folder_.file("log.txt"));
+    std::this_thread::sleep_for(whole * tenths / 10);
+    process.signal(SIGKILL);
+    ASSERT_EQ(process.wait().exit_status, -1) << "it was faster than to be killed";
+    EXPECT_FALSE(fs::exists(folder_.file("killed") + "/summary.json"));
+  }
+  ASSERT_EQ(Process(arguments("killed"), folder_.file("log.txt")).wait().exit_status, 0);
+  for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.planes"})
+    EXPECT_TRUE(textOf(folder_.file("killed") + file) == textOf(folder_.file("whole") + file))
+        << file;
 }
 
 TEST_F(Map, FindsAnotherDayInTheMap)

@@ -75,7 +75,7 @@ NeesSummary summarizeNees(const std::vector<double>& nees, int degrees)
   s.sample_bound = chiSquareQuantile(kConfidence, degrees);
   for (const double value : nees)
     s.mean += value / n;
-  s.share_inside =
+  s.coverage =
       static_cast<double>(std::count_if(
           nees.begin(), nees.end(), [&](double value) { return value <= s.sample_bound; })) /
       n;

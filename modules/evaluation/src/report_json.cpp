@@ -85,7 +85,7 @@ Json neesJson(const NeesSummary& s)
       {"mean_upper_95", s.mean_upper},
       {"mean_inside", s.meanInside()},
       {"sample_bound_95", s.sample_bound},
-      {"share_inside_percent", toPercent(s.share_inside)},
+      {"coverage_percent", toPercent(s.coverage)},
       {"count", s.count}};
 }
 

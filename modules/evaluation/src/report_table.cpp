@@ -111,7 +111,7 @@ std::string neesRow(const char* name, const NeesSummary& s)
 {
   return format(
       "%-26s %9.3f %9d   %8.3f .. %-8.3f %11.1f %%  %s\n", name, s.mean, s.degrees, s.mean_lower,
-      s.mean_upper, toPercent(s.share_inside), verdict(s));
+      s.mean_upper, toPercent(s.coverage), verdict(s));
 }
 
 std::string neesTable(const EvaluationReport& r)

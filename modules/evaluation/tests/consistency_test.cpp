@@ -116,7 +116,7 @@ TEST(Nees, HonestCovariancesAreConsistent)
   {
     EXPECT_EQ(s.count, 2000U);
     EXPECT_TRUE(s.meanInside()) << s.mean << " not in " << s.mean_lower << " " << s.mean_upper;
-    EXPECT_NEAR(s.share_inside, 0.95, 0.02);
+    EXPECT_NEAR(s.coverage, 0.95, 0.02);
     EXPECT_LT(s.mean_lower, s.degrees);
     EXPECT_GT(s.mean_upper, s.degrees);
   }

@@ -155,6 +155,7 @@ void Mapper::beginSession(const Submap& first, std::size_t b)
 std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
 {
   const Submap& latest = result_.submaps[b];
+  const double widest = limits_.distance + kWidestReach;
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t a = 0; a < b; ++a)
   {
@@ -162,10 +163,11 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     const bool same_pass =
         earlier.session == latest.session && latest.travel - earlier.travel < limits_.least_travel;
     if (same_pass) continue;
+    const double squared = (poses_[a].p - poses_[b].p).squaredNorm();
+    if (squared >= widest * widest) continue;
     const double std =
         limits_.odometry_std_factor * largestPositionStd(covariances_[b] + covariances_[a]);
     const double reach = limits_.distance + std::min(kWidestReach, std);
-    const double squared = (poses_[a].p - poses_[b].p).squaredNorm();
     if (squared < reach * reach) near.emplace_back(squared, a);
   }
   std::sort(near.begin(), near.end());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "linearized_graph.h"
+#include "selected_inverse.h"
 #include <fastlio/posegraph/graph_factors.h>
 #include <fastlio/posegraph/pose_graph.h>
 
@@ -179,22 +180,18 @@ class Optimizer
     settle();
   }
 
-  [[nodiscard]] Matrix6 covarianceAt(int begin)
-  {
-    Matrix6 covariance;
-    for (int column = 0; column < GraphLayout::kNode; ++column)
-    {
-      Vector unit = Vector::Zero(layout_.size());
-      unit(begin + column) = 1.0;
-      const Vector solution = solver_.solve(unit);
-      covariance.col(column) = solution.segment<GraphLayout::kNode>(begin);
-    }
-    return 0.5 * (covariance + covariance.transpose().eval());
-  }
-
   void findCovariances()
   {
     factorize(linearized(graph_, informations_, estimate_, layout_).matrix());
+    const SelectedInverse inverse(solver_);
+    const auto covarianceAt = [&inverse](int begin)
+    {
+      Matrix6 covariance;
+      for (int column = 0; column < GraphLayout::kNode; ++column)
+        for (int row = 0; row < GraphLayout::kNode; ++row)
+          covariance(row, column) = inverse.at(begin + row, begin + column);
+      return covariance;
+    };
     for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
       estimate_.covariances.push_back(covarianceAt(layout_.at(n)));
     for (std::size_t i = 0; i < graph_.sensors.size(); ++i)
@@ -206,7 +203,7 @@ class Optimizer
   Informations informations_;
   GraphLayout layout_;
   GraphEstimate estimate_;
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower> solver_;
+  SelectedInverse::Factorization solver_;
 };
 }  // namespace
 

@@ -65,9 +65,9 @@ constexpr double kFewInside = 0.9;
 std::string neesSentence(const NeesSummary& nees)
 {
   return "<p>NEES of the pose: " + fixedText(nees.mean, 2) + " (" + std::to_string(nees.degrees) +
-         " is expected); " + fixedText(100.0 * nees.share_inside, 1) +
+         " is expected); " + fixedText(100.0 * nees.coverage, 1) +
          " % of the poses lie below the 95 % bound. " +
-         (nees.share_inside < kFewInside
+         (nees.coverage < kFewInside
               ? "The errors of this run are larger than the covariance says."
               : "The errors of this run are as the covariance says, or smaller.") +
          "</p>\n";

@@ -107,7 +107,7 @@ struct GraphEstimate
  * non-convexity with truncated least squares (Yang, Antonante, Tzoumas and Carlone, "Graduated
  * Non-Convexity for Robust Spatial Perception", RA-L 2020): what is beyond the 99.9 % quantile of
  * its own noise is turned off.
- * \param with_covariances costs a solution of the system for each coordinate of each node
+ * \param with_covariances costs about as much as an iteration
  * \exception std::invalid_argument a factor names a node that is not there, has a covariance that
  * is none, or a graph with positions has no T_earth_world */
 [[nodiscard]] GraphEstimate optimize(const PoseGraph& graph, bool with_covariances = true);
