@@ -53,6 +53,7 @@ template <typename Stored, typename Wanted>
 std::vector<Wanted> columnFrom(const PointGrid& grid, const PointField& field)
 {
   std::vector<Wanted> values(grid.width * grid.height);
+  if (values.empty()) return values;  // the data of an empty file are nowhere
   std::size_t next = 0;
   for (std::size_t row = 0; row < grid.height; ++row)
   {
