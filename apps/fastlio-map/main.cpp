@@ -136,6 +136,19 @@ RunFolderPlan checkedFolder(
   }
 }
 
+/** Before hours of work. \exception Failure another run holds the folder */
+std::unique_ptr<const RunFolder> claimedFolder(const RunFolderPlan& plan)
+{
+  try
+  {
+    return std::make_unique<const RunFolder>(plan);
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{ExitStatus::Usage, failureText(e)};
+  }
+}
+
 /** Once all files are complete: what only the run before has written. */
 void removeLeftovers(const RunFolder& folder, const MapAccount& account)
 {
@@ -221,6 +234,7 @@ ExitStatus run(const MapArguments& arguments)
   const std::vector<Session> sessions = checked([&] { return usableSessions(arguments, inputs); });
   // Checks that do not need the recordings come before hours of work.
   auto place = checked([&] { return georeference({}, arguments.control_points, arguments.crs); });
+  const auto folder = claimedFolder(plan);
   catchInterruptions();
   const PassHooks hooks = hooksOf(arguments.quiet);
   const auto workers = std::make_shared<const Workers>(arguments.threads);
@@ -234,11 +248,9 @@ ExitStatus run(const MapArguments& arguments)
   if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });
   requirePoses(map);
   const auto moving = votedObjects(arguments, sessions, map, workers, hooks);
-  std::optional<RunFolder> folder;
   std::optional<MapOutputs> outputs;
   try
   {
-    folder.emplace(plan);
     outputs.emplace(arguments, files, sessions);
   }
   catch (const std::exception& e)

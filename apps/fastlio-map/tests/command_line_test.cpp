@@ -6,6 +6,7 @@
 
 #include "process.h"
 #include "temporary_folder.h"
+#include <fastlio/files/folder_lock.h>
 #include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
 
@@ -15,9 +16,12 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 #include <thread>
+#include <unistd.h>
 
 namespace fastlio::testing
 {
@@ -152,6 +156,18 @@ TEST_F(Map, KilledAndStartedAgainHasTheSameBytes)
   for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.planes"})
     EXPECT_TRUE(textOf(folder_.file("killed") + file) == textOf(folder_.file("whole") + file))
         << file;
+}
+
+/** Another run's folder is refused before the work, not after it. */
+TEST_F(Map, AFolderInUseIsRefusedAtOnce)
+{
+  const std::string rawlog = record("walk", walk(16.0));
+  fs::create_directory(folder_.file("map"));
+  const auto running = std::make_unique<FolderLock>(folder_.file("map"));
+  const ProcessResult refused = run({rawlog, "-o", folder_.file("map"), "--export", "trajectory"});
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_NE(refused.output.find(std::to_string(getpid())), std::string::npos) << refused.output;
+  EXPECT_FALSE(fs::exists(folder_.file("map") + "/summary.json"));
 }
 
 TEST_F(Map, FindsAnotherDayInTheMap)
