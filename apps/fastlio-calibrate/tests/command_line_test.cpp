@@ -55,7 +55,7 @@ TEST_F(Calibrate, WritesParametersThatAReplayTakes)
   EXPECT_NE(result.output.find("LiDAR in the IMU frame, x"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("On "), std::string::npos) << "the trial";
   const auto json = nlohmann::json::parse(textOf(folder_.file("rig.json")));
-  EXPECT_EQ(json["values"].size(), 13U + 4U) << "the rig, and the noise densities";
+  EXPECT_EQ(json["values"].size(), 13U + 1U + 4U) << "the rig, the incidence, the noise";
   EXPECT_GT(json["beams"].size(), 10U);
   EXPECT_TRUE(json["trial"]["better"].is_boolean());
   for (const auto& [name, value] : json["values"].items())

@@ -4,70 +4,14 @@
 // The program on simulated recordings: loops, runs without any, several sessions, GNSS, bad command
 // lines.
 
-#include "process.h"
-#include "temporary_folder.h"
-#include <fastlio/files/folder_lock.h>
-#include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/recording.h>
+#include "map_fixture.h"
 
-#include <gtest/gtest.h>
-
-#include <chrono>
-#include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
-#include <thread>
-#include <unistd.h>
 
 namespace fastlio::testing
 {
 namespace
 {
-namespace fs = std::filesystem;
-
-class Map : public ::testing::Test
-{
- protected:
-  /** A walk on the campus: one loop takes 106 s. */
-  static SimulationSettings walk(double duration)
-  {
-    SimulationSettings settings = defaultSettings("campus");
-    settings.duration = duration;
-    settings.speed = 3.0;
-    settings.lidar.stride = 6;
-    return settings;
-  }
-
-  std::string record(const std::string& name, const SimulationSettings& settings)
-  {
-    return writeRecording(Simulation(settings), folder_.file(name)).rawlog;
-  }
-
-  ProcessResult run(std::vector<std::string> arguments)
-  {
-    arguments.insert(arguments.begin(), FASTLIO_MAP_PROGRAM);
-    return Process(arguments, folder_.file("log.txt")).wait();
-  }
-
-  static std::string textOf(const std::string& path)
-  {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  }
-
-  nlohmann::json summaryOf(const std::string& name)
-  {
-    return nlohmann::json::parse(textOf(folder_.file(name) + "/summary.json"));
-  }
-
-  TemporaryFolder folder_;
-};
-
 TEST_F(Map, ClosesTheLoopOfAWalk)
 {
   const std::string rawlog = record("walk", walk(55.0));
@@ -129,45 +73,6 @@ TEST_F(Map, DoesNotDependOnTheThreads)
         0);
   for (const char* file : {"/covariance.csv", "/poses.graph", "/map.ply"})
     EXPECT_TRUE(textOf(folder_.file("1") + file) == textOf(folder_.file("3") + file)) << file;
-}
-
-/** Whatever was killed leaves no summary; started again, the program has the same bytes. */
-TEST_F(Map, KilledAndStartedAgainHasTheSameBytes)
-{
-  const std::string rawlog = record("walk", walk(16.0));
-  const auto arguments = [&](const std::string& name)
-  {
-    return std::vector<std::string>{
-        FASTLIO_MAP_PROGRAM, rawlog,     "-o",
-        folder_.file(name),  "--export", "trajectory,covariance,planes,summary"};
-  };
-  const auto start = std::chrono::steady_clock::now();
-  ASSERT_EQ(Process(arguments("whole"), folder_.file("log.txt")).wait().exit_status, 0);
-  const auto whole = std::chrono::steady_clock::now() - start;
-  for (const int tenths : {3, 7})
-  {
-    Process process(arguments("killed"), folder_.file("log.txt"));
-    std::this_thread::sleep_for(whole * tenths / 10);
-    process.signal(SIGKILL);
-    ASSERT_EQ(process.wait().exit_status, -1) << "it was faster than to be killed";
-    EXPECT_FALSE(fs::exists(folder_.file("killed") + "/summary.json"));
-  }
-  ASSERT_EQ(Process(arguments("killed"), folder_.file("log.txt")).wait().exit_status, 0);
-  for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.planes"})
-    EXPECT_TRUE(textOf(folder_.file("killed") + file) == textOf(folder_.file("whole") + file))
-        << file;
-}
-
-/** Another run's folder is refused before the work, not after it. */
-TEST_F(Map, AFolderInUseIsRefusedAtOnce)
-{
-  const std::string rawlog = record("walk", walk(16.0));
-  fs::create_directory(folder_.file("map"));
-  const auto running = std::make_unique<FolderLock>(folder_.file("map"));
-  const ProcessResult refused = run({rawlog, "-o", folder_.file("map"), "--export", "trajectory"});
-  EXPECT_EQ(refused.exit_status, 1);
-  EXPECT_NE(refused.output.find(std::to_string(getpid())), std::string::npos) << refused.output;
-  EXPECT_FALSE(fs::exists(folder_.file("map") + "/summary.json"));
 }
 
 TEST_F(Map, FindsAnotherDayInTheMap)
@@ -291,15 +196,6 @@ TEST_F(Map, RefusesBadCommandLines)
   EXPECT_EQ(folder.exit_status, 2);
   EXPECT_NE(folder.output.find("has no summary.json"), std::string::npos) << folder.output;
   EXPECT_FALSE(fs::exists(folder_.file("map")));
-}
-
-TEST_F(Map, DoesNotReplaceWhatItHasNotWritten)
-{
-  const std::string rawlog = record("walk", walk(8.0));
-  fs::create_directory(folder_.file("mine"));
-  std::ofstream(folder_.file("mine") + "/map.ply") << "mine";
-  EXPECT_EQ(run({rawlog, "-o", folder_.file("mine"), "--export", "ply"}).exit_status, 1);
-  EXPECT_EQ(textOf(folder_.file("mine") + "/map.ply"), "mine");
 }
 
 TEST_F(Map, UnknownReferenceSystem)

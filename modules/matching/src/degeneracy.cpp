@@ -72,13 +72,20 @@ void collect(
 }
 }  // namespace
 
+void RowsByPlane::reserve(std::size_t points)
+{
+  if (points <= rows_.capacity()) return;
+  rows_.reserve(2 * points);
+  order_.reserve(2 * points);
+}
+
 void RowsByPlane::clear(std::size_t points)
 {
+  reserve(points);
   rows_.resize(points);
   for (Row& row : rows_)
     row.weight = 0.0;
   order_.clear();
-  order_.reserve(points);
 }
 
 void RowsByPlane::set(std::size_t i, std::uint32_t plane, double weight, const Vector6& h)

@@ -142,6 +142,7 @@ MatchResult ScanMatcher::match(
   world_edges_.resize(scan.edges.size());
   edge_matches_.resize(scan.edges.size());
   chunk_sums_.resize(Workers::chunks(points));
+  rows_.reserve(points);
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));

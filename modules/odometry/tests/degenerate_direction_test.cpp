@@ -4,6 +4,7 @@
 // For a while nothing shows where the platform is along one axis. Then it comes into view.
 
 #include "odometry_runs.h"
+#include <fastlio/matching/degeneracy.h>
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ bool isOnAnEndWall(const Vec3& p)
 /** The room without the walls across x until a time: a corridor whose ends cannot be seen. */
 RoomRecording corridorUntil(double end_s)
 {
-  RoomRecording recording = recordRoom(10.0);
+  RoomRecording recording = recordRoom(13.0);
   for (LidarScan& scan : recording.scans)
   {
     if (static_cast<double>(scan.stamp_ns - kRecordingStart) >= end_s * 1e9) break;
@@ -56,8 +57,9 @@ class DegenerateDirection : public ::testing::TestWithParam<double>
 };
 
 // The scans that add the end walls are all wrong by the same along x. The second one shows the
-// velocity, so the position becomes more certain once. Those after it show where the platform is in
-// the map, and never where the map is in the world.
+// velocity, so the position becomes more certain once; so it does when the direction is weak no
+// more, as the covariance of the few planes that show a weak one is a bound. Scans after that show
+// where the platform is in the map, and never where the map is in the world.
 TEST_P(DegenerateDirection, IsNoMoreCertainTheLongerItsEndIsSeen)
 {
   const RoomRecording recording = corridorUntil(GetParam());
@@ -67,11 +69,14 @@ TEST_P(DegenerateDirection, IsNoMoreCertainTheLongerItsEndIsSeen)
   const auto in_view = [&](const ScanResult& r)
   {
     return static_cast<double>(r.begin_ns - kRecordingStart) >= GetParam() * 1e9 &&
-           r.statistics.constraints.unconstrained == 0;
+           r.statistics.constraints.unconstrained == 0 && !isWeak(r.statistics.constraints, 0);
   };
   const auto seen = std::find_if(results.begin(), results.end(), in_view);
   ASSERT_GT(results.end() - seen, 20);
-  ASSERT_EQ((seen - 2)->statistics.constraints.unconstrained, 1) << "nothing was degenerate";
+  ASSERT_TRUE(std::any_of(
+      results.begin(), seen,
+      [](const ScanResult& r) { return r.statistics.constraints.unconstrained == 1; }))
+      << "nothing was degenerate";
   for (auto r = seen; r != results.end(); ++r)
   {
     const double error = errors[static_cast<std::size_t>(r - results.begin())].position.x();

@@ -17,6 +17,8 @@ namespace fastlio
 class RowsByPlane
 {
  public:
+  /** Allocates for so many points, and for some more. */
+  void reserve(std::size_t points);
   /** Forgets all rows and makes room for those of so many points. */
   void clear(std::size_t points);
   /** Row h and weight of the match of point i; different points may come from different threads. */

@@ -1,0 +1,69 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The folder that the program writes into: of another run, of a killed one, of somebody else.
+
+#include "map_fixture.h"
+#include <fastlio/files/folder_lock.h>
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <string>
+#include <thread>
+#include <unistd.h>
+
+namespace fastlio::testing
+{
+namespace
+{
+/** Whatever was killed leaves no summary; started again, the program has the same bytes. */
+TEST_F(Map, KilledAndStartedAgainHasTheSameBytes)
+{
+  const std::string rawlog = record("walk", walk(16.0));
+  const auto arguments = [&](const std::string& name)
+  {
+    return std::vector<std::string>{
+        FASTLIO_MAP_PROGRAM, rawlog,     "-o",
+        folder_.file(name),  "--export", "trajectory,covariance,planes,summary"};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(Process(arguments("whole"), folder_.file("log.txt")).wait().exit_status, 0);
+  const auto whole = std::chrono::steady_clock::now() - start;
+  for (const int tenths : {3, 7})
+  {
+    Process process(arguments("killed"), folder_.file("log.txt"));
+    std::this_thread::sleep_for(whole * tenths / 10);
+    process.signal(SIGKILL);
+    ASSERT_EQ(process.wait().exit_status, -1) << "it was faster than to be killed";
+    EXPECT_FALSE(fs::exists(folder_.file("killed") + "/summary.json"));
+  }
+  ASSERT_EQ(Process(arguments("killed"), folder_.file("log.txt")).wait().exit_status, 0);
+  for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.planes"})
+    EXPECT_TRUE(textOf(folder_.file("killed") + file) == textOf(folder_.file("whole") + file))
+        << file;
+}
+
+/** Another run's folder is refused before the work, not after it. */
+TEST_F(Map, AFolderInUseIsRefusedAtOnce)
+{
+  const std::string rawlog = record("walk", walk(16.0));
+  fs::create_directory(folder_.file("map"));
+  const auto running = std::make_unique<FolderLock>(folder_.file("map"));
+  const ProcessResult refused = run({rawlog, "-o", folder_.file("map"), "--export", "trajectory"});
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_NE(refused.output.find(std::to_string(getpid())), std::string::npos) << refused.output;
+  EXPECT_FALSE(fs::exists(folder_.file("map") + "/summary.json"));
+}
+
+TEST_F(Map, DoesNotReplaceWhatItHasNotWritten)
+{
+  const std::string rawlog = record("walk", walk(8.0));
+  fs::create_directory(folder_.file("mine"));
+  std::ofstream(folder_.file("mine") + "/map.ply") << "mine";
+  EXPECT_EQ(run({rawlog, "-o", folder_.file("mine"), "--export", "ply"}).exit_status, 1);
+  EXPECT_EQ(textOf(folder_.file("mine") + "/map.ply"), "mine");
+}
+
+}  // namespace
+}  // namespace fastlio::testing
