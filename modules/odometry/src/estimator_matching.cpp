@@ -11,6 +11,11 @@
 
 namespace fastlio
 {
+namespace
+{
+constexpr double kStartSignalToNoise = 0.1;
+}
+
 MapSearchResult Estimator::matchWithMap(
     const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns)
 {
@@ -53,9 +58,11 @@ MapSearchResult Estimator::trackOrSearch(
   if (!tracking.searching)
   {
     const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
-    MatchResult match = matcher_.match(
-        scan, predicted.state, map_.matched(),
-        pull_in ? pullInMatching(options_) : ordinaryMatching(options_));
+    MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
+    // Only these scans can tell the velocity of a start in motion: no direction is left out
+    // lightly.
+    if (tracking.run.motion_window) how.measurement.min_signal_to_noise *= kStartSignalToNoise;
+    MatchResult match = matcher_.match(scan, predicted.state, map_.matched(), how);
     const bool good = !match.update.updated || isConvincing(match, scan, map_);
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
   }
