@@ -13,7 +13,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kStartSignalToNoise = 0.1;
+constexpr double kStartSignalToNoise = 0.2;
 }
 
 MapSearchResult Estimator::matchWithMap(
