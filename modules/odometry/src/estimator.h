@@ -134,6 +134,8 @@ class Estimator
   void applyZeroVelocityUpdate(bool matched, ScanResult& result);
   void changeMode(ScanStatus status);
   void correctExtrinsic(ScanResult& result);
+  /** What was known of single planes goes with the map they were in. */
+  void useMap(LocalMap map);
   void insertIntoMap(const Work& work, const ScanResult& result);
   void widenAfterFirstScan(ScanStatus status);
   void releaseTimeOffset(const ScanResult& result, std::size_t points);

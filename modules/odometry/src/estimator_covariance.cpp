@@ -102,8 +102,7 @@ void Estimator::correctExtrinsic(ScanResult& result)
   if (!error) return;
   state_.filter.x = boxplus(state_.filter.x, map_.calibrationError().withoutExtrinsicError(*error));
   calibration_.takeOff(*error);
-  map_ = map_.successor(options_, workers_);
-  beams_.forgetMap();
+  useMap(map_.successor(options_, workers_));
   agreement_.restart();
   report(result);
 }

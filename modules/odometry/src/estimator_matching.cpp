@@ -113,8 +113,7 @@ FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& 
   state.P.middleRows<3>(kPosition).setZero();
   state.P.middleCols<3>(kPosition).setZero();
   state.P.block<3, 3>(kPosition, kPosition) = position;
-  map_ = LocalMap(options_, workers_);
-  beams_.forgetMap();
+  useMap(LocalMap(options_, workers_));
   map_.beginAt(scanPoseCovariance(state, scan.compensation).diagonal().tail<3>());
   return state;
 }

@@ -31,9 +31,15 @@ FilterRun startedRun(
 }
 }  // namespace
 
+void Estimator::useMap(LocalMap map)
+{
+  map_ = std::move(map);
+  beams_.forgetMap();
+}
+
 void Estimator::useSavedMap(const SavedMap& saved)
 {
-  map_ = LocalMap(options_, workers_, saved);
+  useMap(LocalMap(options_, workers_, saved));
   mode_ = Initializing{Pose{saved.T_map_imu.R, saved.T_map_imu.p - saved.origin}};
 }
 
@@ -64,7 +70,7 @@ bool Estimator::canGoOn() const
 
 void Estimator::goOnIn(const SavedMap& saved)
 {
-  map_ = LocalMap(options_, workers_, saved);
+  useMap(LocalMap(options_, workers_, saved));
 }
 
 void Estimator::relocalize(const Pose& T_map_imu, double position_std, double yaw_std)
@@ -72,6 +78,7 @@ void Estimator::relocalize(const Pose& T_map_imu, double position_std, double ya
   skipScan();
   rest_.reset();
   agreement_.restart();
+  ambiguity_ = {};  // the given pose says which of the places it is
   FilterState& filter = state_.filter;
   filter.x.p.setZero();
   filter = placedInMap(filter, T_map_imu);

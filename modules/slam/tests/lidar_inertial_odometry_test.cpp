@@ -201,6 +201,29 @@ TEST(CLidarInertialOdometry, GoesOnInAMapThatIsLoadedInTheMiddleOfARun)
   EXPECT_GT(posesInMap(*odometry, found), 10U);
 }
 
+// The second guess says which of the places it is that the first one left open.
+TEST(CLidarInertialOdometry, ACertainGuessReplacesAnUncertainOne)
+{
+  const auto odometry = following(matchingConfig(walk().settings()));
+  feed(*odometry, 0, 50);
+  const auto positionStd = [&]
+  {
+    const auto& P = odometry->latest()->result.filter.P;
+    return std::sqrt(P.block<3, 3>(kPosition, kPosition).diagonal().maxCoeff());
+  };
+  VehicleGuess guess = guessAt(50);
+  guess.position_std = 0.8;
+  odometry->startIn(undisturbed().savedMap(), guess);
+  feed(*odometry, 50, 75);
+  EXPECT_GT(positionStd(), 0.5);
+  guess = guessAt(75);
+  guess.position_std = 0.25;
+  EXPECT_TRUE(odometry->relocalize(guess));
+  feed(*odometry, 75, 100);
+  EXPECT_LT(positionStd(), 0.3);
+  EXPECT_TRUE(hasPose(odometry->latest()->result.status));
+}
+
 TEST(CLidarInertialOdometry, AMapMayBeLoadedBeforeTheSensorsAreKnown)
 {
   const auto odometry = following(matchingConfig(walk().settings()));
