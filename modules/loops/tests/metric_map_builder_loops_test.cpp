@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "simulated_observations.h"
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/loops/CMetricMapBuilderLoops.h>
@@ -44,18 +45,7 @@ const Simulation& ride()
 
 const std::vector<mrpt::obs::CObservation::Ptr>& rideObservations()
 {
-  static const auto all = []
-  {
-    std::vector<mrpt::obs::CObservation::Ptr> list;
-    for (const auto& sample : ride().imu().samples)
-      list.push_back(toImuObservation(sample));
-    for (std::size_t i = 0; i < ride().scanCount(); ++i)
-      list.push_back(toLidarObservation(ride(), i));
-    std::stable_sort(
-        list.begin(), list.end(),
-        [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
-    return list;
-  }();
+  static const auto all = testing::observationsOf(ride());
   return all;
 }
 
