@@ -6,8 +6,6 @@
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/pose_output.h>
 
-#include <algorithm>
-
 namespace fastlio
 {
 CMetricMapBuilderLoops::CMetricMapBuilderLoops(
@@ -46,18 +44,10 @@ void CMetricMapBuilderLoops::takeScan(const OdometryEstimate& estimate)
     mapper_->setExtrinsicMoment(0, extrinsicMoment(scan.statistics.calibration));
 }
 
-std::size_t CMetricMapBuilderLoops::accepted() const
-{
-  const auto& all = mapper_->closures();
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(),
-      [](const Closure& closure) { return closure.verdict == ClosureVerdict::Accepted; }));
-}
-
 /** The trajectory with all closures up to now; null: there are none. */
 const CorrectedTrajectory* CMetricMapBuilderLoops::updatedTrajectory() const
 {
-  if (accepted() == 0) return nullptr;
+  if (mapper_->accepted() == 0) return nullptr;
   const std::size_t submaps = mapper_->submaps().size();
   if (!corrected_.trajectory || corrected_.submaps != submaps)
   {
@@ -149,7 +139,7 @@ MappingResult CMetricMapBuilderLoops::mapping() const
 std::size_t CMetricMapBuilderLoops::closures() const
 {
   const std::lock_guard lock(mutex());
-  return accepted();
+  return mapper_->accepted();
 }
 
 }  // namespace fastlio

@@ -60,7 +60,6 @@ class CMetricMapBuilderLoops : public CMetricMapBuilderLIO
   };
 
   void takeScan(const OdometryEstimate& estimate);
-  [[nodiscard]] std::size_t accepted() const;
   [[nodiscard]] const CorrectedTrajectory* updatedTrajectory() const;
   [[nodiscard]] TrackedPose correctedPose(
       const CorrectedTrajectory& trajectory, const TrackedPose& vehicle) const;

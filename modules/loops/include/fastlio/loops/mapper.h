@@ -136,6 +136,8 @@ class Mapper
 
   [[nodiscard]] const std::vector<Submap>& submaps() const { return result_.submaps; }
   [[nodiscard]] const std::vector<Closure>& closures() const { return result_.closures; }
+  /** Accepted closures so far. */
+  [[nodiscard]] std::size_t accepted() const { return result_.accepted(); }
 
  private:
   /** Where a session may be in the map, by one of its submaps. */
