@@ -12,6 +12,7 @@ CALIBRATION_DIR ?= calibration-output
 EXPERIMENTS_DIR ?= experiments-output
 TUNE_DIR ?= tune-output
 GROWTH_DIR ?= growth-output
+PEERS_DIR ?=
 MAP_DIR ?= map-output
 MOLA_SOURCES ?=
 FUZZ_SECONDS ?= 600
@@ -24,7 +25,7 @@ TUNE_PROGRAMS := $(DEMO_PROGRAMS) fastlio-tune
 
 .DEFAULT_GOAL := help
 .PHONY: help dependencies test-dependencies lint-dependencies configure build test faults fuzz sanitize instructions \
-  benchmark growth stage-costs demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
+  benchmark growth stage-costs peers demo replay scenarios calibration-table map-table tune-demo tune-proxy tune-effects \
   experiments docs format lint packages test-packages test-trixie test-mola test-mola-trixie clean
 
 help:
@@ -38,6 +39,7 @@ help:
 	@echo "make instructions  instructions of a fixed run against their budget (valgrind), in build/baseline"
 	@echo "make benchmark  times of stages and of whole runs; RECORDINGS=DIR as above; see BENCHMARK.md"
 	@echo "make growth  time per scan and memory over an hour, 10 km, points per scan and rates (20 minutes)"
+	@echo "make peers RECORDINGS=DIR PEERS_DIR=DIR  error and time beside those of peers, whose clones are in PEERS_DIR"
 	@echo "make stage-costs RECORDINGS=DIR  instructions and cache misses of each stage (valgrind)"
 	@echo "make calibration-table  errors of realistic rigs before and after fastlio-calibrate"
 	@echo "make map-table  errors of realistic rides before and after fastlio-map"
@@ -115,6 +117,13 @@ benchmark:
 growth: configure
 	cmake --build --preset $(PRESET) --parallel $(JOBS) --target fastlio-sim fastlio-replay
 	benchmarks/growth.sh $(BUILD_DIR) $(GROWTH_DIR)
+
+peers: configure
+	@cmake/install_dependencies.sh build benchmark peers
+	cmake --preset $(PRESET) -DMRPT_FASTLIO_BENCHMARKS=ON
+	cmake --build --preset $(PRESET) --parallel $(JOBS) \
+	  --target fastlio-replay fastlio-eval fastlio-benchmark fastlio-peer-input
+	benchmarks/peers.sh $(BUILD_DIR) $(PEERS_DIR) $(wildcard $(RECORDINGS)/*.rawlog)
 
 stage-costs:
 	@cmake/install_dependencies.sh build benchmark instructions

@@ -33,7 +33,6 @@ stages() {
       for (i = 1; i <= 5; ++i) cost[what, i] = field[i] == "." ? 0 : field[i]
     }
     stage("Estimator::process(") { note("all") }
-    stage("ScanPredictor::predict(") { note("propagate") }
     stage("Estimator::downsample(") { note("downsample") }
     stage("Estimator::deskew(") { note("deskew") }
     stage("ScanMatcher::associate(") { note("match") }
@@ -42,7 +41,13 @@ stages() {
     stage("Estimator::insertIntoMap(") { note("insert") }
     END {
       for (i = 1; i <= 5; ++i) cost["update", i] -= cost["match", i]
-      n = split("propagate downsample deskew match update errors insert all", order, " ")
+      n = split("downsample deskew match update errors insert", order, " ")
+      for (i = 1; i <= 5; ++i) {
+        cost["propagate and the rest", i] = cost["all", i]
+        for (k = 1; k <= n; ++k) cost["propagate and the rest", i] -= cost[order[k], i]
+      }
+      order[++n] = "propagate and the rest"
+      order[++n] = "all"
       for (k = 1; k <= n; ++k)
         printf "| %s | %s | %.0f | %.1f | %.2f | %.0f |\n", name, order[k], cost[order[k], 1] / scans / 1000,
           (cost[order[k], 2] + cost[order[k], 3]) / scans / 1000, (cost[order[k], 4] + cost[order[k], 5]) / scans / 1000,

@@ -2,7 +2,7 @@
 # mrpt_fastlio: installs the Debian packages that the build needs, when they are missing.
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Usage: cmake/install_dependencies.sh [build] [test] [browser] [conformance] [lint] [benchmark] [instructions] [mola] [packages] [fuzz]
+# Usage: cmake/install_dependencies.sh [build] [test] [browser] [conformance] [lint] [benchmark] [peers] [instructions] [mola] [packages] [fuzz]
 # (default: build)
 set -eu
 
@@ -15,6 +15,8 @@ if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
   build_packages="$build_packages libisal-dev"
 fi
 benchmark_packages="libbenchmark-dev"
+# What the peers of benchmarks/peers.sh are built with.
+peers_packages="libtbb-dev robin-map-dev libyaml-cpp-dev"
 # MRPT's own programs, which the tests run on our outputs; fastlio-eval makes PNGs by librsvg's; GNU parallel starts
 # workers of fastlio-tune; the benchmarks are tested, too.
 test_packages="mrpt-apps librsvg2-bin parallel $benchmark_packages"
@@ -60,12 +62,13 @@ for set in "${@:-build}"; do
     conformance) wanted="$wanted $conformance_packages" ;;
     lint) wanted="$wanted $lint_packages" ;;
     benchmark) wanted="$wanted $benchmark_packages" ;;
+    peers) wanted="$wanted $peers_packages" ;;
     mola) wanted="$wanted $mola_packages" ;;
     instructions) wanted="$wanted $instructions_packages" ;;
     packages) wanted="$wanted $packages_packages" ;;
     fuzz) wanted="$wanted $fuzz_packages" ;;
     *)
-      echo "install_dependencies.sh: unknown set '$set'; known: build, test, browser, conformance, lint, benchmark, instructions, mola, packages, fuzz" >&2
+      echo "install_dependencies.sh: unknown set '$set'; known: build, test, browser, conformance, lint, benchmark, peers, instructions, mola, packages, fuzz" >&2
       exit 2
       ;;
   esac
