@@ -34,9 +34,18 @@ constexpr RealisticCase kRealisticCases[] = {
 };
 /** Only when everything is asked for. */
 constexpr RealisticCase kMoreRealisticCases[] = {
+    {{"OfficeOs64", "office", LidarKind::Os64, 4}},
+    {{"OfficeLivox", "office", LidarKind::Livox, 2}},
+    {{"CampusLivox", "campus", LidarKind::Livox, 2}},
+    {{"CarVlp16", "car", LidarKind::Vlp16, 2}, false},
     {{"CarOs64", "car", LidarKind::Os64, 4}, false},
+    {{"CarLivox", "car", LidarKind::Livox, 2}, false},
+    {{"UavVlp16", "uav", LidarKind::Vlp16, 2}, false},
+    {{"UavOs64", "uav", LidarKind::Os64, 4}, false},
     {{"UavLivox", "uav", LidarKind::Livox, 2}, false},
     {{"StairsVlp16", "stairs", LidarKind::Vlp16, 2}, true, false},
+    {{"StairsOs64", "stairs", LidarKind::Os64, 4}, true, false},
+    {{"StairsLivox", "stairs", LidarKind::Livox, 2}, true, false},
 };
 
 std::vector<RealisticCase> realisticCases()
