@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace fastlio
 {
 namespace
@@ -65,13 +67,21 @@ void CalibrationEvidence::add(
   const Square6 W =
       Square6(Square6::Identity() + information * P).partialPivLu().solve(information);
   const PoseByCalibration weighted = product(W, innovation);
-  sums_.information += innovation.transpose() * weighted;
+  const Eigen::Matrix<double, kCalibrationErrorDim, kCalibrationErrorDim> information_of_error =
+      innovation.transpose() * weighted;
+  const double squares = Wy.dot(information_ldlt.solve(Wy) + P * Wy);
+  const Vec6 by_error = innovation * estimate_.mean;
+  watch_.add(
+      (squares + by_error.dot(2.0 * Wy + W * by_error)) /
+      (6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum()));
+  sums_.information += information_of_error;
   sums_.weighted -= innovation.transpose() * Wy;
-  sums_.squares += Wy.dot(information_ldlt.solve(Wy) + P * Wy);
+  sums_.squares += squares;
   sums_.count += 6.0;
   ++scans_;
   if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0)
     estimate_ = solve(sums_, prior_);
+  estimate_.innovation_scale = std::max(estimate_.innovation_scale, watch_.worst());
 }
 
 std::optional<Vector6> CalibrationEvidence::dueCorrection(std::int64_t now_ns)
@@ -97,6 +107,7 @@ void CalibrationEvidence::takeOff(const Vector6& error)
   sums_.squares += taken.dot(pull) - 2.0 * taken.dot(sums_.weighted);
   sums_.weighted -= pull;
   prior_.mean -= taken;
+  watch_ = {};  // that error was in the innovations it has seen
   estimate_ = solve(sums_, prior_);
 }
 

@@ -62,6 +62,7 @@ void RunDiagnostics::consider(const ScanResult& result)
   considerMounting(result);
   considerExtrinsic(result);
   considerMotion(result);
+  considerStep(result);
 }
 
 void RunDiagnostics::considerMounting(const ScanResult& result)
@@ -93,6 +94,17 @@ void RunDiagnostics::considerMotion(const ScanResult& result)
           "part of it, and the covariance counts that. Otherwise: check units, point times, clocks "
           "and clipped or missing inertial readings",
           innovation));
+}
+
+void RunDiagnostics::considerStep(const ScanResult& result)
+{
+  if (step_reported_ || !result.statistics.inertial_step) return;
+  step_reported_ = true;
+  report(
+      result.stamp_ns,
+      "from here on the inertial sensor is not what it was: the scans contradict it, so its biases "
+      "are estimated anew and the covariance is wider. A shock, heat or a motor that starts does "
+      "that, and so do clipped readings and a clock that jumps");
 }
 
 /** Smaller than what considerMounting() sees, and after a longer time. */

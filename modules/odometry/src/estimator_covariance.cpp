@@ -66,11 +66,25 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   if (match.update.updated && match.constraints.unconstrained == 0)
     calibration_.add(
         by_calibration.innovation, update.by_state, work.predicted.state, match.update);
+  // A start in motion does not know its biases yet.
+  result.statistics.inertial_step = calibration_.takeStep() && !run().motion_window;
+  if (result.statistics.inertial_step) releaseBiases();
   report(result);
 
   preparation_.describe(work.scan, result.statistics);
   describeMatch(match, result.statistics);
   result.statistics.imu_samples = predictor_.inputs().size();
+}
+
+/** The inertial sensor has changed, by a shock, by vibration, by heat: its biases are as uncertain
+ * as at a start in motion. Else the filter, sure of the old ones, would follow it against the
+ * scans. */
+void Estimator::releaseBiases()
+{
+  StateMatrix& P = state_.filter.P;
+  const InitializationOptions& prior = options_.initialization;
+  P.diagonal().segment<3>(kGyroBias).array() += std::pow(prior.motion_gyro_bias_std, 2);
+  P.diagonal().segment<3>(kAccelBias).array() += std::pow(prior.accel_bias_std, 2);
 }
 
 /** The state as it is reported: with what the errors of map and calibration add, and as uncertain

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <fastlio/errormodel/calibration_error.h>
+#include <fastlio/errormodel/innovation_watch.h>
 #include <fastlio/filter/scan_pose.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/interface/odometry_options.h>
@@ -40,7 +41,12 @@ class CalibrationEvidence
   /** Covariance of the extrinsic in use, as far as it is estimated. */
   [[nodiscard]] Matrix6 extrinsicCovariance() const;
 
-  /** The estimate from all scans so far. */
+  /** The last scans contradict their predictions so much that the inertial sensor cannot be what it
+   * was. \return true once for the scans that show it */
+  [[nodiscard]] bool takeStep() { return watch_.takeStep(); }
+
+  /** The estimate from all scans so far. Its innovation_scale is at least that of the worst
+   * seconds. */
   [[nodiscard]] const CalibrationEstimate& estimate() const { return estimate_; }
   [[nodiscard]] const CalibrationSums& sums() const { return sums_; }
 
@@ -51,6 +57,7 @@ class CalibrationEvidence
   CalibrationPrior prior_;
   CalibrationSums sums_;
   int scans_ = 0;
+  InnovationWatch watch_;  // of what theta, as it was known then, does not explain
   CalibrationEstimate estimate_;
 };
 

@@ -39,12 +39,13 @@ class RunDiagnostics
   void considerMounting(const ScanResult& result);
   void considerExtrinsic(const ScanResult& result);
   void considerMotion(const ScanResult& result);
+  void considerStep(const ScanResult& result);
 
   CalibrationOptions calibration_;
   ImuNoise imu_noise_;
   SampleScatter scatter_;
   bool scatter_reported_ = false, mounting_reported_ = false, extrinsic_reported_ = false,
-       motion_reported_ = false;
+       motion_reported_ = false, step_reported_ = false;
   std::vector<Diagnostic> all_;
 };
 

@@ -70,8 +70,9 @@ struct MountingError
   double angle = 0.0;                    //!< of R_true_given [rad]
   double std = 0.0;                      //!< of the angle, by what the turns leave over [rad]
 
-  /** Lower bound of the angle, by three standard deviations [rad]. */
-  [[nodiscard]] double leastAngle() const { return std::max(0.0, angle - 3.0 * std); }
+  /** Lower bound of the angle [rad]. Five standard deviations, because what the turns leave over is
+   * not white: a slow gyro takes vibration for turns of seconds. */
+  [[nodiscard]] double leastAngle() const { return std::max(0.0, angle - 5.0 * std); }
 };
 
 /** The turns that the gyro sees over those that the scans see. */
@@ -120,8 +121,9 @@ struct ScanStatistics
   std::size_t map_points = 0;          //!< points in the map after the scan
   int iterations = 0;
   bool converged = false;
-  bool at_rest = false;                //!< the platform was found to stand still (rest.enabled)
-  double residual_rms = 0.0;           //!< of the effective points, last iteration [m]
+  bool at_rest = false;        //!< the platform was found to stand still (rest.enabled)
+  bool inertial_step = false;  //!< the inertial sensor has changed: its biases are estimated anew
+  double residual_rms = 0.0;   //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   double searched_std = 0.0;  //!< of the position that this scan was found around, in a search of
                               //!< the map [m]; 0: the scan was matched where it was predicted

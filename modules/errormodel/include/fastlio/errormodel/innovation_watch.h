@@ -1,0 +1,33 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file innovation_watch.h Do scans and inertial data go on agreeing as well as they did? */
+#pragma once
+
+#include <array>
+
+namespace fastlio
+{
+/** Watches how large the innovations of scans are, as mean squares over their covariance. */
+class InnovationWatch
+{
+ public:
+  /** Takes the next scan. \param square mean over the elements of its innovation; about 1 when the
+   * noise is what the filter takes it for */
+  void add(double square);
+
+  /** What the worst seconds so far make of the covariance, as a factor: what the poses lost in them
+   * stays. 1 when no time stands out. */
+  [[nodiscard]] double worst() const { return worst_; }
+
+  /** The last scans contradict their predictions so much that the inertial sensor cannot be what it
+   * was. \return true once for the scans that show it */
+  [[nodiscard]] bool takeStep();
+
+ private:
+  int scans_ = 0;
+  double recent_ = 0.0, worst_ = 1.0;
+  std::array<double, 3> last_{};  // the latest first
+};
+
+}  // namespace fastlio

@@ -1,0 +1,79 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/errormodel/innovation_watch.h>
+
+#include <gtest/gtest.h>
+
+namespace fastlio
+{
+namespace
+{
+void addMany(InnovationWatch& watch, double square, int scans)
+{
+  for (int i = 0; i < scans; ++i)
+    watch.add(square);
+}
+
+TEST(InnovationWatch, InnovationsAsExpectedWidenNothing)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 200);
+  EXPECT_EQ(watch.worst(), 1.0);
+  EXPECT_FALSE(watch.takeStep());
+}
+
+TEST(InnovationWatch, UnevenSecondsOfAHealthySensorWidenNothing)
+{
+  InnovationWatch watch;
+  for (int i = 0; i < 10; ++i)
+  {
+    addMany(watch, 2.0, 30);
+    addMany(watch, 0.5, 30);
+  }
+  EXPECT_EQ(watch.worst(), 1.0);
+}
+
+TEST(InnovationWatch, WhatBadSecondsCostStays)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 100);
+  addMany(watch, 50.0, 60);
+  const double worst = watch.worst();
+  EXPECT_NEAR(worst, 0.4 * 50.0, 3.0);
+  addMany(watch, 1.0, 1000);
+  EXPECT_EQ(watch.worst(), worst);
+}
+
+TEST(InnovationWatch, FewScansAreNoEvidenceOfBadSeconds)
+{
+  InnovationWatch watch;
+  addMany(watch, 40.0, 20);
+  EXPECT_EQ(watch.worst(), 1.0);
+}
+
+TEST(InnovationWatch, OneWildScanIsNoStep)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  watch.add(100.0);
+  EXPECT_FALSE(watch.takeStep());
+  addMany(watch, 1.0, 3);
+  EXPECT_FALSE(watch.takeStep());
+}
+
+TEST(InnovationWatch, AStepIsReportedOnceForTheScansThatShowIt)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  watch.add(60.0);
+  watch.add(120.0);
+  EXPECT_TRUE(watch.takeStep());
+  EXPECT_FALSE(watch.takeStep());
+  watch.add(60.0);
+  EXPECT_FALSE(watch.takeStep());
+  watch.add(80.0);
+  EXPECT_TRUE(watch.takeStep()) << "it goes on";
+}
+}  // namespace
+}  // namespace fastlio
