@@ -15,8 +15,9 @@ namespace
 constexpr int kRecentScans = 30;
 constexpr double kUnevenness = 2.5;
 // The mean of the last scans. Of healthy sensors it was 33 at most, of a car that vibrates; a step
-// of 0.5 m/s^2 of an accelerometer makes it 100.
-constexpr double kStep = 45.0;
+// of 0.5 m/s^2 of an accelerometer makes it 100. One scan that went wrong is none, so each of them
+// has to show it.
+constexpr double kStep = 45.0, kLeastOfEach = kStep / 3.0;
 }  // namespace
 
 void InnovationWatch::add(double square)
@@ -31,6 +32,7 @@ bool InnovationWatch::takeStep()
 {
   const double sum = std::accumulate(last_.begin(), last_.end(), 0.0);
   if (sum < kStep * static_cast<double>(last_.size())) return false;
+  if (*std::min_element(last_.begin(), last_.end()) < kLeastOfEach) return false;
   last_ = {};
   return true;
 }

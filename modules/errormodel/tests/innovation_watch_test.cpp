@@ -56,9 +56,16 @@ TEST(InnovationWatch, OneWildScanIsNoStep)
 {
   InnovationWatch watch;
   addMany(watch, 1.0, 50);
-  watch.add(100.0);
+  watch.add(1000.0);
   EXPECT_FALSE(watch.takeStep());
   addMany(watch, 1.0, 3);
+  EXPECT_FALSE(watch.takeStep());
+}
+
+TEST(InnovationWatch, TheFirstScanInAMapIsNoStep)
+{
+  InnovationWatch watch;
+  watch.add(1000.0);
   EXPECT_FALSE(watch.takeStep());
 }
 
@@ -66,13 +73,16 @@ TEST(InnovationWatch, AStepIsReportedOnceForTheScansThatShowIt)
 {
   InnovationWatch watch;
   addMany(watch, 1.0, 50);
-  watch.add(60.0);
-  watch.add(120.0);
+  watch.add(30.0);
+  watch.add(110.0);
+  EXPECT_FALSE(watch.takeStep());
+  watch.add(150.0);
   EXPECT_TRUE(watch.takeStep());
   EXPECT_FALSE(watch.takeStep());
   watch.add(60.0);
+  watch.add(60.0);
   EXPECT_FALSE(watch.takeStep());
-  watch.add(80.0);
+  watch.add(60.0);
   EXPECT_TRUE(watch.takeStep()) << "it goes on";
 }
 }  // namespace

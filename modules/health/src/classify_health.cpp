@@ -159,6 +159,15 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
               "wrong unit, range setting or imu.gyro_matrix?",
               s.gyro_scale->scale(), s.gyro_scale->std, context.max_gyro_scale_error);
         });
+  if (s.inertial_step)
+    consider(
+        health, kPredicted, HealthCause::MotionDisagreement,
+        [&]
+        {
+          return std::string(
+              "scans and inertial data contradict each other at once, by far: the inertial sensor "
+              "is not what it was, or the LiDAR sees what moves with it, as in an elevator");
+        });
   consider(
       health, below(s.motion_innovation, kMaxMotionInnovation), HealthCause::MotionDisagreement,
       [&]

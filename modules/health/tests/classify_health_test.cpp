@@ -19,6 +19,14 @@ TEST(Classify, AGoodScanIsHealthy)
   EXPECT_EQ(health.reason, "");
 }
 
+TEST(Classify, AScanThatContradictsTheInertialSensorIsInTrouble)
+{
+  const ScanHealth health = healthAfter([](ScanResult& r) { r.statistics.inertial_step = true; });
+  EXPECT_LT(health.value, 0.5);
+  EXPECT_EQ(health.cause, HealthCause::MotionDisagreement);
+  EXPECT_NE(health.reason.find("is not what it was"), std::string::npos) << health.reason;
+}
+
 TEST(Classify, EachMeasureIsHalfAtItsLimitAndNamesItself)
 {
   struct Case

@@ -61,7 +61,8 @@ void RunHealth::extendStretch(const ScanResult& result)
 {
   Growing& growing = stretchAt(result.stamp_ns);
   UntrustedStretch& stretch = growing.stretch;
-  growing.searched = growing.searched || result.statistics.searched_std > kUnambiguous;
+  growing.grave = growing.grave || result.statistics.inertial_step ||
+                  result.statistics.searched_std > kUnambiguous;
   stretch.end_ns = result.stamp_ns;
   stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);
   ++stretch.scans;
@@ -77,8 +78,7 @@ std::vector<UntrustedStretch> RunHealth::untrusted() const
 {
   std::vector<UntrustedStretch> stretches;
   for (const Growing& growing : stretches_)
-    if (growing.stretch.scans >= kLeastScans || growing.searched)
-      stretches.push_back(growing.stretch);
+    if (growing.stretch.scans >= kLeastScans || growing.grave) stretches.push_back(growing.stretch);
   return stretches;
 }
 

@@ -65,6 +65,16 @@ TEST(ExitStatus, IsDegradedByOneScanThatWasFoundFromFarOff)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::Degraded);
 }
 
+// One of both sensors is wrong from then on, and no scan says which.
+TEST(ExitStatus, IsDegradedByOneScanThatContradictsTheInertialSensor)
+{
+  RunSummary run = goodRun();
+  ScanResult step = troubledScan(1, 0.25);
+  step.statistics.inertial_step = true;
+  run.statistics.add(step);
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::Degraded);
+}
+
 TEST(RunHealth, NamesTheStretchesThatCannotBeTrusted)
 {
   RunHealth health;

@@ -55,7 +55,8 @@ class RunHealth
   /** How many scans in trouble had each cause. */
   [[nodiscard]] const std::map<HealthCause, std::size_t>& causes() const { return causes_; }
   /** In order of time. A scan or two by themselves are none: the scans around them vouch for the
-   * poses. A scan that was found by a search of the map is one by itself. */
+   * poses. A scan that was found by a search of the map, or contradicts the inertial data by far,
+   * is one by itself. */
   [[nodiscard]] std::vector<UntrustedStretch> untrusted() const;
 
  private:
@@ -65,7 +66,8 @@ class RunHealth
     UntrustedStretch stretch;
     std::map<HealthCause, std::size_t> causes;
     double worst = 1.0;
-    bool searched = false;  //!< a scan was found in the map from far off
+    //! One scan is enough: it was found in the map from far off, or contradicts the inertial data.
+    bool grave = false;
   };
 
   void extendStretch(const ScanResult& result);
