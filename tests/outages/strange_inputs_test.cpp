@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -115,7 +116,7 @@ std::vector<StrangeInput> strangeScans()
         "scans late by " + std::to_string(late_ms) + " ms", kForever,
         [late_ms](LidarScan& s)
         {
-          s.stamp_ns += late_ms * 1'000'000;
+          s.stamp_ns += late_ms * std::int64_t{1'000'000};
           return true;
         });
   scan("every second scan missing", kForever, [n = 0](LidarScan&) mutable { return ++n % 2 == 0; });
