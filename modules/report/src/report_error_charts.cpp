@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "report_charts.h"
-#include <fastlio/plot/report_figure.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/plot/report_figure.h>
 
 #include <algorithm>
 #include <cmath>

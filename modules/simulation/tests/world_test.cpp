@@ -107,7 +107,8 @@ TEST(Primitive, BoundsHoldTheSurface)
   }
 }
 
-/** Fraction of rays through the middle of a crown of leaves that end within a depth of its border. */
+/** Fraction of rays through the middle of a crown of leaves that end within a depth of its border.
+ */
 double caughtWithin(const Primitive& crown, double depth)
 {
   Dice dice;

@@ -11,8 +11,8 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kShortestStretch = 0.5;         // stretch [s]
-constexpr double kMostMissing = 0.05;     // between samples, and of a stretch [s]
+constexpr double kShortestStretch = 0.5;     // stretch [s]
+constexpr double kMostMissing = 0.05;        // between samples, and of a stretch [s]
 constexpr double kMeasuredPosition = 0.002;  // surfaces that bend move scans by this [m]
 // Scale and mounting of the accelerometer are off by some tenths of a percent and of a degree: so
 // is what it feels of the motion, as a part of it.

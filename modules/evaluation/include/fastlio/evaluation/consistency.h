@@ -39,7 +39,7 @@ struct NeesSummary
   double mean_lower = 0.0;  //!< 95 % bounds of the mean of count independent samples
   double mean_upper = 0.0;
   double sample_bound = 0.0;  //!< 95 % of the samples of a consistent filter lie below
-  double coverage = 0.0;  //!< fraction of the samples that do
+  double coverage = 0.0;      //!< fraction of the samples that do
 
   [[nodiscard]] bool meanInside() const { return mean >= mean_lower && mean <= mean_upper; }
 };
