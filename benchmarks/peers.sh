@@ -6,11 +6,12 @@
 # BUILD_DIR is a build for the machine at hand (preset `release`, MRPT_FASTLIO_BENCHMARKS=ON). PEERS_DIR has clones of
 # https://github.com/PRBonn/rko_lio, https://github.com/93won/lidar_inertial_odometry (Surfel-LIO) and
 # https://github.com/strasdat/Sophus; they are built in PEERS_DIR/build with the packages libtbb-dev, robin-map-dev and
-# libyaml-cpp-dev. RUNS in the environment: how often each program runs (5). The times are those of the odometry, without reading.
+# libyaml-cpp-dev. RUNS in the environment: how often each program runs (5); CORE: on which core (0). The times are those
+# of the odometry, without reading.
 set -eu
 
 if [ $# -lt 3 ]; then
-  sed -n '4,10s/^# //p' "$0" >&2
+  sed -n '5,11s/^# //p' "$0" >&2
   exit 2
 fi
 build=$1
