@@ -252,6 +252,28 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair<Vec3, Vec3>{Vec3::Zero(), {0.1, -0.2, 0.5}},
         std::pair<Vec3, Vec3>{{0.0, 0.03, -0.02}, Vec3::Zero()}));
 
+// Before the time offset was released with the biases, these took in what the clock did: 22 m.
+TEST(StepOfTheClock, IsLearnedFromTheScans)
+{
+  SimulationSettings settings = walk("office");
+  settings.duration = 20.0;
+  settings.lidar.stride = 4;
+  const Simulation simulation(settings);
+  OdometryOptions options = matchingParameters(settings);
+  options.threads = 2;
+  StrangeInput late{"late", kForever};
+  late.scan = [](LidarScan& scan)
+  {
+    scan.stamp_ns += 100'000'000;
+    return true;
+  };
+  const SimulatedRun run =
+      runOdometryWith(from(late, settings.start_ns + toNanoseconds(10.0)), simulation, options);
+  EXPECT_EQ(confidentlyWrong(run), 0);
+  EXPECT_LT(positionError(run, run.scans.back()), 0.05);
+  EXPECT_NEAR(run.scans.back().result.filter.x.time_offset, -0.1, 0.001);
+}
+
 INSTANTIATE_TEST_SUITE_P(On, StrangeInputs, ::testing::Values(false, true));
 
 }  // namespace

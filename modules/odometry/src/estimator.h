@@ -128,7 +128,7 @@ class Estimator
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
       ScanStatistics& statistics);
   void adopt(const MatchResult& match, Work& work, ScanResult& result);
-  void releaseBiases();
+  void releaseBiasesAndClock();
   void report(ScanResult& result) const;
   [[nodiscard]] StateMatrix systematicCovariance(const Prediction& prediction) const;
   void noteSupport(const MatchResult& match, Work& work, ScanResult& result);

@@ -69,7 +69,7 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   // A start in motion does not know its biases yet, and a given map has errors of its own.
   result.statistics.inertial_step =
       calibration_.takeStep() && !run().motion_window && !map_.isGiven();
-  if (result.statistics.inertial_step) releaseBiases();
+  if (result.statistics.inertial_step) releaseBiasesAndClock();
   report(result);
 
   preparation_.describe(work.scan, result.statistics);
@@ -77,15 +77,18 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   result.statistics.imu_samples = predictor_.inputs().size();
 }
 
-/** The inertial sensor has changed, by a shock, by vibration, by heat: its biases are as uncertain
- * as at a start in motion. Else the filter, sure of the old ones, would follow it against the
- * scans. */
-void Estimator::releaseBiases()
+/** The inertial sensor has changed, by a shock, by vibration, by heat, or a clock has jumped, and
+ * no scan says which: biases are as uncertain as at a start in motion, and so is the time offset.
+ * Else the filter, sure of the old ones, would follow the sensor against the scans, or put down to
+ * the biases what the clock did. */
+void Estimator::releaseBiasesAndClock()
 {
   StateMatrix& P = state_.filter.P;
   const InitializationOptions& prior = options_.initialization;
   P.diagonal().segment<3>(kGyroBias).array() += std::pow(prior.motion_gyro_bias_std, 2);
   P.diagonal().segment<3>(kAccelBias).array() += std::pow(prior.accel_bias_std, 2);
+  double& time_offset = P(kTimeOffset, kTimeOffset);
+  if (time_offset > 0.0) time_offset += std::pow(options_.calibration.time_offset_std, 2);
 }
 
 /** The state as it is reported: with what the errors of map and calibration add, and as uncertain

@@ -122,7 +122,7 @@ struct ScanStatistics
   int iterations = 0;
   bool converged = false;
   bool at_rest = false;        //!< the platform was found to stand still (rest.enabled)
-  bool inertial_step = false;  //!< the inertial sensor has changed: its biases are estimated anew
+  bool inertial_step = false;  //!< the inertial sensor or a clock has changed and is estimated anew
   double residual_rms = 0.0;   //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true
   double searched_std = 0.0;  //!< of the position that this scan was found around, in a search of
