@@ -5,8 +5,8 @@
 
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/rawlog/saved_map_file.h>
 #include <fastlio/run/run_table.h>
+#include <fastlio/savedmaps/saved_map_file.h>
 
 #include <filesystem>
 #include <stdexcept>

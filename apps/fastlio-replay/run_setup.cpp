@@ -14,7 +14,7 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
-#include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/savedmaps/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
 

@@ -3,8 +3,8 @@
 
 // Cost of decompressing what a LiDAR measures.
 
-#include "gzip_inflater.h"
 #include "test_files.h"
+#include <fastlio/recordings/inflater.h>
 
 #include <benchmark/benchmark.h>
 
@@ -35,7 +35,7 @@ std::string returns(std::size_t count)
   return bytes;
 }
 
-void inflate(benchmark::State& state, std::unique_ptr<GzipInflater> (*make)())
+void inflate(benchmark::State& state, std::unique_ptr<Inflater> (*make)())
 {
   const auto inflater = make();
   if (!inflater)

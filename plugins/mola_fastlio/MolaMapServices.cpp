@@ -7,7 +7,7 @@
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/math/angles.h>
-#include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/savedmaps/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>

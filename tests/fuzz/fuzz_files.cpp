@@ -11,7 +11,7 @@
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/rawlog/rawlog_source.h>
-#include <fastlio/rawlog/saved_map_file.h>
+#include <fastlio/savedmaps/saved_map_file.h>
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/obs/CObservationPointCloud.h>

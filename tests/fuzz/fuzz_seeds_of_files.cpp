@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "fuzz_targets.h"
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CMultiMetricMap.h>

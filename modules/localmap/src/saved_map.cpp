@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/localmap/saved_map.h>
-#include <fastlio/map/incremental_points_map.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 
 #include <Eigen/Eigenvalues>
 

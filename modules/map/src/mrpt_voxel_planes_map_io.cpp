@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "map_definition.h"
 #include <fastlio/compat/bounded_read.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/pointmap/map_definition.h>
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/io/CFileGZInputStream.h>

@@ -5,8 +5,8 @@
  */
 #pragma once
 
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/math/so3.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 
 #include <array>
 #include <cstddef>

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "estimator_mode.h"
-#include "place_ambiguity.h"
 #include "scan_predictor.h"
 #include "scan_preparation.h"
 #include <fastlio/errormodel/beam_errors.h>
@@ -20,6 +19,7 @@
 #include <fastlio/interface/scan_result.h>
 #include <fastlio/localmap/local_map.h>
 #include <fastlio/localmap/map_search.h>
+#include <fastlio/localmap/place_ambiguity.h>
 #include <fastlio/localmap/saved_map.h>
 #include <fastlio/matching/scan_matcher.h>
 #include <fastlio/parallel/workers.h>

@@ -4,8 +4,8 @@
 /** \file estimator_mode.h What the estimator does with the next scan. */
 #pragma once
 
-#include "outage_search.h"
 #include <fastlio/initialization/motion_window.h>
+#include <fastlio/localmap/outage_search.h>
 #include <fastlio/math/pose.h>
 
 #include <cstdint>

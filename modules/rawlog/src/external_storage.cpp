@@ -3,9 +3,9 @@
 
 #include "external_storage.h"
 
-#include "archived_object.h"
-#include "inflating_file.h"
-#include "rotating_scan_stream.h"
+#include <fastlio/archives/archived_object.h>
+#include <fastlio/archives/inflating_file.h>
+#include <fastlio/archives/rotating_scan_stream.h>
 #include <fastlio/compat/mrpt_messages.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/options/printable.h>

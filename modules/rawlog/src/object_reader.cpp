@@ -3,8 +3,8 @@
 
 #include "object_reader.h"
 
-#include "rotating_scan_stream.h"
-#include "size_check.h"
+#include <fastlio/archives/rotating_scan_stream.h>
+#include <fastlio/archives/size_check.h>
 #include <fastlio/compat/mrpt_messages.h>
 #include <fastlio/files/input_file.h>
 

@@ -4,7 +4,7 @@
 /** \file object_reader.h The objects of one rawlog file, and why there are no more. */
 #pragma once
 
-#include "object_stream.h"
+#include <fastlio/archives/object_stream.h>
 #include <fastlio/rawlog/rawlog_source.h>
 
 #include <mrpt/serialization/CSerializable.h>

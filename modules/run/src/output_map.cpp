@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/interface/scan_result.h>
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 #include <fastlio/run/output_map.h>
 
 #include <algorithm>

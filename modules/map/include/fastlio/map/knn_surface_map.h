@@ -5,8 +5,8 @@
  * (eq. 12-14) with exact neighbours. */
 #pragma once
 
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/map/surface_map.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 
 #include <optional>
 

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/map/incremental_points_map.h>
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/pointmap/incremental_points_map.h>
 
 #include <mrpt/config/CLoadableOptions.h>
 #include <mrpt/maps/CMetricMap.h>

@@ -1,0 +1,193 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/archives/object_stream.h>
+
+#include <mrpt/rtti/CObject.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <stdexcept>
+
+namespace
+{
+constexpr std::size_t kChunk = 1U << 15U;
+constexpr std::size_t kLongestClassName = 120;  // limit of MRPT's format
+constexpr unsigned char kHeaderFlag = 0x80;
+const std::string kObservations = "mrpt::obs::";
+
+bool isClassNameCharacter(char c)
+{
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr(":_<>, ", c) != nullptr;
+}
+}  // namespace
+
+namespace fastlio
+{
+// Makes bytes_ reach to end; it grows by what the file really holds only.
+bool ObjectStream::fill(std::size_t end)
+{
+  while (bytes_.size() < end)
+  {
+    if (file_.end() != FileEnd::NotYet) return false;
+    const std::size_t old_size = bytes_.size();
+    bytes_.resize(old_size + kChunk);
+    bytes_.resize(old_size + file_.read(bytes_.data() + old_size, kChunk));
+    if (bytes_.size() == old_size) return false;
+  }
+  return true;
+}
+
+bool ObjectStream::require(std::size_t size)
+{
+  if (position_ - object_ + size > largest_object_)
+    throw std::runtime_error(
+        "it is larger than " + std::to_string(largest_object_ >> 20U) + " MiB");
+  return fill(position_ + size);
+}
+
+bool ObjectStream::holds(std::size_t offset, std::size_t size)
+{
+  return size <= largest_object_ && offset <= largest_object_ - size &&
+         fill(object_ + offset + size);
+}
+
+unsigned char ObjectStream::byteAt(std::size_t offset) const
+{
+  return static_cast<unsigned char>(bytes_[object_ + offset]);
+}
+
+std::uint32_t ObjectStream::wordAt(std::size_t offset) const
+{
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;)
+    word = (word << 8U) | byteAt(offset + i);
+  return word;
+}
+
+std::optional<ObjectHeader> ObjectStream::headerAtOffset(std::size_t offset)
+{
+  if (!holds(offset, 1)) return {};
+  fill(object_ + offset + 1 + kLongestClassName);
+  return headerAt(object_ + offset);
+}
+
+std::size_t ObjectStream::Read(void* data, std::size_t size)
+{
+  if (!require(size))
+  {
+    ran_out_ = true;
+    position_ = bytes_.size();
+    throw std::runtime_error("the file ends inside an object");
+  }
+  std::memcpy(data, bytes_.data() + position_, size);
+  position_ += size;
+  return size;
+}
+
+std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)
+{
+  throw std::logic_error("ObjectStream is for reading only");
+}
+
+void ObjectStream::beginObject()
+{
+  object_ = position_;
+  ran_out_ = false;
+  if (object_ < std::max(kChunk, bytes_.size() / 2))
+    return;  // moving the rest costs in proportion to it
+  bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(object_));
+  origin_ += object_;
+  position_ = object_ = 0;
+}
+
+void ObjectStream::rewindTo(std::size_t offset)
+{
+  position_ = std::min(object_ + offset, bytes_.size());
+  ran_out_ = false;
+}
+
+bool ObjectStream::atEnd()
+{
+  return !require(1);
+}
+
+std::optional<ObjectHeader> ObjectStream::headerAt(std::size_t at) const
+{
+  const auto flagged = static_cast<unsigned char>(bytes_[at]);
+  const std::size_t length = flagged & ~kHeaderFlag & 0xFFU;
+  if ((flagged & kHeaderFlag) == 0 || length == 0 || length > kLongestClassName) return {};
+  if (bytes_.size() - at < 1 + length) return {};
+  const char* name = bytes_.data() + at + 1;
+  if (!std::all_of(name, name + length, isClassNameCharacter)) return {};
+  return ObjectHeader{std::string(name, length), 1 + length};
+}
+
+std::optional<ObjectHeader> ObjectStream::peekHeader()
+{
+  require(1 + kLongestClassName);
+  if (available() == 0) return {};
+  return headerAt(position_);
+}
+
+bool ObjectStream::endsInsideHeader(std::size_t offset)
+{
+  if (holds(offset, 1 + kLongestClassName)) return false;
+  if (!holds(offset, 1)) return true;
+  const std::size_t length = byteAt(offset) & ~kHeaderFlag & 0xFFU;
+  const auto name = bytes_.begin() + static_cast<std::ptrdiff_t>(object_ + offset) + 1;
+  const auto held = static_cast<std::size_t>(bytes_.end() - name);
+  return (byteAt(offset) & kHeaderFlag) != 0 && length <= kLongestClassName && held < length &&
+         std::all_of(name, bytes_.end(), isClassNameCharacter);
+}
+
+std::optional<ObjectHeader> ObjectStream::lastHeaderRead() const
+{
+  for (std::size_t length = 1; length <= kLongestClassName; ++length)
+  {
+    if (position_ - object_ < length + 2) return {};
+    const std::size_t at = position_ - length - 2;
+    auto header = headerAt(at);
+    if (header && header->length == length + 1) return header;
+  }
+  return {};
+}
+
+bool ObjectStream::seekNextObservation()
+{
+  skipped_zeros_only_ = true;
+  for (; seekHeaderFlag(); ++position_)
+  {
+    require(1 + kLongestClassName);
+    const auto header = headerAt(position_);
+    if (header && header->class_name.compare(0, kObservations.size(), kObservations) == 0 &&
+        mrpt::rtti::findRegisteredClass(header->class_name) != nullptr)
+      return true;
+  }
+  return false;
+}
+
+// To the next byte that may begin a header. What is skipped is forgotten: a damaged file may have
+// gigabytes of it.
+bool ObjectStream::seekHeaderFlag()
+{
+  for (; require(1); beginObject())
+  {
+    const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(position_);
+    const auto found = std::find_if(
+        begin, bytes_.end(),
+        [](char c) { return (static_cast<unsigned char>(c) & kHeaderFlag) != 0; });
+    skipped_zeros_only_ = skipped_zeros_only_ && found == bytes_.end() &&
+                          std::all_of(begin, found, [](char c) { return c == 0; });
+    position_ += static_cast<std::size_t>(found - begin);
+    if (found != bytes_.end())
+    {
+      if (position_ - object_ > kChunk) beginObject();
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace fastlio

@@ -1,0 +1,52 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <fastlio/localmap/place_ambiguity.h>
+
+#include <gtest/gtest.h>
+
+namespace fastlio
+{
+namespace
+{
+PoseSearchResult search(double std, bool accepted)
+{
+  PoseSearchResult result;
+  result.accepted = accepted;
+  result.searched_std = std;
+  result.searched_covariance = std * std * Mat3::Identity();
+  result.searched_heading_variance = 0.04;
+  return result;
+}
+
+StateMatrix added(const PlaceAmbiguity& ambiguity, const NavState& x)
+{
+  StateMatrix P = StateMatrix::Zero();
+  ambiguity.addTo(x, P);
+  return P;
+}
+
+TEST(PlaceAmbiguity, IsWhatAnAcceptedSearchCouldNotExclude)
+{
+  NavState x;
+  x.R = expSO3({0.3, -0.2, 1.1});
+  PlaceAmbiguity ambiguity;
+  ambiguity.add(search(2.0, false));
+  ambiguity.add(search(0.2, true));
+  EXPECT_EQ(added(ambiguity, x).norm(), 0.0);
+
+  ambiguity.add(search(2.0, true));
+  const StateMatrix P = added(ambiguity, x);
+  const Mat3 position = P.block<3, 3>(kPosition, kPosition);
+  EXPECT_LT((position - 4.0 * Mat3::Identity()).norm(), 1e-12);
+  // About gravity only.
+  const Mat3 attitude = x.R * P.block<3, 3>(kAttitude, kAttitude) * x.R.transpose();
+  const Vec3 up = x.g.normalized();
+  EXPECT_LT((attitude - 0.04 * up * up.transpose()).norm(), 1e-12);
+
+  ambiguity.add(search(1.0, true));
+  EXPECT_NEAR(added(ambiguity, x)(kPosition, kPosition), 5.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace fastlio
