@@ -262,6 +262,27 @@ TEST(PoseGraph, PositionsTellWhereTheWorldIs)
         0.25);
 }
 
+/** Heights of satellite positions are off for minutes; gravity knows better where up is. */
+TEST(PoseGraph, HeightsOfPositionsDoNotTiltTheEarth)
+{
+  constexpr double kSlope = 3e-3, kVerticalStd = 2.0;  // errors of the heights [m/m], [m]
+  Circle circle(4);
+  for (std::size_t i = 0; i < Circle::kNodes; ++i)
+  {
+    const Vec3& p = circle.truth[i].p;
+    PositionFactor factor;
+    factor.node = i;
+    factor.position = p + kSlope * p.x() * Vec3::UnitZ();
+    factor.covariance = Vec3(1.0, 1.0, kVerticalStd * kVerticalStd).asDiagonal();
+    circle.graph.positions.push_back(factor);
+  }
+  circle.graph.T_earth_world = pose({0, 0, 0}, {0, 0, 0});
+  const GraphEstimate estimate = optimize(circle.graph);
+  ASSERT_TRUE(estimate.T_earth_world);
+  const Vec3 up = estimate.T_earth_world->R * estimate.up;
+  EXPECT_LT(up.head<2>().norm(), 0.1 * kSlope);
+}
+
 TEST(PoseGraph, RefusesWhatIsNoGraph)
 {
   Circle circle(5);
