@@ -165,7 +165,7 @@ CalibrateStatus run(const CalibrateArguments& arguments)
     if (progress) std::cerr << "\r\033[K";
     for (const std::string& problem : estimate.problems)
       std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
-    const Config calibrated = calibrator.configWith(estimate.rig);
+    const Config calibrated = calibrator.configWith(estimate);
     write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
     if (!arguments.json.empty())
       write(arguments.json, jsonText(calibrator.given(), estimate, trial));

@@ -20,7 +20,7 @@ std::string calibrateFirst(const std::vector<std::string>& files, Config& config
   const Calibrator calibrator({{name, files}}, config, kPasses);
   const RigEstimate estimate = calibrator.calibrate();
   const CalibrationTrial trial = calibrator.tryOut();
-  if (trial.worthUsing()) config = calibrator.configWith(estimate.rig);
+  if (trial.worthUsing()) config = calibrator.configWith(estimate);
   return "Calibration (--calibrate): " + describe(trial) +
          (trial.worthUsing() ? "" : " The run keeps what was given.");
 }

@@ -111,6 +111,8 @@ CalibrationRow timeRow(const Rig& given, const RigEstimate& estimate)
   row.given = kMillimetres * given.time_offset;
   row.found = kMillimetres * estimate.rig.time_offset;
   row.std = kMillimetres * estimate.time_offset_std;
+  row.prior_std = kMillimetres * kTimeOffsetPriorStd;
+  if (!row.determined()) row.advice = "turn back and forth, with changing speed, for ten seconds";
   return row;
 }
 

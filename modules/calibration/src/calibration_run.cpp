@@ -48,8 +48,9 @@ class RunFollower
     if (!first_ns_) first_ns_ = scan.stamp_ns;
     ++result_.tracked;
     result_.seconds = toSeconds(scan.stamp_ns - *first_ns_);
-    result_.time_offset = scan.filter.x.time_offset;
-    result_.time_offset_std = std::sqrt(std::max(0.0, scan.filter.P(kTimeOffset, kTimeOffset)));
+    result_.takeTimeOffset(
+        scan.filter.x.time_offset,
+        std::sqrt(std::max(0.0, scan.filter.P(kTimeOffset, kTimeOffset))));
     if (result_.scans < measured_from_)
     {
       before_ = odometry_.calibrationFindings().sums;
@@ -93,6 +94,14 @@ double RunAgreement::innovation() const
 double RunAgreement::mapThickness() const
 {
   return points > 0.0 ? std::sqrt(residual_squares / points) : 0.0;
+}
+
+void CalibrationRunResult::takeTimeOffset(double offset, double std)
+{
+  constexpr double kAboutAsWell = 2.0;
+  if (std == 0.0 || (time_offset_std > 0.0 && std > kAboutAsWell * time_offset_std)) return;
+  time_offset = offset;
+  time_offset_std = std;
 }
 
 CalibrationRunResult calibrationRun(

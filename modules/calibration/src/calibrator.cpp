@@ -44,6 +44,25 @@ CalibrationErrorMatrix widened(
   return shrink.asDiagonal() * covariance * shrink.asDiagonal();
 }
 
+/** How well a calibration is known, in the four numbers that the options have for it. */
+void setStandardDeviations(
+    const CalibrationErrorMatrix& covariance, CalibrationOptions& calibration)
+{
+  const CalibrationErrorVector variances = covariance.diagonal();
+  double scales = 0.0, misalignments = 0.0;  // sums of variances
+  for (const int first : {kGyroMatrixError, kAccelMatrixError})
+  {
+    const Mat3 matrix = Eigen::Map<const Eigen::Matrix3d>(variances.data() + first);
+    scales += matrix.trace();
+    misalignments += matrix.sum() - matrix.trace();
+  }
+  calibration.imu_scale_std = std::sqrt(scales / 6.0);
+  calibration.imu_misalignment_std = std::sqrt(misalignments / 12.0);
+  calibration.extrinsic_rotation_std = std::sqrt(variances.segment<3>(kExtrinsicError).mean());
+  calibration.extrinsic_translation_std =
+      std::sqrt(variances.segment<3>(kExtrinsicError + 3).mean());
+}
+
 double stdOf(const Eigen::MatrixXd& covariance, Eigen::Index element)
 {
   return std::sqrt(std::max(0.0, covariance(element, element)));
@@ -90,6 +109,13 @@ Config Calibrator::configWith(const Rig& rig) const
 {
   Config config = config_;
   apply(rig, config);
+  return config;
+}
+
+Config Calibrator::configWith(const RigEstimate& estimate) const
+{
+  Config config = configWith(estimate.rig);
+  setStandardDeviations(estimate.covariance, config.odometry.calibration);
   return config;
 }
 

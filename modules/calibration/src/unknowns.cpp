@@ -25,7 +25,6 @@ constexpr double kIncidenceStd = 0.02;   // of the range at 80 deg of incidence 
 constexpr double kIncidenceShapeStd = 0.007;  // [m]
 constexpr double kKnown = 0.3;                // of the prior: a beam that the data determine
 constexpr std::size_t kFewestBeams = 3;       // of which constant and stretch are parts
-constexpr double kUnknownTimeStd = 0.01;      // of an offset that no run estimated [s]
 
 }  // namespace
 
@@ -105,10 +104,11 @@ CalibrationStep CalibrationUnknowns::step(const PassFindings& pass, const Eigen:
   step.covariance.topLeftCorner<kCalibrationErrorDim, kCalibrationErrorDim>() = errors.covariance;
   // Surfaces that make the innovations large, like leaves, do the same to the residuals of beams.
   const double inflation = kSystematic * errors.innovation_scale;
-  const bool timed = pass.time_information > 0.0;
-  step.step[kTimeOffsetIndex] = timed ? pass.time_weighted / pass.time_information : 0.0;
-  step.covariance(kTimeOffsetIndex, kTimeOffsetIndex) =
-      timed ? inflation / pass.time_information : std::pow(kUnknownTimeStd, 2);
+  const double time_prior = std::pow(kTimeOffsetPriorStd, -2);
+  const double time_variance = 1.0 / (pass.time_information / inflation + time_prior);
+  step.step[kTimeOffsetIndex] =
+      time_variance * (pass.time_weighted / inflation - time_prior * x[kTimeOffsetIndex]);
+  step.covariance(kTimeOffsetIndex, kTimeOffsetIndex) = time_variance;
   const Eigen::Vector2d prior_information(std::pow(kRangeStd, -2), std::pow(kElevationStd, -2));
   for (std::size_t i = 0; i < elevations_.size(); ++i)
   {

@@ -171,7 +171,7 @@ TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 {
   const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyGiven(), 2);
   const RigEstimate estimate = calibrator.calibrate();
-  const Config calibrated = calibrator.configWith(estimate.rig);
+  const Config calibrated = calibrator.configWith(estimate);
   const std::string file = folder_.file("rig.yaml");
   std::ofstream(file) << calibrationYaml(
       calibrated, calibrator.given(), estimate, CalibrationTrial{});
@@ -180,6 +180,24 @@ TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
   EXPECT_EQ(back.odometry.lidar.beam_offsets, calibrated.odometry.lidar.beam_offsets);
   EXPECT_EQ(back.odometry.lidar.time_offset, calibrated.odometry.lidar.time_offset);
   EXPECT_TRUE(back.sensors.T_vehicle_lidar->p.isApprox(calibrated.sensors.T_vehicle_lidar->p));
+}
+
+TEST_F(CalibratorTest, ItsFileSaysHowWellTheCalibrationIsKnown)
+{
+  const Config given = wronglyGiven();
+  const Calibrator calibrator({record("walk", 10.0, 1)}, given, 2);
+  const RigEstimate estimate = calibrator.calibrate();
+  const CalibrationOptions before = given.odometry.calibration;
+  const CalibrationOptions known = calibrator.configWith(estimate).odometry.calibration;
+  const CalibrationErrorVector variances = estimate.covariance.diagonal();
+  EXPECT_NEAR(
+      std::pow(known.extrinsic_rotation_std, 2), variances.segment<3>(kExtrinsicError).mean(),
+      1e-12);
+  EXPECT_LT(known.extrinsic_rotation_std, before.extrinsic_rotation_std);
+  EXPECT_LT(known.extrinsic_translation_std, before.extrinsic_translation_std);
+  EXPECT_LT(known.imu_scale_std, before.imu_scale_std);
+  EXPECT_LE(known.imu_misalignment_std, before.imu_misalignment_std);
+  EXPECT_GT(known.imu_misalignment_std, 0.0);
 }
 
 TEST_F(CalibratorTest, WhatTheMotionDoesNotTellIsAdvice)

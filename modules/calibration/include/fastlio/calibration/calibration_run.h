@@ -43,6 +43,10 @@ struct CalibrationRunResult
   std::size_t scans = 0, tracked = 0;
   double seconds = 0.0;               //!< from the first to the last scan that was tracked
   std::vector<std::string> problems;  //!< of reading, for people: the rest was used
+
+  /** The offset after another scan. An inertial sensor that changes makes it uncertain again: until
+   * it is about as well known as before, what was known before counts. */
+  void takeTimeOffset(double offset, double std);
 };
 
 /** Which scans of a recording count. */

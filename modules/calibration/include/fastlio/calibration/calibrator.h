@@ -31,6 +31,10 @@ struct MeasuredBias
   double prior_std = 0.0;  //!< before
 };
 
+/** How well the offset of the clocks is known before: drivers that stamp what they receive are off
+ * by about a tenth of a scan [s]. */
+inline constexpr double kTimeOffsetPriorStd = 0.01;
+
 /** A calibration, and how well it is known. */
 struct RigEstimate
 {
@@ -89,10 +93,14 @@ class Calibrator
 
   /** The rig as it was given. */
   [[nodiscard]] const Rig& given() const { return given_; }
-  /** The configuration with another rig, and with the noise densities that the rest determines. */
-  [[nodiscard]] Config configWith(const Rig& rig) const;
+  /** The configuration with the calibration, with the noise densities that the rest determines, and
+   * with how well the calibration is known (calibration.*_std), as root mean square over its axes.
+   */
+  [[nodiscard]] Config configWith(const RigEstimate& estimate) const;
 
  private:
+  /** The configuration with another rig, as well known as the one that was given. */
+  [[nodiscard]] Config configWith(const Rig& rig) const;
   [[nodiscard]] RigEstimate calibrate(
       const std::vector<CalibrationRecording>& recordings, const ScanRange& range,
       const std::string& what) const;
