@@ -1,13 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "file_size_limit.h"
 #include "folder_listing.h"
 #include "las_points.h"
 
 #include <cmath>
-#include <csignal>
 #include <stdexcept>
-#include <sys/resource.h>
 
 namespace fastlio
 {
@@ -15,6 +14,7 @@ namespace
 {
 using testing::contentOf;
 using testing::failureOf;
+using testing::FileSizeLimit;
 using testing::namesIn;
 using testing::point;
 using testing::TemporaryFolder;
@@ -52,30 +52,6 @@ TEST(LasFaults, ARefusedPointLeavesTheFileAsItWas)
   writer.commit();
   EXPECT_EQ(contentOf(folder.file("map.las")), expected);
 }
-
-/** Files of this process end at a size, as on a full disk. */
-class FileSizeLimit
-{
- public:
-  explicit FileSizeLimit(rlim_t bytes)
-  {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    rlimit limited = before_;
-    limited.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limited);
-  }
-  ~FileSizeLimit()
-  {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    (void)std::signal(SIGXFSZ, handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  rlimit before_ = {};
-  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
-};
 
 TEST(LasFaults, AFullDiskIsAnErrorAndLeavesNothing)
 {

@@ -58,6 +58,16 @@ std::string degenerateText(const DegenerateDirections& open)
          fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) + "]";
 }
 
+std::string pointsText(const PointTotals& points)
+{
+  std::string text = std::to_string(points.in) + " delivered, " +
+                     std::to_string(points.downsampled) + " after downsampling, " +
+                     std::to_string(points.effective) + " matched";
+  if (points.own_body > 0)
+    text += "; " + std::to_string(points.own_body) + " on the LiDAR's own carrier, left out";
+  return text;
+}
+
 std::string imuText(const ImuReport& imu)
 {
   return fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
@@ -80,7 +90,6 @@ std::string factsHtml(const RunSummary& run)
 {
   const RunStatistics& s = run.statistics;
   const ExitStatus status = exitStatusOf(run);
-  const PointTotals& points = s.points();
   return tableOf(
       {{"Status", std::string(toString(status)) + " (exit status " +
                       std::to_string(static_cast<int>(status)) + ")"},
@@ -90,8 +99,7 @@ std::string factsHtml(const RunSummary& run)
        {"Poses",
         std::to_string(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
        {"Path", fixedText(s.pathLength(), 3) + " m"},
-       {"Points", std::to_string(points.in) + " delivered, " + std::to_string(points.downsampled) +
-                      " after downsampling, " + std::to_string(points.effective) + " matched"},
+       {"Points", pointsText(s.points())},
        {"Health", "mean " + fixedText(s.health().mean(), 3) + ", worst " +
                       fixedText(s.health().worst(), 3) + "; " +
                       std::to_string(s.health().troubled()) + " of " +

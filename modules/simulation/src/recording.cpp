@@ -18,6 +18,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <string_view>
 #include <vector>
@@ -204,11 +205,21 @@ RecordingFiles writeRecording(
   requireRecordingPlace(directory, overwrite);
   const RunFolder folder(folderPlan(directory, overwrite));
   RecordingFiles files = filesOf(directory);
-  writeFileAtomically(files.config, configText(simulation.settings()));
-  writeFileAtomically(files.ground_truth, groundTruthText(simulation));
+  // The largest is the first: where it does not fit, what was there before stays as it was.
   writeRawlog(simulation, files.rawlog, progress);
-  // The last: it says that the recording is complete.
-  writeFileAtomically(files.scenario, scenarioJson(simulation));
+  try
+  {
+    writeFileAtomically(files.config, configText(simulation.settings()));
+    writeFileAtomically(files.ground_truth, groundTruthText(simulation));
+    // The last: it says that the recording is complete.
+    writeFileAtomically(files.scenario, scenarioJson(simulation));
+  }
+  catch (...)
+  {
+    for (const std::string& file : {files.rawlog, files.config, files.ground_truth})
+      std::remove(file.c_str());
+    throw;
+  }
   folder.removeLeftovers({});
   return files;
 }

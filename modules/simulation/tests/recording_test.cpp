@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "file_size_limit.h"
 #include "recording_files.h"
 #include "short_simulation.h"
 #include <fastlio/config/config_yaml.h>
@@ -19,6 +20,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -197,6 +199,36 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
     EXPECT_NE(contentOf(one.rawlog), contentOf(other.rawlog));
     EXPECT_EQ(contentOf(one.ground_truth), contentOf(other.ground_truth));
   }
+}
+
+/** \return the files of a folder, with their content */
+std::map<std::string, std::string> filesIn(const std::string& folder)
+{
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files[entry.path().filename()] = contentOf(entry.path());
+  return files;
+}
+
+TEST(Recording, AFullDiskLeavesWhatWasThere)
+{
+  const TemporaryDirectory directory;
+  SimulationSettings settings = testing::shortSettings("uav", 2.0, 10);
+  const Simulation simulation(settings);
+  settings.seed = 77;
+  const Simulation other(settings);
+  const auto write_on_full_disk = [&](const Simulation& s)
+  {
+    const testing::FileSizeLimit limit(20'000);
+    EXPECT_THROW((void)writeRecording(s, directory.path(), {}, true), std::runtime_error);
+  };
+  write_on_full_disk(simulation);
+  EXPECT_FALSE(std::filesystem::exists(directory.path()));
+  writeRecording(simulation, directory.path());
+  const auto before = filesIn(directory.path());
+  ASSERT_GE(before.size(), 4U);
+  write_on_full_disk(other);
+  EXPECT_EQ(filesIn(directory.path()), before);
 }
 
 TEST(Recording, SaysWhatIsTrue)
