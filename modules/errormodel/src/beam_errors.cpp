@@ -17,14 +17,14 @@ constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
 // The variance of an offset over that of independent residuals: they share the errors of the map.
 constexpr double kSharedNoise = 4.0;
 // What all scans of a run tell of a single number, a fourth of them tell as well.
-constexpr std::size_t kScansPerIncidence = 4;
+constexpr std::size_t kScansPerLesson = 4;
 }  // namespace
 
-void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
+void BeamErrors::Offset::add(const PointMeasurement& point, double derivative, const Vector6& pull)
 {
   information += point.weight * derivative * derivative;
   weighted += point.weight * derivative * point.z;
-  in_scan += derivative * point.weighted_h;
+  in_scan += pull;
 }
 
 void BeamErrors::add(
@@ -34,10 +34,14 @@ void BeamErrors::add(
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_scan.setZero();
-  const bool learns_incidence = scans_++ % kScansPerIncidence == 0;
+  sides_.beginScan();
+  const bool learns = scans_++ % kScansPerLesson == 0;
+  const bool looks_at_sides = learns || sides_.rangeOffset() > 0.0;
   // All in the axes of the body.
   const Mat3 R_scan_world = R_world_scan.transpose();
-  const Vec3 origin = scan.T_imu_lidar.p, up = scan.T_imu_lidar.R.col(2);
+  const Vec3 origin = scan.T_imu_lidar.p;
+  const Vec3 forward = scan.T_imu_lidar.R.col(0), left = scan.T_imu_lidar.R.col(1),
+             up = scan.T_imu_lidar.R.col(2);
   const BodyPoints& body = scan.surfaces;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -56,15 +60,20 @@ void BeamErrors::add(
     const double turned_up = normal.dot(up);
     const double upward = (turned_up - sine * along) / cosine;  // across the beam
     const std::size_t bin = beamBin(sine);
-    range_[bin].add(point, along);
-    elevation_[bin].add(point, range * upward);
+    const Vector6 by_range = along * point.weighted_h;
+    range_[bin].add(point, along, by_range);
+    elevation_[bin].add(point, range * upward, range * upward * point.weighted_h);
+    if (looks_at_sides)
+      sides_.add({forward.dot(beam), left.dot(beam), along, turned_up}, point, by_range);
     cross_[bin] += point.weight * along * range * upward;
-    if (learns_incidence) incidence_.add(matches[i].plane, along, point);
+    if (learns) incidence_.add(matches[i].plane, along, point);
     const double upright = point.weight * (1.0 - turned_up * turned_up);
     upright_weight_ += upright;
     upright_range_ += upright * range;
   }
-  if (learns_incidence) incidence_.finishScan(information);
+  if (!learns) return;
+  incidence_.finishScan(information);
+  sides_.learn();
 }
 
 double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
@@ -121,14 +130,18 @@ void BeamErrors::addTo(CalibrationFindings& findings) const
   findings.upright_range = upright_range_;
 }
 
+Matrix6 BeamErrors::sumOfSquares(const Offsets& offsets)
+{
+  Matrix6 sum = Matrix6::Zero();
+  for (const Offset& offset : offsets)
+    if (offset.information > 0.0) sum += offset.in_scan * offset.in_scan.transpose();
+  return sum;
+}
+
 Matrix6 BeamErrors::covariance() const
 {
-  Matrix6 by_range = Matrix6::Zero(), by_elevation = Matrix6::Zero();
-  for (const Offset& offset : range_)
-    by_range += offset.in_scan * offset.in_scan.transpose();
-  for (const Offset& offset : elevation_)
-    by_elevation += offset.in_scan * offset.in_scan.transpose();
-  return rangeVariance() * by_range + elevationVariance() * by_elevation;
+  return rangeVariance() * sumOfSquares(range_) + elevationVariance() * sumOfSquares(elevation_) +
+         sides_.covariance();
 }
 
 }  // namespace fastlio

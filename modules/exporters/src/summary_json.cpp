@@ -162,7 +162,8 @@ Json calibrationCheckJson(const CalibrationCheck& check)
       {"extrinsic_translation_sigma_m", vectorJson(check.translation_std)},
       {"innovation_scale", check.innovation_scale},
       {"beam_range_offset_m", check.range_offset},
-      {"beam_elevation_offset_deg", kDegPerRad * check.elevation_offset}};
+      {"beam_elevation_offset_deg", kDegPerRad * check.elevation_offset},
+      {"side_range_offset_m", check.side_range_offset}};
 }
 
 Json healthJson(const RunHealth& health)

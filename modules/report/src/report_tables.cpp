@@ -156,7 +156,8 @@ std::string calibrationHtml(const RunSummary& run)
               {"Innovations over their covariance", fixedText(check.innovation_scale, 3)},
               {"Beams: common range error [m]", fixedText(check.range_offset, 4)},
               {"Beams: common elevation error [deg]",
-               fixedText(kDegPerRad * check.elevation_offset, 4)}}) +
+               fixedText(kDegPerRad * check.elevation_offset, 4)},
+              {"Sides: common range error [m]", fixedText(check.side_range_offset, 4)}}) +
          "<p class=\"note\">How wrong the calibration in use seems to be by the innovations of the "
          "whole run, with three standard deviations. An error beyond them deserves a look at the "
          "mounting.</p>\n";

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -18,6 +19,15 @@ inline std::string contentOf(const std::string& path)
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+/** The files of a folder, with their content. */
+inline std::map<std::string, std::string> filesIn(const std::string& folder)
+{
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files[entry.path().filename()] = contentOf(entry.path());
+  return files;
 }
 
 /** A directory that is removed again. */

@@ -20,7 +20,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -30,6 +29,7 @@ namespace
 {
 using mrpt::obs::CObservationVelodyneScan;
 using testing::contentOf;
+using testing::filesIn;
 using testing::TemporaryDirectory;
 
 TEST(VelodynePackets, OurDecoderFindsEveryPointWithItsTime)
@@ -199,15 +199,6 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
     EXPECT_NE(contentOf(one.rawlog), contentOf(other.rawlog));
     EXPECT_EQ(contentOf(one.ground_truth), contentOf(other.ground_truth));
   }
-}
-
-/** \return the files of a folder, with their content */
-std::map<std::string, std::string> filesIn(const std::string& folder)
-{
-  std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    files[entry.path().filename()] = contentOf(entry.path());
-  return files;
 }
 
 TEST(Recording, AFullDiskLeavesWhatWasThere)

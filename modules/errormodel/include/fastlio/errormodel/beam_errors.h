@@ -7,6 +7,7 @@
 
 #include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/errormodel/incidence_bias.h>
+#include <fastlio/errormodel/side_errors.h>
 #include <fastlio/lidar/beam_corrections.h>
 #include <fastlio/matching/match_result.h>
 #include <fastlio/matching/plane_groups.h>
@@ -33,11 +34,13 @@ class BeamErrors
   /** There is no map any more. */
   void forgetMap() { incidence_.forgetMap(); }
 
-  /** Covariance of sum w h b over the last scan, b by offsets of range and elevation. */
+  /** Covariance of sum w h b over the last scan, b by offsets of range and elevation, of beams and
+   * of sides. */
   [[nodiscard]] Matrix6 covariance() const;
   /** Root mean square of the offsets; 0 while none is known. */
-  [[nodiscard]] double rangeOffset() const;      //!< [m]
-  [[nodiscard]] double elevationOffset() const;  //!< [rad]
+  [[nodiscard]] double rangeOffset() const;                                      //!< [m]
+  [[nodiscard]] double elevationOffset() const;                                  //!< [rad]
+  [[nodiscard]] double sideRangeOffset() const { return sides_.rangeOffset(); }  //!< [m]
   /** Adds what the beams tell about their calibration. */
   void addTo(CalibrationFindings& findings) const;
 
@@ -48,10 +51,13 @@ class BeamErrors
     double information = 0.0, weighted = 0.0;  // of all scans
     Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last scan
 
-    void add(const PointMeasurement& point, double derivative);
+    /** \param pull the derivative times the point's w h */
+    void add(const PointMeasurement& point, double derivative, const Vector6& pull);
   };
   using Offsets = std::array<Offset, kBeamBins>;
 
+  /** Of the pulls of the last scan, as outer products. */
+  [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
   [[nodiscard]] double rangeVariance() const;
   [[nodiscard]] double elevationVariance() const;
@@ -59,6 +65,7 @@ class BeamErrors
   Offsets range_, elevation_;
   std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
   IncidenceBias incidence_;
+  SideErrors sides_;
   std::size_t scans_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };

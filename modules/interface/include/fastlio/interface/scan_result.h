@@ -104,6 +104,8 @@ struct CalibrationCheck
   /** Root mean square of what the beams of one elevation have in common; 0 while not known. */
   double range_offset = 0.0;      //!< [m]
   double elevation_offset = 0.0;  //!< [rad]
+  /** The same of what the points on one side have in common [m]. */
+  double side_range_offset = 0.0;
 };
 
 /** Counts and measures of one scan. */
