@@ -29,7 +29,9 @@ if(MRPT_FASTLIO_NATIVE)
 endif()
 if(MRPT_FASTLIO_SANITIZE)
   target_compile_options(fastlio_compiler_options INTERFACE
-    -fsanitize=${MRPT_FASTLIO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    -fsanitize=${MRPT_FASTLIO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    # What is suppressed at runtime (cmake/ubsan.supp) must be able to go on; the rest halts all the same.
+    -fsanitize-recover=alignment)
   target_link_options(fastlio_compiler_options INTERFACE -fsanitize=${MRPT_FASTLIO_SANITIZE})
   # With sanitizers GCC finds uninitialised members where there are none (in <regex>, for one).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

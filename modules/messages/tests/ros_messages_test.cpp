@@ -124,8 +124,9 @@ TEST_P(MessageIn, FixesAndOdometryKeepTheirNumbers)
   const auto gps = read(readNavSatFix, fix.bytes());
   const auto& gga = dynamic_cast<const mrpt::obs::CObservationGPS&>(*gps.observation)
                         .getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>();
-  EXPECT_EQ(gga.fields.latitude_degrees, 36.5);
-  EXPECT_EQ(gga.fields.longitude_degrees, -4.25);
+  // Copies: the struct is packed, and a reference to a member would not be aligned.
+  EXPECT_EQ(double{gga.fields.latitude_degrees}, 36.5);
+  EXPECT_EQ(double{gga.fields.longitude_degrees}, -4.25);
   EXPECT_EQ(gga.fields.fix_quality, 1);
 
   WireWriter wheels(GetParam());
