@@ -18,6 +18,8 @@ constexpr double kUnevenness = 2.5;
 // of 0.5 m/s^2 of an accelerometer makes it 100. One scan that went wrong is none, so each of them
 // has to show it.
 constexpr double kStep = 45.0, kLeastOfEach = kStep / 3.0;
+// A second of most LiDARs: a view along a wall opens piece by piece.
+constexpr int kScansAfterDegeneracy = 10;
 }  // namespace
 
 void InnovationWatch::add(double square)
@@ -25,7 +27,16 @@ void InnovationWatch::add(double square)
   ++scans_;
   recent_ += (square - recent_) / std::min(scans_, kRecentScans);
   if (scans_ >= kRecentScans) worst_ = std::max(worst_, recent_ / kUnevenness);
-  last_ = {square, last_[0], last_[1]};
+  if (pause_ > 0)
+    --pause_;
+  else
+    last_ = {square, last_[0], last_[1]};
+}
+
+void InnovationWatch::interrupt()
+{
+  pause_ = kScansAfterDegeneracy;
+  last_ = {};
 }
 
 bool InnovationWatch::takeStep()

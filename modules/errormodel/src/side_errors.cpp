@@ -14,7 +14,7 @@ namespace
 constexpr double kLeastInformation = 1e5;  // [1/m^2]
 constexpr double kFewestOffsets = 100.0;
 constexpr double kBeyondChance = 2.0;  // standard deviations of what noise feigns
-constexpr double kLevel = 0.7;        // cosine: beyond it a surface is floor or ceiling
+constexpr double kLevel = 0.7;         // cosine: beyond it a surface is floor or ceiling
 // Pose and map go along with an offset, so that only a part of it is left in the residuals. In
 // rides with known offsets of surfaces, a quarter (docs/covariance.md).
 constexpr double kLeftOver = 0.25;

@@ -62,6 +62,19 @@ TEST(InnovationWatch, OneWildScanIsNoStep)
   EXPECT_FALSE(watch.takeStep());
 }
 
+/** Along a degenerate direction the prediction drifts; the scans that show it again say so. */
+TEST(InnovationWatch, WhatFollowsADegenerateDirectionIsNoStep)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  watch.interrupt();
+  addMany(watch, 100.0, 10);
+  EXPECT_FALSE(watch.takeStep());
+  EXPECT_GT(watch.worst(), 1.0);  // the covariance counts it
+  addMany(watch, 100.0, 3);
+  EXPECT_TRUE(watch.takeStep());
+}
+
 TEST(InnovationWatch, TheFirstScanInAMapIsNoStep)
 {
   InnovationWatch watch;

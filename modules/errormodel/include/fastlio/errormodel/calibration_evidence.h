@@ -41,6 +41,10 @@ class CalibrationEvidence
   /** Covariance of the extrinsic in use, as far as it is estimated. */
   [[nodiscard]] Matrix6 extrinsicCovariance() const;
 
+  /** A scan had a degenerate direction: its innovation is no evidence, nor is what follows at once
+   * of a step. */
+  void skipScan() { watch_.interrupt(); }
+
   /** The last scans contradict their predictions so much that the inertial sensor cannot be what it
    * was. \return true once for the scans that show it */
   [[nodiscard]] bool takeStep() { return watch_.takeStep(); }

@@ -16,6 +16,10 @@ class InnovationWatch
    * noise is what the filter takes it for */
   void add(double square);
 
+  /** The scan had a degenerate direction. When the next ones show that direction again, they
+   * contradict a prediction that drifted along it: that is no step of the inertial sensor. */
+  void interrupt();
+
   /** What the worst seconds so far make of the covariance, as a factor: what the poses lost in them
    * stays. 1 when no time stands out. */
   [[nodiscard]] double worst() const { return worst_; }
@@ -28,6 +32,7 @@ class InnovationWatch
   int scans_ = 0;
   double recent_ = 0.0, worst_ = 1.0;
   std::array<double, 3> last_{};  // the latest first
+  int pause_ = 0;                 // so many scans to come show no step
 };
 
 }  // namespace fastlio
