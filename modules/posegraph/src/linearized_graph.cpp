@@ -12,8 +12,9 @@ namespace
 using Aligned6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr int kNode = GraphLayout::kNode;
-// The vertical deviates from the normal of the ellipsoid: 0.03 mrad on average, 0.5 in mountains.
-constexpr double kEarthTilt = 3e-4;  // [rad]
+// Gravity is the same for both, but its vertical is not quite the normal of the ellipsoid: they are
+// 0.03 mrad apart on average, 0.5 mrad in high mountains. This lies between [rad].
+constexpr double kEarthTilt = 3e-4;
 
 class Linearization
 {
