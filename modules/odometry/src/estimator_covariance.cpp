@@ -68,7 +68,7 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
     calibration_.add(
         by_calibration.innovation, update.by_state, work.predicted.state, match.update);
   else if (match.constraints.unconstrained > 0)
-    calibration_.skipScan();
+    calibration_.addDegenerateScan();
   // A start in motion does not know its biases yet, and a given map has errors of its own.
   result.statistics.inertial_step =
       calibration_.takeStep() && !run().motion_window && !map_.isGiven();

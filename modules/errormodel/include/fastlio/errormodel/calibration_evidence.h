@@ -41,9 +41,9 @@ class CalibrationEvidence
   /** Covariance of the extrinsic in use, as far as it is estimated. */
   [[nodiscard]] Matrix6 extrinsicCovariance() const;
 
-  /** A scan had a degenerate direction: its innovation is no evidence, nor is what follows at once
-   * of a step. */
-  void skipScan() { watch_.interrupt(); }
+  /** A scan had a degenerate direction: it is no evidence, and what follows at once shows no step.
+   */
+  void addDegenerateScan() { watch_.interrupt(); }
 
   /** The last scans contradict their predictions so much that the inertial sensor cannot be what it
    * was. \return true once for the scans that show it */
