@@ -4,6 +4,7 @@
 #include <fastlio/lidar/downsampling.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -88,6 +89,9 @@ Downsampler::Ranges Downsampler::gateRanges(
       std::max(limits.min_range * limits.min_range, std::numeric_limits<float>::denorm_min());
   const float max2 = limits.max_range * limits.max_range;
   Ranges ranges;
+  // Neighbours mostly fall into the same bin, and a counter has to be written before it is read.
+  constexpr std::size_t kCounters = 4;
+  std::array<std::array<std::uint32_t, kBins>, kCounters> counts{};
   Block block;
   for (std::size_t begin = first; begin < last; begin += Block::kSize)
   {
@@ -104,12 +108,15 @@ Downsampler::Ranges Downsampler::gateRanges(
     }
     findBins(kept, n, kBins, block);
     for (std::size_t i = 0; i < n; ++i)
-      ++ranges.counts[block.bin[i]];
+      ++counts[i % kCounters][block.bin[i]];
     ranges.counts[0] -= static_cast<std::uint32_t>(n) - usable;  // they stand there as 0
     ranges.usable += usable;
     for (std::size_t i = 0; i < n && usable < n; ++i)
       if (kept[i] == 0.0F) ranges.countDropped(block.squared_range[i], min2);
   }
+  for (const auto& counter : counts)
+    for (std::size_t bin = 0; bin < kBins; ++bin)
+      ranges.counts[bin] += counter[bin];
   return ranges;
 }
 
