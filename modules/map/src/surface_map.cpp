@@ -12,4 +12,11 @@ void WorldPoints::resize(std::size_t n)
   z.resize(n);
 }
 
+void SurfaceMap::rematch(
+    const WorldPoints& /*before*/, const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches) const
+{
+  match(points, first, last, matches);
+}
+
 }  // namespace fastlio

@@ -39,8 +39,15 @@ class VoxelGrid
   /** Whether a point is finite and inside of the numbered space. */
   [[nodiscard]] bool contains(float x, float y, float z) const
   {
-    const float limit = static_cast<float>(4 * (kAxisBias - 1)) * size_;
-    return std::abs(x) < limit && std::abs(y) < limit && std::abs(z) < limit;
+    return std::abs(x) < limit() && std::abs(y) < limit() && std::abs(z) < limit();
+  }
+
+  /** Whether it contains() two points in one finest voxel, and so in one voxel of each scale.
+   * Without branches, so that a compiler can look at several pairs at once. */
+  [[nodiscard]] bool isInSameVoxel(float x1, float y1, float z1, float x2, float y2, float z2) const
+  {
+    const bool x = isInSameCell(x1, x2), y = isInSameCell(y1, y2), z = isInSameCell(z1, z2);
+    return (static_cast<int>(x) & static_cast<int>(y) & static_cast<int>(z)) != 0;
   }
 
   /** Of a point that it contains(). Filled in place: a copy would have to wait until the slots,
@@ -106,6 +113,18 @@ class VoxelGrid
   {
     std::int32_t x, y, z;
   };
+
+  [[nodiscard]] float limit() const { return static_cast<float>(4 * (kAxisBias - 1)) * size_; }
+
+  /** Of one axis. */
+  [[nodiscard]] bool isInSameCell(float a, float b) const
+  {
+    const bool a_inside = std::abs(a) < limit(), b_inside = std::abs(b) < limit();
+    const std::int32_t cell_a = roundDown((a_inside ? a : 0.0F) * inverse_size_);
+    const std::int32_t cell_b = roundDown((b_inside ? b : 0.0F) * inverse_size_);
+    const bool same = cell_a == cell_b;
+    return (static_cast<int>(a_inside) & static_cast<int>(b_inside) & static_cast<int>(same)) != 0;
+  }
 
   /** Rounding down and arithmetic shifts keep negative coordinates in voxels of their own. */
   [[nodiscard]] Cell cellOf(float x, float y, float z) const

@@ -18,6 +18,7 @@ constexpr std::size_t kBatch = 32;
 /** A point on its way to its plane. */
 struct Query
 {
+  std::size_t point = 0;
   VoxelAddress address;
   const VoxelStorage* storage = nullptr;
   const VoxelBlock* block = nullptr;  // none: no voxel is there
@@ -30,12 +31,12 @@ using Batch = std::array<Query, kBatch>;
 constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
 
 void findAddresses(
-    const VoxelGrid& grid, const WorldPoints& points, std::size_t first, std::size_t count,
-    Batch& batch)
+    const VoxelGrid& grid, const WorldPoints& points, std::size_t count, Batch& batch)
 {
   for (std::size_t i = 0; i < count; ++i)
   {
-    const float x = points.x[first + i], y = points.y[first + i], z = points.z[first + i];
+    const std::size_t k = batch[i].point;
+    const float x = points.x[k], y = points.y[k], z = points.z[k];
     if (grid.contains(x, y, z))
       grid.locate(x, y, z, batch[i].address);
     else  // nor is a NaN anywhere
@@ -115,6 +116,34 @@ PlaneMatch bestPlane(const Query& query, float x, float y, float z)
       plane.created_insertion,
       plane.normalVariance()};
 }
+/** Which of the points [first, first + kBatch) or fewer are no longer in the voxels where they
+ * were. Without branches, for the compiler. */
+void findMoved(
+    const VoxelGrid& grid, const WorldPoints& before, const WorldPoints& points, std::size_t first,
+    std::size_t count, std::array<bool, kBatch>& moved)
+{
+  const float *x1 = &before.x[first], *y1 = &before.y[first], *z1 = &before.z[first];
+  const float *x2 = &points.x[first], *y2 = &points.y[first], *z2 = &points.z[first];
+  for (std::size_t i = 0; i < count; ++i)
+    moved[i] = !grid.isInSameVoxel(x1[i], y1[i], z1[i], x2[i], y2[i], z2[i]);
+}
+
+/** Finds the planes of the first \a count points of a batch. */
+void matchBatch(
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t count,
+    Batch& batch, std::vector<PlaneMatch>& matches)
+{
+  findAddresses(grid, points, count, batch);
+  findBlocks(shards, count, batch);
+  findPlanes(count, batch);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t k = batch[i].point;
+    matches[k] = batch[i].block == nullptr
+                     ? PlaneMatch{}
+                     : bestPlane(batch[i], points.x[k], points.y[k], points.z[k]);
+  }
+}
 }  // namespace
 
 void matchPlanes(
@@ -125,17 +154,34 @@ void matchPlanes(
   for (std::size_t begin = first; begin < last; begin += kBatch)
   {
     const std::size_t count = std::min(kBatch, last - begin);
-    findAddresses(grid, points, begin, count, batch);
-    findBlocks(shards, count, batch);
-    findPlanes(count, batch);
+    for (std::size_t i = 0; i < count; ++i)
+      batch[i].point = begin + i;
+    matchBatch(shards, grid, points, count, batch, matches);
+  }
+}
+
+void rematchPlanes(
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& before,
+    const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches)
+{
+  Batch batch;
+  std::array<bool, kBatch> moved{};
+  std::size_t waiting = 0;
+  for (std::size_t begin = first; begin < last; begin += kBatch)
+  {
+    const std::size_t count = std::min(kBatch, last - begin);
+    findMoved(grid, before, points, begin, count, moved);
     for (std::size_t i = 0; i < count; ++i)
     {
-      const std::size_t k = begin + i;
-      matches[k] = batch[i].block == nullptr
-                       ? PlaneMatch{}
-                       : bestPlane(batch[i], points.x[k], points.y[k], points.z[k]);
+      if (!moved[i]) continue;
+      batch[waiting++].point = begin + i;
+      if (waiting < kBatch) continue;
+      matchBatch(shards, grid, points, waiting, batch, matches);
+      waiting = 0;
     }
   }
+  matchBatch(shards, grid, points, waiting, batch, matches);
 }
 
 }  // namespace fastlio

@@ -18,4 +18,10 @@ void matchPlanes(
     const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
     std::size_t last, std::vector<PlaneMatch>& matches);
 
+/** Writes those matches that belong to points which have left their voxels. */
+void rematchPlanes(
+    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& before,
+    const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches);
+
 }  // namespace fastlio

@@ -119,6 +119,13 @@ void VoxelPlaneMap::match(
   matchPlanes(impl_->shards, impl_->grid, points, first, last, matches);
 }
 
+void VoxelPlaneMap::rematch(
+    const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches) const
+{
+  rematchPlanes(impl_->shards, impl_->grid, before, points, first, last, matches);
+}
+
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
 {
   const InsertionContext context{

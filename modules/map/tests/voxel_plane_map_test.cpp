@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -225,4 +226,48 @@ TEST(VoxelPlaneMap, RefusesUnusableOptionsByName)
         std::string::npos);
   }
   EXPECT_EQ(refusal([](auto&) {}), "");
+}
+
+TEST(VoxelPlaneMap, LooksUpAgainWhatHasLeftItsVoxel)
+{
+  // Two floors, one above the other: points move from one to the other, within a voxel, and to
+  // where nothing is.
+  VoxelPlaneMap map(halfMetre());
+  map.insert(worldPoints(patch(0.0F, 0.0F, 0.25F, 8.0F, 16000)), {0.0, 0.0, 3.25});
+  map.insert(worldPoints(patch(0.0F, 0.0F, 2.75F, 8.0F, 16000)), {0.0, 0.0, 5.75});
+  std::mt19937 rng(9);
+  std::uniform_real_distribution<float> u(-9.0F, 9.0F), small(-0.05F, 0.05F);
+  WorldPoints before, after;
+  constexpr std::size_t kPoints = 1000;
+  before.resize(kPoints);
+  after.resize(kPoints);
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    before.x[i] = u(rng), before.y[i] = u(rng), before.z[i] = i % 2 == 0 ? 0.25F : 2.75F;
+    after.x[i] = before.x[i] + small(rng), after.y[i] = before.y[i] + small(rng);
+    after.z[i] = i % 5 == 0 ? 2.75F : before.z[i] + small(rng);
+  }
+  before.x[7] = after.y[8] = std::numeric_limits<float>::quiet_NaN();
+  after.z[9] = 1e30F;
+  std::vector<PlaneMatch> old(kPoints), anew(kPoints);
+  map.match(before, 0, kPoints, old);
+  map.match(after, 0, kPoints, anew);
+  std::vector<PlaneMatch> again = old;
+  map.rematch(before, after, 0, kPoints, again);
+
+  const auto cell = [](float x) { return std::floor(x / 0.5F); };
+  std::size_t kept = 0, changed = 0;
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    const bool stays = cell(before.x[i]) == cell(after.x[i]) &&
+                       cell(before.y[i]) == cell(after.y[i]) &&
+                       cell(before.z[i]) == cell(after.z[i]);
+    const PlaneMatch& expected = stays ? old[i] : anew[i];
+    EXPECT_EQ(again[i].plane, expected.plane) << i;
+    EXPECT_EQ(again[i].variance, expected.variance) << i;
+    kept += stays ? 1U : 0U;
+    changed += !stays && old[i].plane != anew[i].plane ? 1U : 0U;
+  }
+  EXPECT_GT(kept, kPoints / 2);
+  EXPECT_GT(changed, kPoints / 20);
 }

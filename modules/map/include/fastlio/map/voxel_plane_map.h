@@ -54,6 +54,9 @@ class VoxelPlaneMap : public SurfaceMap
   void match(
       const WorldPoints& points, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
+  void rematch(
+      const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
+      std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void removeOutside(const Vec3& center, double radius) override;
   [[nodiscard]] std::uint32_t insertionCount() const override;
