@@ -8,10 +8,11 @@
 #include <fastlio/filter/update.h>
 #include <fastlio/map/plane_fit.h>
 #include <fastlio/map/plane_voxel.h>
-#include <fastlio/matching/point_to_plane.h>
+#include <fastlio/matching/measured_scan.h>
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <random>
 
 namespace fastlio::benchmarks
@@ -46,10 +47,21 @@ Matched matchedPoints(std::size_t count)
   return matched;
 }
 
+void measureAll(const Matched& matched, MeasuredScan& scan)
+{
+  const std::size_t count = matched.matches.size();
+  scan.clear(count);
+  for (std::size_t chunk = 0; chunk < scan.chunks(); ++chunk)
+    scan.measure(
+        Pose{}, matched.body, matched.matches, ResidualModel{}, chunk, chunk * Workers::kChunk,
+        std::min(count, (chunk + 1) * Workers::kChunk));
+}
+
 InformationSums sumsOf(const Matched& matched)
 {
-  return accumulate(
-      Pose{}, matched.body, matched.matches, ResidualModel{}, 0, matched.matches.size());
+  MeasuredScan scan;
+  measureAll(matched, scan);
+  return scan.sums();
 }
 
 FilterState someState()
@@ -59,11 +71,15 @@ FilterState someState()
   return s;
 }
 
-void accumulatePoints(benchmark::State& state)
+void measurePoints(benchmark::State& state)
 {
   const Matched matched = matchedPoints(static_cast<std::size_t>(state.range(0)));
+  MeasuredScan scan;
   for (auto _ : state)
-    benchmark::DoNotOptimize(sumsOf(matched));
+  {
+    measureAll(matched, scan);
+    benchmark::DoNotOptimize(scan.sums());
+  }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
@@ -129,7 +145,7 @@ void fitVoxel(benchmark::State& state)
   }
 }
 
-BENCHMARK(accumulatePoints)->Arg(100)->Arg(1000)->Arg(10000);
+BENCHMARK(measurePoints)->Arg(100)->Arg(1000)->Arg(10000);
 BENCHMARK(propagateSample);
 BENCHMARK(informationGain);
 BENCHMARK(standardGain)->Arg(100)->Arg(400);

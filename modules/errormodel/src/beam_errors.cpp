@@ -20,6 +20,52 @@ constexpr double kSharedNoise = 4.0;
 constexpr std::size_t kScansPerLesson = 4;
 }  // namespace
 
+/** The axes of the sensor. */
+struct BeamErrors::SensorFrame
+{
+  Mat3 R_lidar_body, R_lidar_world;
+  Vec3 origin;  //!< of the beams, minus that of the body
+};
+
+/** Beams of a block and what they meet, in the axes of the sensor. */
+struct BeamErrors::BeamLanes
+{
+  double forward[kLanes], left[kLanes], range[kLanes];  // [m]
+  double sine[kLanes], cosine[kLanes];                  // of the elevation
+  double along[kLanes];                                 // cosine between beam and normal
+  double turned_up[kLanes];                             // cosine between z axis and normal
+  double upward[kLanes];                                // the normal across the beam, upward
+};
+
+BeamErrors::BeamLanes BeamErrors::beamsOf(
+    const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame)
+{
+  const auto turned = [](const Mat3& R, int row, double x, double y, double z)
+  { return R(row, 0) * x + R(row, 1) * y + R(row, 2) * z; };
+  const Mat3 R_lidar_body = frame.R_lidar_body, R_lidar_world = frame.R_lidar_world;
+  const Vec3 origin = frame.origin;
+  BeamLanes b;
+  for (std::size_t l = 0; l < kLanes; ++l)
+  {
+    const std::size_t i = block.index[l];
+    const auto x = static_cast<double>(body.x[i]), y = static_cast<double>(body.y[i]),
+               z = static_cast<double>(body.z[i]);
+    const double nx = block.h[3][l], ny = block.h[4][l], nz = block.h[5][l];
+    b.forward[l] = turned(R_lidar_body, 0, x, y, z) - origin[0];
+    b.left[l] = turned(R_lidar_body, 1, x, y, z) - origin[1];
+    const double up = turned(R_lidar_body, 2, x, y, z) - origin[2];
+    b.range[l] = std::sqrt(b.forward[l] * b.forward[l] + b.left[l] * b.left[l] + up * up);
+    const double inverse = 1.0 / b.range[l];
+    b.turned_up[l] = turned(R_lidar_world, 2, nx, ny, nz);
+    b.along[l] = inverse * (turned(R_lidar_world, 0, nx, ny, nz) * b.forward[l] +
+                            turned(R_lidar_world, 1, nx, ny, nz) * b.left[l] + b.turned_up[l] * up);
+    b.sine[l] = inverse * up;
+    b.cosine[l] = std::sqrt(1.0 - b.sine[l] * b.sine[l]);
+    b.upward[l] = (b.turned_up[l] - b.sine[l] * b.along[l]) / b.cosine[l];
+  }
+  return b;
+}
+
 void BeamErrors::Offset::add(const PointMeasurement& point, double derivative, const Vector6& pull)
 {
   information += point.weight * derivative * derivative;
@@ -28,8 +74,8 @@ void BeamErrors::Offset::add(const PointMeasurement& point, double derivative, c
 }
 
 void BeamErrors::add(
-    const Mat3& R_world_scan, const DeskewedScan& scan, const std::vector<PointMeasurement>& points,
-    const std::vector<PlaneMatch>& matches, const Matrix6& information)
+    const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
+    const std::vector<PlaneMatch>& matches)
 {
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
@@ -37,43 +83,42 @@ void BeamErrors::add(
   sides_.beginScan();
   const bool learns = scans_++ % kScansPerLesson == 0;
   const bool looks_at_sides = learns || sides_.rangeOffset() > 0.0;
-  // All in the axes of the body.
-  const Mat3 R_scan_world = R_world_scan.transpose();
-  const Vec3 origin = scan.T_imu_lidar.p;
-  const Vec3 forward = scan.T_imu_lidar.R.col(0), left = scan.T_imu_lidar.R.col(1),
-             up = scan.T_imu_lidar.R.col(2);
-  const BodyPoints& body = scan.surfaces;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const PointMeasurement& point = points[i];
-    if (point.weight == 0.0) continue;
-    const Vec3 in_body(
-        static_cast<double>(body.x[i]), static_cast<double>(body.y[i]),
-        static_cast<double>(body.z[i]));
-    const Vec3 beam = in_body - origin;
-    const double range = beam.norm();
-    const double sine = up.dot(beam) / range;  // of the elevation
-    const double cosine = std::sqrt(1.0 - sine * sine);
-    if (!(cosine > kLeastCosine)) continue;
-    const Vec3 normal = R_scan_world * point.weighted_h.tail<3>() / point.weight;
-    const double along = normal.dot(beam) / range;
-    const double turned_up = normal.dot(up);
-    const double upward = (turned_up - sine * along) / cosine;  // across the beam
-    const std::size_t bin = beamBin(sine);
-    const Vector6 by_range = along * point.weighted_h;
-    range_[bin].add(point, along, by_range);
-    elevation_[bin].add(point, range * upward, range * upward * point.weighted_h);
-    if (looks_at_sides)
-      sides_.add({forward.dot(beam), left.dot(beam), along, turned_up}, point, by_range);
-    cross_[bin] += point.weight * along * range * upward;
-    if (learns) incidence_.add(matches[i].plane, along, point);
-    const double upright = point.weight * (1.0 - turned_up * turned_up);
-    upright_weight_ += upright;
-    upright_range_ += upright * range;
-  }
+  const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
+  const SensorFrame frame{
+      R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
+  measured.forEachBlock(
+      [&](const MeasurementBlock& block, std::size_t)
+      {
+        const BeamLanes beams = beamsOf(block, scan.surfaces, frame);
+        for (std::size_t l = 0; l < kLanes; ++l)
+        {
+          if (block.weight[l] == 0.0 || !(beams.cosine[l] > kLeastCosine)) continue;
+          const PointMeasurement point = block.point(l);
+          const BeamGeometry beam{
+              beams.forward[l], beams.left[l], beams.along[l], beams.turned_up[l]};
+          const Vector6 by_range = beam.along * point.weighted_h;
+          add(beams, l, point, by_range);
+          if (looks_at_sides) sides_.add(beam, point, by_range);
+          if (learns) incidence_.add(matches[block.index[l]].plane, beam.along, point);
+        }
+      });
   if (!learns) return;
-  incidence_.finishScan(information);
+  incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
+}
+
+void BeamErrors::add(
+    const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
+    const Vector6& by_range)
+{
+  const double along = beams.along[lane], by_elevation = beams.range[lane] * beams.upward[lane];
+  const std::size_t bin = beamBin(beams.sine[lane]);
+  range_[bin].add(point, along, by_range);
+  elevation_[bin].add(point, by_elevation, by_elevation * point.weighted_h);
+  cross_[bin] += point.weight * along * by_elevation;
+  const double upright = point.weight * (1.0 - beams.turned_up[lane] * beams.turned_up[lane]);
+  upright_weight_ += upright;
+  upright_range_ += upright * beams.range[lane];
 }
 
 double BeamErrors::meanSquare(const Offsets& offsets, double least_information)

@@ -48,7 +48,8 @@ PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state
 
 PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& groups)
 {
-  weighInsertions(groups, insertions_);
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, insertions_, weightOf);
   PoseByCalibration mean = PoseByCalibration::Zero();
   for (const Insertion& insertion : insertions_)
     if (insertion.weight > 0.0) mean += insertion.weight * insertion.twist;

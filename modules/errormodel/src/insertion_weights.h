@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <vector>
 
 namespace fastlio
@@ -26,43 +25,58 @@ void keepEverySecond(std::vector<Insertion>& insertions)
   insertions.resize((insertions.size() + 1) / 2);
 }
 
+/** Finds the insertion that created the planes of each group of points. \param insertions ascending
+ * by scan; older ones may have been dropped \param found receives an index for each group, or the
+ * number of insertions where it is not known */
+template <typename Insertion>
+void findInsertions(
+    const std::vector<PlaneGroup>& groups, const std::vector<Insertion>& insertions,
+    std::vector<std::size_t>& found)
+{
+  found.clear();
+  std::uint32_t looked_up = 0;  // no insertion has that number
+  std::size_t index = insertions.size();
+  for (const PlaneGroup& group : groups)
+  {
+    // Neighbours in a scan mostly lie on planes of the same insertion.
+    if (group.created_insertion != looked_up || found.empty())
+    {
+      looked_up = group.created_insertion;
+      const auto next = std::upper_bound(
+          insertions.begin(), insertions.end(), looked_up,
+          [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
+      index = next == insertions.begin() ? insertions.size()
+                                         : static_cast<std::size_t>(next - insertions.begin()) - 1;
+    }
+    found.push_back(index);
+  }
+}
+
 /** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
- * created. \param insertions ascending by scan; older ones may have been dropped
- * \param weight_of weight of a group of points */
+ * created. \param found from findInsertions() \param weight_of weight of a group of points */
 template <typename Insertion, typename WeightOf>
 void weighInsertions(
-    const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions,
-    const WeightOf& weight_of)
+    const std::vector<PlaneGroup>& groups, const std::vector<std::size_t>& found,
+    std::vector<Insertion>& insertions, const WeightOf& weight_of)
 {
   for (Insertion& insertion : insertions)
     insertion.weight = 0.0;
   double total = 0.0;
-  auto next = insertions.begin();
-  std::uint32_t looked_up = 0;  // no insertion has that number
-  for (const PlaneGroup& group : groups)
+  for (std::size_t i = 0; i < groups.size(); ++i)
   {
-    const double weight = weight_of(group);
+    const double weight = weight_of(groups[i]);
     total += weight;
-    // Neighbours in a scan mostly lie on planes of the same insertion.
-    if (group.created_insertion != looked_up)
-    {
-      looked_up = group.created_insertion;
-      next = std::upper_bound(
-          insertions.begin(), insertions.end(), looked_up,
-          [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
-    }
-    if (next != insertions.begin()) std::prev(next)->weight += weight;
+    if (found[i] < insertions.size()) insertions[found[i]].weight += weight;
   }
   if (!(total > 0.0)) return;
   for (Insertion& insertion : insertions)
     insertion.weight /= total;
 }
 
-/** By all that the points say. */
-template <typename Insertion>
-void weighInsertions(const std::vector<PlaneGroup>& groups, std::vector<Insertion>& insertions)
+/** Weight of a group by all that its points say. */
+inline double weightOf(const PlaneGroup& group)
 {
-  weighInsertions(groups, insertions, [](const PlaneGroup& group) { return group.weight; });
+  return group.weight;
 }
 
 }  // namespace fastlio

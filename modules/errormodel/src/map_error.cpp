@@ -112,7 +112,8 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
 TwistCovariance MapErrorModel::insertionCovariance(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  weighInsertions(groups, insertions_);
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, insertions_, weightOf);
   const TwistCovariance mean = meanOfInsertions();
   TwistCovariance all = mean;
   const ScanConstraints& constraints = update.constraints;
@@ -122,7 +123,7 @@ TwistCovariance MapErrorModel::insertionCovariance(
     along.head<3>() /= constraints.lever_arm;
     measured.head<3>() *= constraints.lever_arm;
     weighInsertions(
-        groups, insertions_,
+        groups, created_by_, insertions_,
         [&](const PlaneGroup& group) { return std::pow(group.g.dot(along), 2) / group.weight; });
     const Vector6 moved = twistJacobian(update.T_world_scan) * along;
     const Vector6 seen = twistJacobianInverse(update.T_world_scan).transpose() * measured;

@@ -6,8 +6,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace fastlio
 {
@@ -30,9 +32,8 @@ class RandomRoom
   void scan(BeamErrors& beams, double noise, const OffsetOf& offsetOf)
   {
     DeskewedScan scan;
-    std::vector<PointMeasurement> points;
-    constexpr int kLines = 16, kColumns = 60;
     scan.surfaces.resize(kLines * kColumns);
+    std::vector<PlaneMatch> matches(scan.surfaces.size());
     for (int i = 0; i < kLines * kColumns; ++i)
     {
       const double elevation = (-15.0 + 2.0 * (i % kLines)) * M_PI / 180.0;
@@ -45,23 +46,40 @@ class RandomRoom
       const Vec3 turned(normal_(random_), normal_(random_), normal_(random_));
       const Vec3 normal = (beam + 0.5 * turned).normalized();
       const LaserOffset offset = offsetOf(i % kLines);
-      PointMeasurement& point = points.emplace_back();
-      point.weight = kWeight;
-      point.weighted_h.head<3>() = kWeight * (kRadius * beam).cross(normal);
-      point.weighted_h.tail<3>() = kWeight * normal;
-      point.z = offset.range * normal.dot(beam) + kRadius * offset.elevation * normal.dot(upward) +
-                noise * normal_(random_);
+      const double z = offset.range * normal.dot(beam) +
+                       kRadius * offset.elevation * normal.dot(upward) + noise * normal_(random_);
       const auto k = static_cast<std::size_t>(i);
       scan.surfaces.x[k] = static_cast<float>(kRadius * beam.x());
       scan.surfaces.y[k] = static_cast<float>(kRadius * beam.y());
       scan.surfaces.z[k] = static_cast<float>(kRadius * beam.z());
+      PlaneMatch& plane = matches[k];
+      plane.nx = static_cast<float>(normal.x());
+      plane.ny = static_cast<float>(normal.y());
+      plane.nz = static_cast<float>(normal.z());
+      plane.d = static_cast<float>(z - kRadius * normal.dot(beam));
+      plane.variance = static_cast<float>(1.0 / kWeight);
     }
-    beams.add(
-        Mat3::Identity(), scan, points, std::vector<PlaneMatch>(points.size()),
-        Matrix6::Identity());
+    beams.add(Mat3::Identity(), scan, measured(scan, matches), matches);
   }
 
  private:
+  static constexpr int kLines = 16, kColumns = 60;
+
+  /** The planes' offsets are all that is uncertain. */
+  static MeasuredScan measured(const DeskewedScan& scan, const std::vector<PlaneMatch>& matches)
+  {
+    ResidualModel model;
+    model.range_variance = 0.0;
+    model.gate = 1e6;
+    MeasuredScan measured;
+    measured.clear(matches.size());
+    for (std::size_t chunk = 0; chunk < measured.chunks(); ++chunk)
+      measured.measure(
+          Pose{}, scan.surfaces, matches, model, chunk, chunk * Workers::kChunk,
+          std::min(matches.size(), (chunk + 1) * Workers::kChunk));
+    return measured;
+  }
+
   std::mt19937 random_{7};
   std::normal_distribution<double> normal_;
 };

@@ -81,10 +81,8 @@ UpdateByCalibration LocalMap::considerUpdate(
     const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
     BeamErrors& beams)
 {
-  const GroupedMeasurements& measurements =
-      groups_.group(update.T_world_scan, scan.surfaces, *match.matches, match.model);
-  beams.add(
-      update.T_world_scan.R, scan, groups_.points(), *match.matches, measurements.information);
+  const GroupedMeasurements& measurements = groups_.group(*match.measured, *match.matches);
+  beams.add(update.T_world_scan.R, scan, *match.measured, *match.matches);
   error_.update(update, measurements, beams.covariance());
   return calibration_.update(update, measurements);
 }

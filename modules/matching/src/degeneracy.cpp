@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "information_lanes.h"
-#include "measurement_lanes.h"
 #include <fastlio/matching/degeneracy.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -44,111 +42,32 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
   return m;
 }
 
-/** (p, 1) of the points that count; the others may be no numbers. */
-void homogeneous(
-    const double (&weight)[kLanes], const double (&p)[3][kLanes], double (&out)[4][kLanes])
-{
-  for (std::size_t l = 0; l < kLanes; ++l)
-  {
-    for (std::size_t c = 0; c < 3; ++c)
-      out[c][l] = weight[l] > 0.0 ? p[c][l] : 0.0;
-    out[3][l] = 1.0;
-  }
-}
-
-/** Keeps the lanes that count. */
-void collect(
-    const MatchLanes<kLanes>& lanes, const MeasurementLanes<kLanes>& m,
-    const double (&weight)[kLanes], const std::vector<PlaneMatch>& matches, RowsByPlane& rows)
-{
-  for (std::size_t l = 0; l < kLanes; ++l)
-  {
-    if (!(weight[l] > 0.0)) continue;
-    Vector6 h;
-    for (std::size_t k = 0; k < 6; ++k)
-      h[static_cast<Eigen::Index>(k)] = m.h[k][l];
-    rows.set(lanes.index[l], matches[lanes.index[l]].plane, weight[l], h);
-  }
-}
 }  // namespace
 
-void RowsByPlane::reserve(std::size_t points)
-{
-  if (points <= rows_.capacity()) return;
-  rows_.reserve(2 * points);
-  order_.reserve(2 * points);
-}
-
-void RowsByPlane::clear(std::size_t points)
-{
-  reserve(points);
-  rows_.resize(points);
-  for (Row& row : rows_)
-    row.weight = 0.0;
-  order_.clear();
-}
-
-void RowsByPlane::set(std::size_t i, std::uint32_t plane, double weight, const Vector6& h)
-{
-  rows_[i] = {plane, weight, h};
-}
-
-void RowsByPlane::sort()
-{
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (rows_[i].weight > 0.0) order_.push_back((std::uint64_t{rows_[i].plane} << 32U) | i);
-  std::sort(order_.begin(), order_.end());
-}
-
-double RowsByPlane::strongest(const Vector6& direction) const
-{
-  std::array<double, kDistrustedPlanes> most{};  // descending
-  const auto enter = [&](double information)
-  {
-    for (double& kept : most)
-      if (information > kept) std::swap(information, kept);
-  };
-  std::uint32_t plane = 0;
-  double of_plane = 0.0;
-  for (const std::uint64_t key : order_)
-  {
-    const Row& row = rows_[key & 0xFFFFFFFFU];
-    if (row.plane != plane)
-    {
-      enter(of_plane);
-      plane = row.plane;
-      of_plane = 0.0;
-    }
-    const double along = row.h.dot(direction);
-    of_plane += row.weight * along * along;
-  }
-  enter(of_plane);
-  return std::accumulate(most.begin(), most.end(), 0.0);
-}
-
 Matrix6 normalNoiseInformation(
-    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::size_t first, std::size_t last, RowsByPlane& rows)
+    const Mat3& R_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const MeasuredScan& scan, std::size_t chunk)
 {
   // cov(h) = s (B B^T - h h^T) with B = [[p]x R^T; I], B n = h and half the summed variance s.
   OuterProductLanes<kLanes> shh_lanes;
   OuterProductLanes<kLanes, 4> spp_lanes;  // of (p, 1): s p p^T, s p and s
-  forMatches<kLanes>(
-      body, matches, first, last,
-      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+  scan.forEachBlockOf(
+      chunk,
+      [&](const MeasurementBlock& block, std::size_t)
       {
-        auto m = measure(T_world_scan, lanes, model.range_variance);
-        double s[kLanes];
-        weigh(m, filled, model, s);
-        collect(lanes, m, s, matches, rows);
+        double s[kLanes], p[4][kLanes];
         for (std::size_t l = 0; l < kLanes; ++l)
         {
-          const double of_points = static_cast<double>(matches[lanes.index[l]].normal_variance);
-          s[l] *= s[l] > 0.0 ? 0.5 * (of_points + kNormalVariance) : 0.0;
+          const std::size_t i = block.index[l];
+          const bool counts = block.weight[l] > 0.0;  // other points may be no numbers
+          const auto of_points = static_cast<double>(matches[i].normal_variance);
+          s[l] = counts ? block.weight[l] * 0.5 * (of_points + kNormalVariance) : 0.0;
+          p[0][l] = counts ? static_cast<double>(body.x[i]) : 0.0;
+          p[1][l] = counts ? static_cast<double>(body.y[i]) : 0.0;
+          p[2][l] = counts ? static_cast<double>(body.z[i]) : 0.0;
+          p[3][l] = 1.0;
         }
-        shh_lanes.add(s, m.h);
-        double p[4][kLanes];
-        homogeneous(s, lanes.p, p);
+        shh_lanes.add(s, block.h);
         spp_lanes.add(s, p);
       });
   const auto sums = spp_lanes.sum();
@@ -159,7 +78,7 @@ Matrix6 normalNoiseInformation(
   Square6 sum = -shh_sum;
   // [p]x [p]x^T = |p|^2 I - p p^T
   sum.topLeftCorner<3, 3>() += spp_sum.trace() * Mat3::Identity() - spp_sum;
-  const Mat3 lever = skew(sp_sum) * T_world_scan.R.transpose();
+  const Mat3 lever = skew(sp_sum) * R_world_scan.transpose();
   sum.topRightCorner<3, 3>() += lever;
   sum.bottomLeftCorner<3, 3>() += lever.transpose();
   sum.bottomRightCorner<3, 3>() += s_sum * Mat3::Identity();
@@ -193,15 +112,41 @@ ScanConstraints informationByDirection(const Matrix6& information, const Matrix6
   return c;
 }
 
-void withoutStrongestPlanes(const RowsByPlane& rows, ScanConstraints& constraints)
+void WithoutStrongestPlanes::operator()(
+    const MeasuredScan& scan, const std::vector<PlaneMatch>& matches, ScanConstraints& constraints)
 {
-  for (int i = 0; i < 6; ++i)
+  if (!isWeak(constraints, 0)) return;
+  planes_.assign(scan, matches);
+  for (int i = 0; i < 6 && isWeak(constraints, i); ++i)
   {
-    if (!isWeak(constraints, i)) return;
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
-    constraints.supported_information[i] -= rows.strongest(direction);
+    constraints.supported_information[i] -= strongest(scan, direction);
   }
+}
+
+double WithoutStrongestPlanes::strongest(const MeasuredScan& scan, const Vector6& direction)
+{
+  of_plane_.assign(planes_.count(), 0.0);
+  scan.forEachBlock(
+      [&](const MeasurementBlock& block, std::size_t number)
+      {
+        double information[kLanes];
+        for (std::size_t l = 0; l < kLanes; ++l)
+        {
+          double along = 0.0;
+          for (std::size_t k = 0; k < 6; ++k)
+            along += block.h[k][l] * direction[static_cast<Eigen::Index>(k)];
+          information[l] = block.weight[l] * along * along;
+        }
+        for (std::size_t l = 0; l < kLanes; ++l)
+          of_plane_[planes_.of(number, l)] += information[l];
+      });
+  std::array<double, kDistrustedPlanes> most{};  // descending
+  for (double information : of_plane_)
+    for (double& kept : most)
+      if (information > kept) std::swap(information, kept);
+  return std::accumulate(most.begin(), most.end(), 0.0);
 }
 
 void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& c)

@@ -6,14 +6,13 @@
 
 #include "measurement_lanes.h"
 #include <fastlio/filter/update.h>
+#include <fastlio/matching/measured_scan.h>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace fastlio
 {
-// As many double-precision numbers as the widest registers of the processor family hold.
-constexpr std::size_t kLanes = 8;
-
 /** Sum over the lanes, in their order. */
 template <std::size_t N>
 [[nodiscard]] double total(const double (&lanes)[N])
@@ -24,26 +23,25 @@ template <std::size_t N>
   return sum;
 }
 
-/** Weights of the first \a filled lanes that are consistent with the model. The others become zero
- * in every respect, as a NaN times a weight of zero would not. \return how many count */
-template <std::size_t N>
-std::size_t weigh(
-    MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model, double (&weight)[N])
+/** Measures the first \a filled lanes. Those that are not consistent with the model become zero in
+ * every respect, as a NaN times a weight of zero would not. */
+inline void measure(
+    const Pose& T_world_scan, const MatchLanes<kLanes>& lanes, std::size_t filled,
+    const ResidualModel& model, MeasurementBlock& block)
 {
-  bool counts[N];
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < N; ++l)
+  const MeasurementLanes<kLanes> m = measure(T_world_scan, lanes, model.range_variance);
+  bool counts[kLanes];
+  for (std::size_t l = 0; l < kLanes; ++l)
   {
     const double h[6] = {m.h[0][l], m.h[1][l], m.h[2][l], m.h[3][l], m.h[4][l], m.h[5][l]};
     counts[l] = l < filled && withinGate(m.z[l], m.variance[l], h, model);
-    weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
-    m.z[l] = counts[l] ? m.z[l] : 0.0;
-    count += counts[l] ? 1 : 0;
+    block.weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
+    block.z[l] = counts[l] ? m.z[l] : 0.0;
+    block.index[l] = static_cast<std::uint32_t>(lanes.index[l]);
   }
-  for (auto& row : m.h)
-    for (std::size_t l = 0; l < N; ++l)
-      row[l] = counts[l] ? row[l] : 0.0;
-  return count;
+  for (std::size_t k = 0; k < 6; ++k)
+    for (std::size_t l = 0; l < kLanes; ++l)
+      block.h[k][l] = counts[l] ? m.h[k][l] : 0.0;
 }
 
 /** Sum of w h h^T of vectors h with D elements. */
@@ -84,24 +82,20 @@ class OuterProductLanes
 };
 
 /** InformationSums of the measurements of each lane. */
-template <std::size_t N>
 class InformationLanes
 {
  public:
-  /** Adds the first \a filled lanes that are consistent with the model; the others may hold
-   * anything. */
-  void add(MeasurementLanes<N>& m, std::size_t filled, const ResidualModel& model)
+  void add(const MeasurementBlock& block)
   {
-    double weight[N];
-    count_ += weigh(m, filled, model, weight);
-    information_.add(weight, m.h);
-    for (std::size_t l = 0; l < N; ++l)
+    information_.add(block.weight, block.h);
+    for (std::size_t l = 0; l < kLanes; ++l)
     {
-      const double weighted_z = weight[l] * m.z[l];
+      const double weighted_z = block.weight[l] * block.z[l];
       for (std::size_t c = 0; c < 6; ++c)
-        hz_[c][l] += weighted_z * m.h[c][l];
-      squares_[l] += m.z[l] * m.z[l];
-      weighted_squares_[l] += weighted_z * m.z[l];
+        hz_[c][l] += weighted_z * block.h[c][l];
+      squares_[l] += block.z[l] * block.z[l];
+      weighted_squares_[l] += weighted_z * block.z[l];
+      count_ += block.weight[l] > 0.0 ? 1 : 0;
     }
   }
 
@@ -119,10 +113,10 @@ class InformationLanes
   }
 
  private:
-  OuterProductLanes<N> information_;
-  double hz_[6][N] = {};
-  double squares_[N] = {};
-  double weighted_squares_[N] = {};
+  OuterProductLanes<kLanes> information_;
+  double hz_[6][kLanes] = {};
+  double squares_[kLanes] = {};
+  double weighted_squares_[kLanes] = {};
   std::size_t count_ = 0;
 };
 

@@ -1,7 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "information_lanes.h"
 #include "measurement_lanes.h"
 #include <fastlio/matching/point_to_plane.h>
 
@@ -46,21 +45,6 @@ bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model)
 {
   const double h[6] = {m.h[0], m.h[1], m.h[2], m.h[3], m.h[4], m.h[5]};
   return withinGate(m.z, m.variance, h, model);
-}
-
-InformationSums accumulate(
-    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::size_t first, std::size_t last)
-{
-  InformationLanes<kLanes> sums;
-  forMatches<kLanes>(
-      body, matches, first, last,
-      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
-      {
-        MeasurementLanes<kLanes> m = measure(T_world_imu, lanes, model.range_variance);
-        sums.add(m, filled, model);
-      });
-  return sums.sums();
 }
 
 void addSums(InformationSums& a, const InformationSums& b)

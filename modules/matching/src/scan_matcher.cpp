@@ -18,6 +18,16 @@ constexpr int kPullInIterations = 15;
 // Gate, in standard deviations of residual and prior: 99.7 % of what noise explains passes.
 constexpr double kResidualGate = 3.0;
 
+// Where a step has moved points less, the planes' variances at them are as before.
+constexpr double kSmallStep = 0.02;  // [m]
+constexpr double kLeverArm = 10.0;   // of the points [m]
+
+bool isSmallStep(const Pose& from, const Pose& to)
+{
+  const Vec3 turn = logSO3(from.R.transpose() * to.R);
+  return (to.p - from.p).norm() + kLeverArm * turn.norm() < kSmallStep;
+}
+
 /** The prediction's uncertainty of position, as the gate takes it. One direction may be far more
  * uncertain than the others (along a tunnel), which says nothing about planes across. The two
  * others count whatever the plane: a prediction that is a little too sure of itself may not lose
@@ -58,16 +68,22 @@ MatchOptions pullInMatching(const OdometryOptions& options)
 
 ScanMatcher::ScanMatcher(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
 
-void ScanMatcher::associate(const Pose& T_world_scan, const Call& call)
+void ScanMatcher::associate(const Pose& T_world_scan, int iteration, const Call& call)
 {
   const Stopwatch watch;
+  const bool stays_near = iteration > 0 && isSmallStep(associated_at_, T_world_scan);
+  associated_at_ = T_world_scan;
+  std::swap(world_, world_before_);
   const BodyPoints& points = call.scan.surfaces;
   workers_->forEachChunk(
       points.size(),
       [&](std::size_t, std::size_t first, std::size_t last)
       {
         transformToWorld(points, T_world_scan, first, last, world_);
-        call.maps.surfaces.match(world_, first, last, matches_);
+        if (stays_near)
+          call.maps.surfaces.rematch(world_before_, world_, first, last, matches_);
+        else
+          call.maps.surfaces.match(world_, first, last, matches_);
       });
   const BodyPoints& edges = call.scan.edges;
   transformToWorld(edges, T_world_scan, 0, edges.size(), world_edges_);
@@ -76,27 +92,25 @@ void ScanMatcher::associate(const Pose& T_world_scan, const Call& call)
 }
 
 void ScanMatcher::findConstraints(
-    const Pose& T_world_scan, const InformationSums& sums, const Call& call)
+    const Mat3& R_world_scan, const InformationSums& sums, const Call& call)
 {
   const double min_signal_to_noise = call.options.measurement.min_signal_to_noise;
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
   const BodyPoints& points = call.scan.surfaces;
-  chunk_noise_.resize(chunk_sums_.size());
-  rows_.clear(points.size());
+  chunk_noise_.resize(measured_.chunks());
   workers_->forEachChunk(
       points.size(),
-      [&](std::size_t chunk, std::size_t first, std::size_t last)
+      [&](std::size_t chunk, std::size_t, std::size_t)
       {
-        chunk_noise_[chunk] = normalNoiseInformation(
-            T_world_scan, points, matches_, call.result.model, first, last, rows_);
+        chunk_noise_[chunk] =
+            normalNoiseInformation(R_world_scan, points, matches_, measured_, chunk);
       });
   Matrix6 noise = Matrix6::Zero();
   for (const Matrix6& part : chunk_noise_)
     noise += part;
   ScanConstraints& constraints = call.result.constraints;
   constraints = informationByDirection(sums.HtRinvH, noise);
-  rows_.sort();
-  withoutStrongestPlanes(rows_, constraints);
+  without_strongest_planes_(measured_, matches_, constraints);
   leaveOutUnconstrained(min_signal_to_noise, constraints);
 }
 
@@ -108,16 +122,16 @@ MeasurementEvaluation ScanMatcher::evaluate(
   const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
   const ResidualModel& model = call.result.model;
   const Pose T_world_scan = scanPose(iterate, compensation);
-  if (iteration < call.options.association_iterations) associate(T_world_scan, call);
+  if (iteration < call.options.association_iterations) associate(T_world_scan, iteration, call);
+  measured_.clear(points.size());
   workers_->forEachChunk(
       points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
-      { chunk_sums_[chunk] = accumulate(T_world_scan, points, matches_, model, first, last); });
+      { measured_.measure(T_world_scan, points, matches_, model, chunk, first, last); });
   MeasurementEvaluation evaluation;
-  for (const InformationSums& sums : chunk_sums_)
-    addSums(evaluation.sums, sums);
+  evaluation.sums = measured_.sums();
   addSums(
       evaluation.sums, accumulateLines(T_world_scan, edges, edge_matches_, model, 0, edges.size()));
-  if (iteration == 0) findConstraints(T_world_scan, evaluation.sums, call);
+  if (iteration == 0) findConstraints(T_world_scan.R, evaluation.sums, call);
   const ScanConstraints& constraints = call.result.constraints;
   evaluation.sums = constrainedSums(evaluation.sums, constraints);
   if (call.options.gain == GainForm::Standard)
@@ -138,15 +152,15 @@ MatchResult ScanMatcher::match(
 {
   const std::size_t points = scan.surfaces.size();
   world_.resize(points);
+  world_before_.resize(points);
   matches_.resize(points);
   world_edges_.resize(scan.edges.size());
   edge_matches_.resize(scan.edges.size());
-  chunk_sums_.resize(Workers::chunks(points));
-  rows_.reserve(points);
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));
   result.matches = &matches_;
+  result.measured = &measured_;
   const Call call{scan, maps, options, result};
   std::size_t effective = 0;
   const auto measurements = [&](const NavState& iterate, int iteration)

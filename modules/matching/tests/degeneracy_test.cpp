@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "random_matching.h"
 #include <fastlio/matching/degeneracy.h>
 
 #include <Eigen/Geometry>
@@ -72,20 +73,24 @@ struct Analysis
   ScanConstraints constraints;
 };
 
+Matrix6 noiseOf(const MatchedScan& scan, const Pose& pose, const MeasuredScan& measured_scan)
+{
+  Matrix6 noise = Matrix6::Zero();
+  for (std::size_t chunk = 0; chunk < measured_scan.chunks(); ++chunk)
+    noise += normalNoiseInformation(pose.R, scan.body, scan.matches, measured_scan, chunk);
+  return noise;
+}
+
 Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
 {
   ResidualModel model;
   model.gate = 1e9;
   const Pose pose;
   Analysis a;
-  a.sums = accumulate(pose, scan.body, scan.matches, model, 0, scan.body.size());
-  RowsByPlane rows;
-  rows.clear(scan.body.size());
-  const Matrix6 noise =
-      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, scan.body.size(), rows);
-  a.constraints = informationByDirection(a.sums.HtRinvH, noise);
-  rows.sort();
-  withoutStrongestPlanes(rows, a.constraints);
+  const MeasuredScan measured_scan = measured(pose, scan.body, scan.matches, model);
+  a.sums = measured_scan.sums();
+  a.constraints = informationByDirection(a.sums.HtRinvH, noiseOf(scan, pose, measured_scan));
+  WithoutStrongestPlanes()(measured_scan, scan.matches, a.constraints);
   leaveOutUnconstrained(min_signal_to_noise, a.constraints);
   return a;
 }
@@ -133,12 +138,7 @@ TEST(Degeneracy, NoiseIsTheSumOfTheRowsCovariances)
     const double weight = 1.0 / planeMeasurement(pose, scan.body, i, match, model).variance;
     expected += weight * by_normal * covariance * by_normal.transpose();
   }
-  const std::size_t half = scan.body.size() / 2;
-  RowsByPlane rows;
-  rows.clear(scan.body.size());
-  const Matrix6 parts =
-      normalNoiseInformation(pose, scan.body, scan.matches, model, 0, half, rows) +
-      normalNoiseInformation(pose, scan.body, scan.matches, model, half, scan.body.size(), rows);
+  const Matrix6 parts = noiseOf(scan, pose, measured(pose, scan.body, scan.matches, model));
   EXPECT_LT((parts - expected).norm(), 1e-6 * expected.norm());
 }
 

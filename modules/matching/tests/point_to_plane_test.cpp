@@ -136,75 +136,6 @@ TEST(IsConsistent, RefusesAResidualThatIsNoNumber)
   EXPECT_FALSE(isConsistent(m, wideOpen()));
 }
 
-/** Eq. 20's sums one measurement at a time. */
-InformationSums sumOneByOne(const Matching& m, const ResidualModel& model)
-{
-  InformationSums sums;
-  for (std::size_t i = 0; i < m.body.size(); ++i)
-  {
-    if (!m.matches[i].valid()) continue;
-    const PlaneMeasurement one = planeMeasurement(m.x.pose(), m.body, i, m.matches[i], model);
-    if (!isConsistent(one, model)) continue;
-    const double weight = 1.0 / one.variance;
-    sums.HtRinvH += weight * one.h * one.h.transpose();
-    sums.HtRinvz += weight * one.z * one.h;
-    sums.weighted_squares += weight * one.z * one.z;
-    sums.squares += one.z * one.z;
-    ++sums.count;
-  }
-  return sums;
-}
-
-void expectEqual(const InformationSums& a, const InformationSums& b)
-{
-  EXPECT_EQ(a.count, b.count);
-  EXPECT_LT((a.HtRinvH - b.HtRinvH).norm(), 1e-9 * b.HtRinvH.norm());
-  EXPECT_LT((a.HtRinvz - b.HtRinvz).norm(), 1e-9 * b.HtRinvz.norm());
-  EXPECT_NEAR(a.weighted_squares, b.weighted_squares, 1e-9 * b.weighted_squares);
-  EXPECT_NEAR(a.squares, b.squares, 1e-9 * b.squares);
-}
-
-TEST(Accumulate, EqualsTheSumOfTheMeasurements)
-{
-  const Matching m = randomMatching(5, 1000);
-  for (const double gate : {1.0, 3.0, 1e6})
-  {
-    ResidualModel model;
-    model.gate = gate;
-    const InformationSums sums = accumulate(m.x.pose(), m.body, m.matches, model, 0, 1000);
-    expectEqual(sums, sumOneByOne(m, model));
-    EXPECT_EQ(sums.HtRinvH, sums.HtRinvH.transpose());
-    if (gate == 1e6)
-    {
-      EXPECT_EQ(sums.count, 1000U - 143U) << "each seventh has no plane";
-    }
-  }
-}
-
-TEST(Accumulate, LeavesOutWhatIsNoNumber)
-{
-  Matching m = randomMatching(9, 100);
-  m.body.x[3] = m.matches[17].nx = m.matches[50].d = std::nanf("");
-  m.body.ux[80] = std::numeric_limits<float>::infinity();
-  const InformationSums sums = accumulate(m.x.pose(), m.body, m.matches, wideOpen(), 0, 100);
-  EXPECT_TRUE(sums.HtRinvH.allFinite());
-  EXPECT_TRUE(sums.HtRinvz.allFinite());
-  expectEqual(sums, sumOneByOne(m, wideOpen()));
-}
-
-TEST(Accumulate, AddsUpOverChunks)
-{
-  const Matching m = randomMatching(6, 1000);
-  InformationSums sums;
-  for (std::size_t first = 0; first < 1000; first += 300)
-    addSums(
-        sums, accumulate(
-                  m.x.pose(), m.body, m.matches, wideOpen(), first,
-                  std::min<std::size_t>(first + 300, 1000)));
-  expectEqual(sums, sumOneByOne(m, wideOpen()));
-  EXPECT_EQ(accumulate(m.x.pose(), m.body, m.matches, wideOpen(), 10, 10).count, 0U);
-}
-
 TEST(Stack, HoldsTheMeasurementsThatAreSummed)
 {
   const Matching m = randomMatching(7, 500, 0.05);
@@ -221,7 +152,7 @@ TEST(Stack, HoldsTheMeasurementsThatAreSummed)
     sums.squares += stacked.z[i] * stacked.z[i];
     ++sums.count;
   }
-  expectEqual(sums, accumulate(m.x.pose(), m.body, m.matches, model, 0, 500));
+  expectEqual(sums, measured(m, model).sums());
   EXPECT_LT(sums.count, 428U) << "the gate closes for some";
 }
 }  // namespace

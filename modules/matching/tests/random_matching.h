@@ -5,8 +5,13 @@
 #pragma once
 
 #include "random_numbers.h"
+#include <fastlio/matching/measured_scan.h>
 #include <fastlio/matching/point_to_plane.h>
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace fastlio
@@ -60,6 +65,35 @@ inline Matching randomMatching(unsigned seed, std::size_t n, double residual_sig
     if (i % 7 == 3) m.matches.back().variance = -1.0F;  // no plane there
   }
   return m;
+}
+
+/** To within the order of summation. */
+inline void expectEqual(const InformationSums& a, const InformationSums& b)
+{
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_LT((a.HtRinvH - b.HtRinvH).norm(), 1e-9 * b.HtRinvH.norm());
+  EXPECT_LT((a.HtRinvz - b.HtRinvz).norm(), 1e-9 * b.HtRinvz.norm());
+  EXPECT_NEAR(a.weighted_squares, b.weighted_squares, 1e-9 * b.weighted_squares);
+  EXPECT_NEAR(a.squares, b.squares, 1e-9 * b.squares);
+}
+
+/** All points of a scan, measured chunk after chunk. */
+inline MeasuredScan measured(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model)
+{
+  MeasuredScan scan;
+  scan.clear(body.size());
+  for (std::size_t chunk = 0; chunk < scan.chunks(); ++chunk)
+    scan.measure(
+        T_world_scan, body, matches, model, chunk, chunk * Workers::kChunk,
+        std::min(body.size(), (chunk + 1) * Workers::kChunk));
+  return scan;
+}
+
+inline MeasuredScan measured(const Matching& m, const ResidualModel& model)
+{
+  return measured(m.x.pose(), m.body, m.matches, model);
 }
 
 }  // namespace fastlio

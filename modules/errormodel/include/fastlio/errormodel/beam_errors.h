@@ -10,7 +10,7 @@
 #include <fastlio/errormodel/side_errors.h>
 #include <fastlio/lidar/beam_corrections.h>
 #include <fastlio/matching/match_result.h>
-#include <fastlio/matching/plane_groups.h>
+#include <fastlio/matching/measured_scan.h>
 
 #include <array>
 #include <cstddef>
@@ -25,12 +25,10 @@ class BeamErrors
 {
  public:
   /** A scan was matched. \param R_world_scan attitude of the scan pose
-   * \param points its measurements, as those of \a scan.surfaces
-   * \param matches their planes \param information sum of w h h^T over the points */
+   * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
-      const Mat3& R_world_scan, const DeskewedScan& scan,
-      const std::vector<PointMeasurement>& points, const std::vector<PlaneMatch>& matches,
-      const Matrix6& information);
+      const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
+      const std::vector<PlaneMatch>& matches);
   /** There is no map any more. */
   void forgetMap() { incidence_.forgetMap(); }
 
@@ -55,6 +53,14 @@ class BeamErrors
     void add(const PointMeasurement& point, double derivative, const Vector6& pull);
   };
   using Offsets = std::array<Offset, kBeamBins>;
+  struct SensorFrame;
+  struct BeamLanes;
+
+  [[nodiscard]] static BeamLanes beamsOf(
+      const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame);
+  void add(
+      const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
+      const Vector6& by_range);
 
   /** Of the pulls of the last scan, as outer products. */
   [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);

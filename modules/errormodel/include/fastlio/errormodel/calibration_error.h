@@ -22,6 +22,7 @@
 #include <fastlio/filter/propagation.h>
 #include <fastlio/matching/plane_groups.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -80,7 +81,8 @@ class CalibrationErrorModel
   [[nodiscard]] PoseByCalibration ofMap(const std::vector<PlaneGroup>& groups);
 
   Sensitivity S_ = Sensitivity::Zero();
-  std::vector<Insertion> insertions_;  // ascending by scan
+  std::vector<Insertion> insertions_;    // ascending by scan
+  std::vector<std::size_t> created_by_;  // of the groups of a scan; storage
 };
 
 }  // namespace fastlio

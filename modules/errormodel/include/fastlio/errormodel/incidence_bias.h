@@ -6,7 +6,7 @@
 #pragma once
 
 #include <fastlio/errormodel/calibration_sums.h>
-#include <fastlio/matching/plane_groups.h>
+#include <fastlio/matching/measured_scan.h>
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@
  */
 #pragma once
 
-#include <fastlio/matching/plane_groups.h>
+#include <fastlio/matching/measured_scan.h>
 
 #include <array>
 #include <cstddef>

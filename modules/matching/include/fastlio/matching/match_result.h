@@ -9,6 +9,7 @@
 #include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/matching/degeneracy.h>
+#include <fastlio/matching/measured_scan.h>
 #include <fastlio/matching/point_to_plane.h>
 
 #include <vector>
@@ -42,6 +43,8 @@ struct MatchResult
   double association_ms = 0.0;  //!< time spent on searching the map [ms]
   /** Of the last association, by surface point; storage of the matcher. */
   const std::vector<PlaneMatch>* matches = nullptr;
+  /** At the last iterate; storage of the matcher. */
+  const MeasuredScan* measured = nullptr;
 };
 
 }  // namespace fastlio

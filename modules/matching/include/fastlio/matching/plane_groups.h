@@ -6,9 +6,8 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
-#include <fastlio/lidar/deskew.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/matching/point_to_plane.h>
+#include <fastlio/matching/measured_scan.h>
 #include <fastlio/parallel/workers.h>
 
 #include <cstdint>
@@ -25,15 +24,6 @@ struct PlaneGroup
   double weight = 0.0;           //!< sum of w
   std::uint32_t created_insertion = 0;  //!< insertion that created the plane
   bool seen_before = false;             //!< the scan before had points on it, too
-};
-
-/** A point's measurement; weight 0: it is not consistent. */
-struct PointMeasurement
-{
-  Vector6 weighted_h;   //!< w h
-  double weight = 0.0;  //!< w
-  double shared = 0.0;  //!< w s
-  double z = 0.0;       //!< residual [m]
 };
 
 /** A scan's measurements by plane. */
@@ -53,41 +43,18 @@ class PlaneGrouping
   explicit PlaneGrouping(
       std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
 
-  /** The consistent matches of a scan at a pose, by plane; valid until the next call. */
+  /** The measurements of a scan by plane; valid until the next call. */
   const GroupedMeasurements& group(
-      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-      const ResidualModel& model);
-
-  /** The measurements of the last call, by point. */
-  [[nodiscard]] const std::vector<PointMeasurement>& points() const { return points_; }
+      const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
 
  private:
-  /** Plane number to group; valid where the epoch is the current one. */
-  struct Entry
-  {
-    std::uint32_t epoch = 0, group = 0;
-  };
-
-  /** Sums over a chunk of points. */
-  struct Sums
-  {
-    Matrix6 information = Matrix6::Zero();
-    Matrix6 shared_noise = Matrix6::Zero();
-  };
-
-  [[nodiscard]] Sums measure(
-      const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-      const ResidualModel& model, std::size_t first, std::size_t last);
-  void fetchEntry(const PlaneMatch& match) const;
-  PlaneGroup& groupOf(const PlaneMatch& match);
+  void addPoints(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
   void finishGroups();
 
   std::shared_ptr<const Workers> workers_;
   GroupedMeasurements result_;
-  std::vector<PointMeasurement> points_;
-  std::vector<Sums> chunk_sums_;
-  std::vector<Entry> table_;
-  std::uint32_t epoch_ = 1;
+  std::vector<Matrix6> chunk_noise_;
+  PlaneNumbers planes_, planes_before_;  // of the scan and of the one before
 };
 
 }  // namespace fastlio

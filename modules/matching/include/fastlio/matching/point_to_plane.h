@@ -62,11 +62,6 @@ struct ResidualModel
 /** The same for a measurement. */
 [[nodiscard]] bool isConsistent(const PlaneMeasurement& m, const ResidualModel& model);
 
-/** Sums over the consistent matches among the points [first, last), in the points' order. */
-[[nodiscard]] InformationSums accumulate(
-    const Pose& T_world_imu, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
-    const ResidualModel& model, std::size_t first, std::size_t last);
-
 /** Adds the sums \a b to \a a. */
 void addSums(InformationSums& a, const InformationSums& b);
 

@@ -11,6 +11,7 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/matching/degeneracy.h>
 #include <fastlio/matching/match_result.h>
+#include <fastlio/matching/measured_scan.h>
 #include <fastlio/matching/point_to_plane.h>
 #include <fastlio/parallel/workers.h>
 
@@ -48,7 +49,7 @@ class ScanMatcher
 
   /** Iterates matching and update from a prediction (eq. 12-20). The scan does not correct it when
    * fewer than kMinEffectivePoints match.
-   * \return its list of matches is valid until the next call */
+   * \return its matches and measurements are valid until the next call */
   [[nodiscard]] MatchResult match(
       const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
       const MatchOptions& options);
@@ -65,17 +66,18 @@ class ScanMatcher
 
   [[nodiscard]] MeasurementEvaluation evaluate(
       const NavState& iterate, int iteration, const Call& call);
-  void associate(const Pose& T_world_scan, const Call& call);
-  void findConstraints(const Pose& T_world_scan, const InformationSums& sums, const Call& call);
+  void associate(const Pose& T_world_scan, int iteration, const Call& call);
+  void findConstraints(const Mat3& R_world_scan, const InformationSums& sums, const Call& call);
 
   std::shared_ptr<const Workers> workers_;
   // Reused between scans.
-  WorldPoints world_, world_edges_;
+  WorldPoints world_, world_before_, world_edges_;
+  Pose associated_at_;
   std::vector<PlaneMatch> matches_;
   std::vector<LineMatch> edge_matches_;
-  std::vector<InformationSums> chunk_sums_;
+  MeasuredScan measured_;
   std::vector<Matrix6> chunk_noise_;
-  RowsByPlane rows_;
+  WithoutStrongestPlanes without_strongest_planes_;
 };
 
 }  // namespace fastlio

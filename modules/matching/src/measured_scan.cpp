@@ -1,0 +1,86 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "information_lanes.h"
+#include "measurement_lanes.h"
+#include <fastlio/matching/measured_scan.h>
+
+namespace fastlio
+{
+void MeasuredScan::clear(std::size_t points)
+{
+  chunks_.assign(Workers::chunks(points), Chunk{});
+  blocks_.resize(chunks_.size() * kBlocksPerChunk);
+}
+
+void MeasuredScan::measure(
+    const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
+    const ResidualModel& model, std::size_t chunk, std::size_t first, std::size_t last)
+{
+  std::size_t next = chunk * kBlocksPerChunk;
+  InformationLanes sums;
+  forMatches<kLanes>(
+      body, matches, first, last,
+      [&](const MatchLanes<kLanes>& lanes, std::size_t filled)
+      {
+        MeasurementBlock& block = blocks_[next++];
+        fastlio::measure(T_world_scan, lanes, filled, model, block);
+        sums.add(block);
+      });
+  chunks_[chunk] = {next - chunk * kBlocksPerChunk, sums.sums()};
+}
+
+InformationSums MeasuredScan::sums() const
+{
+  InformationSums all;
+  for (const Chunk& chunk : chunks_)
+    addSums(all, chunk.sums);
+  return all;
+}
+
+void PlaneNumbers::assign(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
+{
+  std::size_t size = 64;
+  while (3 * size < 4 * matches.size())
+    size *= 2;
+  slots_.assign(size, Slot{});
+  numbers_.resize(scan.blockNumbers() * kLanes);
+  count_ = 0;
+  std::uint32_t plane = 0, of_plane = kFree;
+  scan.forEachBlock(
+      [&](const MeasurementBlock& block, std::size_t number)
+      {
+        for (std::size_t l = 0; l < kLanes; ++l)
+        {
+          std::uint32_t& mine = numbers_[number * kLanes + l];
+          mine = 0;
+          if (block.weight[l] == 0.0) continue;
+          const std::uint32_t found = matches[block.index[l]].plane;
+          if (found != plane || of_plane == kFree)  // neighbours in a scan often share one
+          {
+            plane = found;
+            Slot& slot = slots_[slotOf(plane)];
+            if (slot.number == kFree) slot = {plane, count_++};
+            of_plane = slot.number;
+          }
+          mine = of_plane;
+        }
+      });
+}
+
+std::size_t PlaneNumbers::slotOf(std::uint32_t plane) const
+{
+  constexpr std::uint32_t kGoldenRatio = 0x9E3779B9U;  // spreads numbers that lie close together
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = (plane * kGoldenRatio >> 7U) & mask;
+  while (slots_[slot].number != kFree && slots_[slot].plane != plane)
+    slot = (slot + 1) & mask;
+  return slot;
+}
+
+bool PlaneNumbers::contains(std::uint32_t plane) const
+{
+  return !slots_.empty() && slots_[slotOf(plane)].number != kFree;
+}
+
+}  // namespace fastlio
