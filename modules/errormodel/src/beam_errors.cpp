@@ -11,13 +11,14 @@ namespace fastlio
 namespace
 {
 constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it has no direction
-// From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
-constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
-constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
-// The variance of an offset over that of independent residuals: they share the errors of the map.
-constexpr double kSharedNoise = 4.0;
-// What all scans of a run tell of a single number, a fourth of them tell as well.
+// From then on an offset is known: to 2 mm, and to 2 mm at 10 m.
+constexpr double kLeastRangeInformation = 2.5e5;      // [1/m^2]
+constexpr double kLeastElevationInformation = 2.5e7;  // [1/rad^2]
+// Scans share the errors of the map: a fourth of them tells as much of an offset as all do, and
+// their residuals may pass for independent.
 constexpr std::size_t kScansPerLesson = 4;
+// The variance of the bias over that of independent residuals: its planes share more.
+constexpr double kSharedNoiseOfBias = 4.0;
 }  // namespace
 
 /** The axes of the sensor. */
@@ -77,12 +78,12 @@ void BeamErrors::add(
     const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
     const std::vector<PlaneMatch>& matches)
 {
+  if (scans_++ % kScansPerLesson != 0) return;
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_scan.setZero();
   sides_.beginScan();
-  const bool learns = scans_++ % kScansPerLesson == 0;
-  const bool looks_at_sides = learns || sides_.rangeOffset() > 0.0;
+  R_world_lesson_ = R_world_scan;
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
       R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
@@ -98,11 +99,10 @@ void BeamErrors::add(
               beams.forward[l], beams.left[l], beams.along[l], beams.turned_up[l]};
           const Vector6 by_range = beam.along * point.weighted_h;
           add(beams, l, point, by_range);
-          if (looks_at_sides) sides_.add(beam, point, by_range);
-          if (learns) incidence_.add(matches[block.index[l]].plane, beam.along, point);
+          sides_.add(beam, point, by_range);
+          incidence_.add(matches[block.index[l]].plane, beam.along, point);
         }
       });
-  if (!learns) return;
   incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
 }
@@ -128,7 +128,7 @@ double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
   {
     if (offset.information < least_information) continue;
     const double square = std::pow(offset.weighted / offset.information, 2);
-    squares += std::max(0.0, square - kSharedNoise / offset.information);
+    squares += std::max(0.0, square - 1.0 / offset.information);
     known += 1.0;
   }
   return known > 0.0 ? squares / known : 0.0;
@@ -164,13 +164,10 @@ void BeamErrors::addTo(CalibrationFindings& findings) const
     sums.elevation = beamElevation(bin);
     sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
     sums.weighted << range.weighted, elevation.weighted;
-    // They share the errors of the map: points hold less information than their number suggests.
-    sums.information /= kSharedNoise;
-    sums.weighted /= kSharedNoise;
   }
   findings.incidence = incidence_.sums();
-  findings.incidence.information /= kSharedNoise;
-  findings.incidence.weighted /= kSharedNoise;
+  findings.incidence.information /= kSharedNoiseOfBias;
+  findings.incidence.weighted /= kSharedNoiseOfBias;
   findings.upright_weight = upright_weight_;
   findings.upright_range = upright_range_;
 }
@@ -183,10 +180,14 @@ Matrix6 BeamErrors::sumOfSquares(const Offsets& offsets)
   return sum;
 }
 
-Matrix6 BeamErrors::covariance() const
+Matrix6 BeamErrors::covariance(const Mat3& R_world_scan) const
 {
-  return rangeVariance() * sumOfSquares(range_) + elevationVariance() * sumOfSquares(elevation_) +
-         sides_.covariance();
+  Matrix6 covariance = rangeVariance() * sumOfSquares(range_) +
+                       elevationVariance() * sumOfSquares(elevation_) + sides_.covariance();
+  const Mat3 turn = R_world_scan * R_world_lesson_.transpose();
+  covariance.bottomRows<3>() = turn * covariance.bottomRows<3>().eval();
+  covariance.rightCols<3>() = covariance.rightCols<3>().eval() * turn.transpose();
+  return covariance;
 }
 
 }  // namespace fastlio

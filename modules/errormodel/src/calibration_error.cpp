@@ -50,10 +50,10 @@ PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& gr
 {
   findInsertions(groups, insertions_, created_by_);
   weighInsertions(groups, created_by_, insertions_, weightOf);
-  PoseByCalibration mean = PoseByCalibration::Zero();
+  Twist mean = Twist::Zero();
   for (const Insertion& insertion : insertions_)
-    if (insertion.weight > 0.0) mean += insertion.weight * insertion.twist;
-  return mean;
+    if (insertion.weight > 0.0) mean += static_cast<float>(insertion.weight) * insertion.twist;
+  return mean.cast<double>();
 }
 
 UpdateByCalibration CalibrationErrorModel::update(
@@ -76,7 +76,8 @@ void CalibrationErrorModel::recordInsertion(
     std::uint32_t scan, const Pose& T_world_scan, const ScanPoseJacobian& by_state)
 {
   if (insertions_.size() >= kMaxInsertions) keepEverySecond(insertions_);
-  insertions_.push_back({scan, 0.0, product(twistJacobian(T_world_scan), ofScan(by_state))});
+  const PoseByCalibration twist = product(twistJacobian(T_world_scan), ofScan(by_state));
+  insertions_.push_back({scan, 0.0, twist.cast<float>()});
 }
 
 StateVector CalibrationErrorModel::withoutExtrinsicError(const Vector6& error) const

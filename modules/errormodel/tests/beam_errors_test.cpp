@@ -89,7 +89,7 @@ TEST(BeamErrors, AreNoneInNoise)
   RandomRoom room;
   BeamErrors beams;
   EXPECT_EQ(beams.rangeOffset(), 0.0);
-  EXPECT_EQ(beams.covariance().norm(), 0.0);
+  EXPECT_EQ(beams.covariance(Mat3::Identity()).norm(), 0.0);
   for (int i = 0; i < 200; ++i)
     room.scan(beams, 0.02, [](int) { return LaserOffset{}; });
   EXPECT_LT(beams.rangeOffset(), 5e-4);
@@ -121,8 +121,23 @@ TEST(BeamErrors, DoNotAverageOutWithTheNumberOfPoints)
     room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
   constexpr double kPoints = 16 * 60;
   const double independent = kPoints * std::pow(kWeight * 0.01, 2);
-  const double trace = beams.covariance().diagonal().tail<3>().sum();
+  const double trace = beams.covariance(Mat3::Identity()).diagonal().tail<3>().sum();
   EXPECT_GT(trace, 3.0 * independent);
+}
+
+TEST(BeamErrors, TurnWithTheSensor)
+{
+  // Errors along the beams: a position that is turned by R has the covariance R C R^T.
+  RandomRoom room;
+  BeamErrors beams;
+  for (int i = 0; i < 200; ++i)
+    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+  const Mat3 R = expSO3({0.2, -0.4, 1.0});
+  const Matrix6 before = beams.covariance(Mat3::Identity()), after = beams.covariance(R);
+  EXPECT_TRUE((after.topLeftCorner<3, 3>().isApprox(before.topLeftCorner<3, 3>())));
+  EXPECT_TRUE((after.bottomRightCorner<3, 3>().isApprox(
+      R * before.bottomRightCorner<3, 3>() * R.transpose())));
+  EXPECT_TRUE(after.isApprox(after.transpose()));
 }
 }  // namespace
 }  // namespace fastlio

@@ -35,7 +35,8 @@ LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers
       radius_(options.map.radius),
       surfaces_(makeSurfaceMap(options, workers)),
       edges_(edgeMapOptions(options)),
-      groups_(std::move(workers))
+      groups_(workers),
+      workers_(std::move(workers))
 {
 }
 
@@ -45,7 +46,8 @@ LocalMap::LocalMap(
       radius_(options.map.radius),
       surfaces_(makeSurfaceMap(options, workers, saved)),
       edges_(edgeMapOptions(options)),
-      groups_(std::move(workers)),
+      groups_(workers),
+      workers_(std::move(workers)),
       insertions_(surfaces_->insertionCount()),
       given_(true)
 {
@@ -81,10 +83,16 @@ UpdateByCalibration LocalMap::considerUpdate(
     const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
     BeamErrors& beams)
 {
-  const GroupedMeasurements& measurements = groups_.group(*match.measured, *match.matches);
-  beams.add(update.T_world_scan.R, scan, *match.measured, *match.matches);
-  error_.update(update, measurements, beams.covariance());
-  return calibration_.update(update, measurements);
+  const MeasuredScan& measured = *match.measured;
+  const GroupedMeasurements* grouped = nullptr;
+  workers_->alongside(
+      [&] { beams.add(update.T_world_scan.R, scan, measured, *match.matches); },
+      [&] { grouped = &groups_.group(measured, *match.matches); });
+  UpdateByCalibration by_calibration;
+  workers_->alongside(
+      [&] { by_calibration = calibration_.update(update, *grouped); },
+      [&] { error_.update(update, *grouped, beams.covariance(update.T_world_scan.R)); });
+  return by_calibration;
 }
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const

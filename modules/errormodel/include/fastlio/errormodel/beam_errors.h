@@ -24,7 +24,8 @@ namespace fastlio
 class BeamErrors
 {
  public:
-  /** A scan was matched. \param R_world_scan attitude of the scan pose
+  /** A scan was matched. Learns from every fourth one. \param R_world_scan attitude of the scan
+   * pose
    * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
       const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
@@ -32,9 +33,11 @@ class BeamErrors
   /** There is no map any more. */
   void forgetMap() { incidence_.forgetMap(); }
 
-  /** Covariance of sum w h b over the last scan, b by offsets of range and elevation, of beams and
-   * of sides. */
-  [[nodiscard]] Matrix6 covariance() const;
+  /** Covariance of sum w h b over a scan, b by offsets of range and elevation, of beams and of
+   * sides. The points are those of the last scan that was learnt from, less than half a second
+   * before: what its beams meet stays nearly the same, seen from the sensor.
+   * \param R_world_scan attitude of the scan pose */
+  [[nodiscard]] Matrix6 covariance(const Mat3& R_world_scan) const;
   /** Root mean square of the offsets; 0 while none is known. */
   [[nodiscard]] double rangeOffset() const;                                      //!< [m]
   [[nodiscard]] double elevationOffset() const;                                  //!< [rad]
@@ -47,7 +50,7 @@ class BeamErrors
   struct Offset
   {
     double information = 0.0, weighted = 0.0;  // of all scans
-    Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last scan
+    Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last lesson
 
     /** \param pull the derivative times the point's w h */
     void add(const PointMeasurement& point, double derivative, const Vector6& pull);
@@ -73,6 +76,7 @@ class BeamErrors
   IncidenceBias incidence_;
   SideErrors sides_;
   std::size_t scans_ = 0;
+  Mat3 R_world_lesson_ = Mat3::Identity();  // attitude of the scan that was learnt from last
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 

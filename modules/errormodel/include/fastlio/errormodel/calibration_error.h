@@ -69,11 +69,13 @@ class CalibrationErrorModel
       const ErrorTransition& transition, const CalibrationErrorMatrix& moment) const;
 
  private:
+  // Single precision: a sensitivity, of which a few digits matter, of hundreds of insertions.
+  using Twist = Eigen::Matrix<float, 6, kCalibrationErrorDim, Eigen::DontAlign>;
   struct Insertion
   {
     std::uint32_t scan = 0;
     double weight = 0.0;  // of a scan on its planes
-    PoseByCalibration twist = PoseByCalibration::Zero();
+    Twist twist = Twist::Zero();
   };
   using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
 

@@ -102,6 +102,7 @@ class LocalMap
   MapErrorModel error_;
   CalibrationErrorModel calibration_;
   PlaneGrouping groups_;
+  std::shared_ptr<const Workers> workers_;
   std::uint32_t insertions_ = 0;
   double usual_inlier_ratio_ = 0.0;
   int ratios_ = 0;  // that it is the mean of
