@@ -73,7 +73,8 @@ void CalibrationEvidence::add(
   const Vec6 by_error = innovation * estimate_.mean;
   watch_.add(
       (squares + by_error.dot(2.0 * Wy + W * by_error)) /
-      (6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum()));
+          (6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum()),
+      normalizedInnovation(update));
   sums_.information += information_of_error;
   sums_.weighted -= innovation.transpose() * Wy;
   sums_.squares += squares;

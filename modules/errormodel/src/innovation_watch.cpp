@@ -22,15 +22,16 @@ constexpr double kStep = 45.0, kLeastOfEach = kStep / 3.0;
 constexpr int kScansAfterDegeneracy = 10;
 }  // namespace
 
-void InnovationWatch::add(double square)
+void InnovationWatch::add(double square, double residuals)
 {
   ++scans_;
   recent_ += (square - recent_) / std::min(scans_, kRecentScans);
+  residuals_ += (residuals - residuals_) / std::min(scans_, kRecentScans);
   if (scans_ >= kRecentScans) worst_ = std::max(worst_, recent_ / kUnevenness);
   if (pause_ > 0)
     --pause_;
   else
-    last_ = {square, last_[0], last_[1]};
+    last_ = {square / std::max(residuals_, 1.0), last_[0], last_[1]};
 }
 
 void InnovationWatch::interrupt()

@@ -12,7 +12,7 @@ namespace
 void addMany(InnovationWatch& watch, double square, int scans)
 {
   for (int i = 0; i < scans; ++i)
-    watch.add(square);
+    watch.add(square, 1.0);
 }
 
 TEST(InnovationWatch, InnovationsAsExpectedWidenNothing)
@@ -56,7 +56,7 @@ TEST(InnovationWatch, OneWildScanIsNoStep)
 {
   InnovationWatch watch;
   addMany(watch, 1.0, 50);
-  watch.add(1000.0);
+  watch.add(1000.0, 1.0);
   EXPECT_FALSE(watch.takeStep());
   addMany(watch, 1.0, 3);
   EXPECT_FALSE(watch.takeStep());
@@ -78,7 +78,7 @@ TEST(InnovationWatch, WhatFollowsADegenerateDirectionIsNoStep)
 TEST(InnovationWatch, TheFirstScanInAMapIsNoStep)
 {
   InnovationWatch watch;
-  watch.add(1000.0);
+  watch.add(1000.0, 1.0);
   EXPECT_FALSE(watch.takeStep());
 }
 
@@ -86,17 +86,34 @@ TEST(InnovationWatch, AStepIsReportedOnceForTheScansThatShowIt)
 {
   InnovationWatch watch;
   addMany(watch, 1.0, 50);
-  watch.add(30.0);
-  watch.add(110.0);
+  watch.add(30.0, 1.0);
+  watch.add(110.0, 1.0);
   EXPECT_FALSE(watch.takeStep());
-  watch.add(150.0);
+  watch.add(150.0, 1.0);
   EXPECT_TRUE(watch.takeStep());
   EXPECT_FALSE(watch.takeStep());
-  watch.add(60.0);
-  watch.add(60.0);
+  watch.add(60.0, 1.0);
+  watch.add(60.0, 1.0);
   EXPECT_FALSE(watch.takeStep());
-  watch.add(60.0);
+  watch.add(60.0, 1.0);
   EXPECT_TRUE(watch.takeStep()) << "it goes on";
+}
+
+TEST(InnovationWatch, ScansThatNeverFitTheMapShowNoStep)
+{
+  InnovationWatch among_trees, indoors;
+  for (int i = 0; i < 50; ++i)
+  {
+    among_trees.add(20.0, 3.0);
+    indoors.add(1.0, 0.8);
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    among_trees.add(100.0, 3.0);
+    indoors.add(100.0, 3.0);  // a clock that jumps makes scans fit less, too
+  }
+  EXPECT_FALSE(among_trees.takeStep());
+  EXPECT_TRUE(indoors.takeStep());
 }
 }  // namespace
 }  // namespace fastlio

@@ -13,8 +13,10 @@ class InnovationWatch
 {
  public:
   /** Takes the next scan. \param square mean over the elements of its innovation; about 1 when the
-   * noise is what the filter takes it for */
-  void add(double square);
+   * noise is what the filter takes it for \param residuals mean z^2/r of its points at the end.
+   * Where scans do not fit the map, among trees, they are less certain of their poses, and
+   * contradict the inertial data without a step of theirs */
+  void add(double square, double residuals);
 
   /** The scan had a degenerate direction. When the next ones show that direction again, they
    * contradict a prediction that drifted along it: that is no step of the inertial sensor. */
@@ -31,6 +33,7 @@ class InnovationWatch
  private:
   int scans_ = 0;
   double recent_ = 0.0, worst_ = 1.0;
+  double residuals_ = 0.0;        // of the recent scans
   std::array<double, 3> last_{};  // the latest first
   int pause_ = 0;                 // so many scans to come show no step
 };
