@@ -127,6 +127,7 @@ void WithoutStrongestPlanes::operator()(
 
 double WithoutStrongestPlanes::strongest(const MeasuredScan& scan, const Vector6& direction)
 {
+  makeRoom(of_plane_, planes_.count());
   of_plane_.assign(planes_.count(), 0.0);
   scan.forEachBlock(
       [&](const MeasurementBlock& block, std::size_t number)

@@ -9,8 +9,11 @@ namespace fastlio
 {
 void MeasuredScan::clear(std::size_t points)
 {
-  chunks_.assign(Workers::chunks(points), Chunk{});
-  blocks_.resize(chunks_.size() * kBlocksPerChunk);
+  const std::size_t chunks = Workers::chunks(points);
+  makeRoom(chunks_, chunks);
+  makeRoom(blocks_, chunks * kBlocksPerChunk);
+  chunks_.assign(chunks, Chunk{});
+  blocks_.resize(chunks * kBlocksPerChunk);
 }
 
 void MeasuredScan::measure(
@@ -43,6 +46,8 @@ void PlaneNumbers::assign(const MeasuredScan& scan, const std::vector<PlaneMatch
   std::size_t size = 64;
   while (3 * size < 4 * matches.size())
     size *= 2;
+  makeRoom(slots_, size);
+  makeRoom(numbers_, scan.blockNumbers() * kLanes);
   slots_.assign(size, Slot{});
   numbers_.resize(scan.blockNumbers() * kLanes);
   count_ = 0;

@@ -77,6 +77,7 @@ const GroupedMeasurements& PlaneGrouping::group(
 {
   std::swap(planes_, planes_before_);
   planes_.assign(scan, matches);
+  makeRoom(chunk_noise_, scan.chunks());
   chunk_noise_.resize(scan.chunks());
   workers_->forEach(
       scan.chunks(),

@@ -97,6 +97,7 @@ void ScanMatcher::findConstraints(
   const double min_signal_to_noise = call.options.measurement.min_signal_to_noise;
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
   const BodyPoints& points = call.scan.surfaces;
+  makeRoom(chunk_noise_, measured_.chunks());
   chunk_noise_.resize(measured_.chunks());
   workers_->forEachChunk(
       points.size(),

@@ -20,6 +20,14 @@ namespace fastlio
 /** As many double-precision numbers as the widest registers of the processor family hold. */
 inline constexpr std::size_t kLanes = 8;
 
+/** Reserves for twice as many elements where there is no room for \a n: scans differ in size, and a
+ * scan that is a little larger shall not allocate. */
+template <typename Element>
+void makeRoom(std::vector<Element>& elements, std::size_t n)
+{
+  if (n > elements.capacity()) elements.reserve(2 * n);
+}
+
 /** The measurement of one point. */
 struct PointMeasurement
 {
