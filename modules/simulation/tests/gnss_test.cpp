@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "recording_files.h"
+#include "folder_listing.h"
 #include "short_simulation.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/rawlog/rawlog_source.h>
@@ -166,7 +166,7 @@ Vec3 worldOf(const CObservationGPS& observation, const GnssSettings& settings)
 
 TEST(Gnss, FixesSurviveTheRecordingInTheOrderOfStamps)
 {
-  const testing::TemporaryDirectory directory;
+  const testing::TemporaryFolder directory;
   const SimulationSettings settings = officeWithReceiver();
   const Simulation simulation(settings);
   RawlogSource source({writeRecording(simulation, directory.path()).rawlog});
@@ -259,7 +259,7 @@ TEST(Gnss, PlacesOnTheEarthLieAsInTheWorld)
 
 TEST(Gnss, SameSettingsGiveTheSameBytesAndTheScenarioTellsTheTruth)
 {
-  const testing::TemporaryDirectory a, b;
+  const testing::TemporaryFolder a, b;
   SimulationSettings settings = officeWithReceiver();
   settings.gnss.multipath = 0.9;
   const Simulation simulation(settings);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "file_size_limit.h"
-#include "recording_files.h"
+#include "folder_listing.h"
 #include "short_simulation.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/rawlog/rawlog_source.h>
@@ -30,7 +30,7 @@ namespace
 using mrpt::obs::CObservationVelodyneScan;
 using testing::contentOf;
 using testing::filesIn;
-using testing::TemporaryDirectory;
+using testing::TemporaryFolder;
 
 TEST(VelodynePackets, OurDecoderFindsEveryPointWithItsTime)
 {
@@ -154,7 +154,7 @@ TEST(Observations, ImuSamplesSurviveTheRoundTrip)
 
 TEST(Recording, HoldsEverythingInTheOrderOfStamps)
 {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const Simulation simulation(testing::shortSettings("office", 3.0));
   std::size_t reported = 0;
   const RecordingFiles files = writeRecording(
@@ -187,7 +187,7 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
   for (const char* scenario : {"office", "uav"})
   {
     SimulationSettings settings = testing::shortSettings(scenario, 2.0, 10);
-    const TemporaryDirectory a, b, c;
+    const TemporaryFolder a, b, c;
     const RecordingFiles one = writeRecording(Simulation(settings), a.path());
     const RecordingFiles same = writeRecording(Simulation(settings), b.path());
     settings.seed = 77;
@@ -203,7 +203,7 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
 
 TEST(Recording, AFullDiskLeavesWhatWasThere)
 {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   SimulationSettings settings = testing::shortSettings("uav", 2.0, 10);
   const Simulation simulation(settings);
   settings.seed = 77;
@@ -239,7 +239,7 @@ TEST(Recording, SaysWhatIsTrue)
 
 TEST(Recording, ConfigLoadsStrictly)
 {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   const SimulationSettings settings = testing::shortSettings("uav", 1.0, 10);
   const RecordingFiles files = writeRecording(Simulation(settings), directory.path());
   const Config loaded = loadConfigFromFile(files.config);
@@ -269,7 +269,7 @@ TEST(Recording, GroundTruthIsThePoseAt200Hz)
 
 TEST(Recording, UnwritableDirectoriesAreNamed)
 {
-  const TemporaryDirectory directory;
+  const TemporaryFolder directory;
   std::ofstream(directory.path()) << "a file";
   const Simulation simulation(testing::shortSettings("rest", 0.5));
   try
@@ -287,7 +287,7 @@ TEST(Recording, EveryScenarioGenerates)
 {
   for (const auto& info : scenarioCatalog())
   {
-    const TemporaryDirectory directory;
+    const TemporaryFolder directory;
     const Simulation simulation(testing::shortSettings(info.name, 3.5, 20));
     const RecordingFiles files = writeRecording(simulation, directory.path());
     EXPECT_GT(std::filesystem::file_size(files.rawlog), 50'000U) << info.name;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "recording_files.h"
+#include "folder_listing.h"
 #include "rides.h"
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/conversions.h>
@@ -87,7 +87,7 @@ TEST(Wheels, NoiseGrowsWithTheRootOfTheWay)
 
 TEST(Wheels, ReadingsSurviveTheRecordingInTheOrderOfStamps)
 {
-  const testing::TemporaryDirectory a, b;
+  const testing::TemporaryFolder a, b;
   SimulationSettings settings = testing::shortSettings("town", 8.0, 100);
   settings.wheels.rate = 30.0;
   settings.gnss.rate = 10.0;
