@@ -45,14 +45,16 @@ Matrix6 byVibration(const NavState& x)
   return C;
 }
 
-/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, and what
- * else explains it. */
+/** e^T S^-1 e / 3 for three elements of a correction; S is what the update took off P, times what
+ * the points leave over of their noise, and what else explains it. */
 double normalized(
-    const StateVector& correction, const FilterState& predicted, const FilterState& posterior,
+    const StateVector& correction, const FilterState& predicted, const UpdateResult& update,
     const Matrix6& explained, int block)
 {
   const Vec3 e = correction.segment<3>(block);
-  const Mat3 S = predicted.P.block<3, 3>(block, block) - posterior.P.block<3, 3>(block, block) +
+  const double residuals = std::max(normalizedInnovation(update), 1.0);
+  const Mat3 S = residuals * (predicted.P.block<3, 3>(block, block) -
+                              update.posterior.P.block<3, 3>(block, block)) +
                  explained.block<3, 3>(block, block);
   const Eigen::LDLT<Eigen::Matrix3d> ldlt(S);
   if (ldlt.info() != Eigen::Success || !(ldlt.vectorD().minCoeff() > 0.0)) return 0.0;
@@ -90,14 +92,15 @@ double stdAlong(const Vec3& rotation, const Mat3& axes, const Vec3& strengths, d
 
 void MotionAgreement::add(
     const NavState& before, double seconds, const FilterState& predicted,
-    const FilterState& posterior, const Matrix6& by_calibration)
+    const UpdateResult& update, const Matrix6& by_calibration)
 {
+  const FilterState& posterior = update.posterior;
   const StateVector correction = boxminus(posterior.x, predicted.x);
   const std::size_t slot = corrections_ % kWindow;
   const Matrix6 nothing = Matrix6::Zero();
   const Matrix6 harmless = by_calibration + byVibration(predicted.x);
   const auto at = [&](int block, const Matrix6& explained)
-  { return normalized(correction, predicted, posterior, explained, block); };
+  { return normalized(correction, predicted, update, explained, block); };
   explained_.attitude[slot] = at(kAttitude, harmless);
   explained_.position[slot] = at(kPosition, harmless);
   unexplained_.attitude[slot] = at(kAttitude, nothing);

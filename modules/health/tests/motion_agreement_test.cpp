@@ -34,6 +34,8 @@ class TurningPlatform
   }
 
   void setFactor(double factor) { factor_ = factor; }
+  /** Mean z^2/r of the points of the scans. */
+  void setResiduals(double residuals) { residuals_ = residuals; }
 
  private:
   Vec3 noise(double std) { return std * Vec3(gauss_(random_), gauss_(random_), gauss_(random_)); }
@@ -51,21 +53,25 @@ class TurningPlatform
   }
 
   /** Of a scan that is ten times as good as the prediction. */
-  FilterState correct()
+  UpdateResult correct()
   {
-    FilterState posterior = state_;
+    UpdateResult update;
+    update.last.count = 100;
+    update.last.weighted_squares = 100 * residuals_;
+    FilterState& posterior = update.posterior;
+    posterior = state_;
     const double gain = 1.0 / 1.01;
     const Vec3 measured = logSO3(state_.x.R.transpose() * truth_) + noise(0.1 * std_);
     posterior.x.R = state_.x.R * expSO3(gain * measured);
     posterior.x.p = state_.x.p + gain * factor_ * noise(std_);
     posterior.P.diagonal().head<6>() *= 1.0 - gain;
     state_.x = posterior.x;
-    return posterior;
+    return update;
   }
 
   Mat3 R_true_given_, truth_ = Mat3::Identity();
   double factor_, std_;  // of the predictions: [rad], [m]
-  double gyro_scale_;
+  double gyro_scale_, residuals_ = 1.0;
   NavState before_;
   FilterState state_;
   std::mt19937_64 random_{3};
@@ -168,14 +174,27 @@ TEST(MotionAgreement, FewTurnsTellNothing)
   EXPECT_FALSE(agreement.mountingError().has_value());
 }
 
+TEST(MotionAgreement, ScansThatDoNotFitTheMapContradictLess)
+{
+  // Errors five times as large as the covariance says.
+  MotionAgreement fitting, among_trees;
+  TurningPlatform platform(Mat3::Identity(), 5.0, 1e-2), in_park = platform;
+  in_park.setResiduals(2.5);
+  platform.addTo(fitting, 100);
+  in_park.addTo(among_trees, 100);
+  EXPECT_GT(fitting.unexplainedInnovation(), 12.0);
+  EXPECT_NEAR(among_trees.unexplainedInnovation(), fitting.unexplainedInnovation() / 2.5, 1e-6);
+}
+
 TEST(MotionAgreement, NoTurnsTellNothing)
 {
   MotionAgreement agreement;
-  FilterState predicted, posterior;
+  FilterState predicted;
+  UpdateResult update;
   predicted.P.diagonal().setConstant(2e-6);
-  posterior.P.diagonal().setConstant(1e-6);
+  update.posterior.P.diagonal().setConstant(1e-6);
   for (int i = 0; i < 300; ++i)
-    agreement.add(NavState{}, 0.1, predicted, posterior, Matrix6::Zero());
+    agreement.add(NavState{}, 0.1, predicted, update, Matrix6::Zero());
   EXPECT_FALSE(agreement.mountingError().has_value());
   EXPECT_EQ(agreement.innovation(), 0.0);
 }

@@ -134,8 +134,7 @@ void Estimator::compareMotion(
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
     agreement_.add(
-        work.before, work.predicted.blind_s, work.predicted.state, match.update.posterior,
-        work.explained);
+        work.before, work.predicted.blind_s, work.predicted.state, match.update, work.explained);
   statistics.motion_innovation = agreement_.innovation();
   statistics.unexplained_motion_innovation = agreement_.unexplainedInnovation();
   statistics.mounting_error = agreement_.mountingError();

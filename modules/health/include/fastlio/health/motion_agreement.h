@@ -8,6 +8,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/filter/update.h>
 #include <fastlio/interface/scan_result.h>
 
 #include <array>
@@ -24,12 +25,13 @@ class MotionAgreement
 
   /** A scan corrected a prediction.
    * \param before state that the prediction began with, \a seconds before
-   * \param posterior of the update, before anything else changes it
+   * \param update before anything else changes its posterior; where its points do not fit the map,
+   * among trees, the scan is less certain of its pose than their noise says
    * \param by_calibration covariance of the correction of the pose that errors of the calibration
    * explain, as far as the options admit them */
   void add(
       const NavState& before, double seconds, const FilterState& predicted,
-      const FilterState& posterior, const Matrix6& by_calibration);
+      const UpdateResult& update, const Matrix6& by_calibration);
   /** The next correction says nothing: the run begins, or the pose was searched. */
   void restart();
 
