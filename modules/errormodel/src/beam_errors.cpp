@@ -11,14 +11,14 @@ namespace fastlio
 namespace
 {
 constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it has no direction
-// From then on an offset is known: to 2 mm, and to 2 mm at 10 m.
-constexpr double kLeastRangeInformation = 2.5e5;      // [1/m^2]
-constexpr double kLeastElevationInformation = 2.5e7;  // [1/rad^2]
-// Scans share the errors of the map: a fourth of them tells as much of an offset as all do, and
-// their residuals may pass for independent.
+// From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
+constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
+constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
+// The variance of an offset over that of independent residuals: they share the errors of the map.
+constexpr double kSharedNoise = 4.0;
+// What all scans of a run tell of a single number, a fourth of them tell as well. What its beams
+// meet hardly changes in so short a time, seen from the sensor.
 constexpr std::size_t kScansPerLesson = 4;
-// The variance of the bias over that of independent residuals: its planes share more.
-constexpr double kSharedNoiseOfBias = 4.0;
 }  // namespace
 
 /** The axes of the sensor. */
@@ -67,23 +67,18 @@ BeamErrors::BeamLanes BeamErrors::beamsOf(
   return b;
 }
 
-void BeamErrors::Offset::add(const PointMeasurement& point, double derivative, const Vector6& pull)
+void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
 {
   information += point.weight * derivative * derivative;
   weighted += point.weight * derivative * point.z;
-  in_scan += pull;
 }
 
 void BeamErrors::add(
     const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
     const std::vector<PlaneMatch>& matches)
 {
-  if (scans_++ % kScansPerLesson != 0) return;
-  for (Offsets* offsets : {&range_, &elevation_})
-    for (Offset& offset : *offsets)
-      offset.in_scan.setZero();
-  sides_.beginScan();
-  R_world_lesson_ = R_world_scan;
+  const bool is_lesson = scans_++ % kScansPerLesson == 0;
+  if (is_lesson) beginLesson(R_world_scan);
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
       R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
@@ -95,30 +90,47 @@ void BeamErrors::add(
         {
           if (block.weight[l] == 0.0 || !(beams.cosine[l] > kLeastCosine)) continue;
           const PointMeasurement point = block.point(l);
-          const BeamGeometry beam{
-              beams.forward[l], beams.left[l], beams.along[l], beams.turned_up[l]};
-          const Vector6 by_range = beam.along * point.weighted_h;
-          add(beams, l, point, by_range);
-          sides_.add(beam, point, by_range);
-          incidence_.add(matches[block.index[l]].plane, beam.along, point);
+          add(beams, l, point);
+          if (is_lesson) learn(beams, l, point, matches[block.index[l]].plane);
         }
       });
+  if (!is_lesson) return;
   incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
 }
 
-void BeamErrors::add(
-    const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
-    const Vector6& by_range)
+void BeamErrors::add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point)
 {
   const double along = beams.along[lane], by_elevation = beams.range[lane] * beams.upward[lane];
   const std::size_t bin = beamBin(beams.sine[lane]);
-  range_[bin].add(point, along, by_range);
-  elevation_[bin].add(point, by_elevation, by_elevation * point.weighted_h);
+  range_[bin].add(point, along);
+  elevation_[bin].add(point, by_elevation);
   cross_[bin] += point.weight * along * by_elevation;
   const double upright = point.weight * (1.0 - beams.turned_up[lane] * beams.turned_up[lane]);
   upright_weight_ += upright;
   upright_range_ += upright * beams.range[lane];
+}
+
+void BeamErrors::beginLesson(const Mat3& R_world_scan)
+{
+  for (Offsets* offsets : {&range_, &elevation_})
+    for (Offset& offset : *offsets)
+      offset.in_lesson.setZero();
+  sides_.beginScan();
+  R_world_lesson_ = R_world_scan;
+}
+
+void BeamErrors::learn(
+    const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane)
+{
+  const BeamGeometry beam{
+      beams.forward[lane], beams.left[lane], beams.along[lane], beams.turned_up[lane]};
+  const Vector6 by_range = beam.along * point.weighted_h;
+  const std::size_t bin = beamBin(beams.sine[lane]);
+  range_[bin].in_lesson += by_range;
+  elevation_[bin].in_lesson += beams.range[lane] * beams.upward[lane] * point.weighted_h;
+  sides_.add(beam, point, by_range);
+  incidence_.add(plane, beam.along, point);
 }
 
 double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
@@ -128,7 +140,7 @@ double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
   {
     if (offset.information < least_information) continue;
     const double square = std::pow(offset.weighted / offset.information, 2);
-    squares += std::max(0.0, square - 1.0 / offset.information);
+    squares += std::max(0.0, square - kSharedNoise / offset.information);
     known += 1.0;
   }
   return known > 0.0 ? squares / known : 0.0;
@@ -164,10 +176,13 @@ void BeamErrors::addTo(CalibrationFindings& findings) const
     sums.elevation = beamElevation(bin);
     sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
     sums.weighted << range.weighted, elevation.weighted;
+    // They share the errors of the map: points hold less information than their number suggests.
+    sums.information /= kSharedNoise;
+    sums.weighted /= kSharedNoise;
   }
   findings.incidence = incidence_.sums();
-  findings.incidence.information /= kSharedNoiseOfBias;
-  findings.incidence.weighted /= kSharedNoiseOfBias;
+  findings.incidence.information /= kSharedNoise;
+  findings.incidence.weighted /= kSharedNoise;
   findings.upright_weight = upright_weight_;
   findings.upright_range = upright_range_;
 }
@@ -176,7 +191,7 @@ Matrix6 BeamErrors::sumOfSquares(const Offsets& offsets)
 {
   Matrix6 sum = Matrix6::Zero();
   for (const Offset& offset : offsets)
-    if (offset.information > 0.0) sum += offset.in_scan * offset.in_scan.transpose();
+    if (offset.information > 0.0) sum += offset.in_lesson * offset.in_lesson.transpose();
   return sum;
 }
 

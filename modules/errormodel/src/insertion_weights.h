@@ -33,6 +33,7 @@ void findInsertions(
     const std::vector<PlaneGroup>& groups, const std::vector<Insertion>& insertions,
     std::vector<std::size_t>& found)
 {
+  found.reserve(groups.capacity());  // for scans with more of them, too
   found.clear();
   std::uint32_t looked_up = 0;  // no insertion has that number
   std::size_t index = insertions.size();

@@ -112,6 +112,12 @@ ScanConstraints informationByDirection(const Matrix6& information, const Matrix6
   return c;
 }
 
+void WithoutStrongestPlanes::reserve(std::size_t points)
+{
+  planes_.reserve(points);
+  makeRoom(of_plane_, points);
+}
+
 void WithoutStrongestPlanes::operator()(
     const MeasuredScan& scan, const std::vector<PlaneMatch>& matches, ScanConstraints& constraints)
 {
@@ -127,7 +133,6 @@ void WithoutStrongestPlanes::operator()(
 
 double WithoutStrongestPlanes::strongest(const MeasuredScan& scan, const Vector6& direction)
 {
-  makeRoom(of_plane_, planes_.count());
   of_plane_.assign(planes_.count(), 0.0);
   scan.forEachBlock(
       [&](const MeasurementBlock& block, std::size_t number)

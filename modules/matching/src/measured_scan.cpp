@@ -41,14 +41,24 @@ InformationSums MeasuredScan::sums() const
   return all;
 }
 
+std::size_t PlaneNumbers::slotsFor(std::size_t points)
+{
+  std::size_t slots = 64;
+  while (3 * slots < 4 * points)
+    slots *= 2;
+  return slots;
+}
+
+void PlaneNumbers::reserve(std::size_t points)
+{
+  makeRoom(slots_, slotsFor(points));
+  makeRoom(numbers_, Workers::chunks(points) * Workers::kChunk);
+}
+
 void PlaneNumbers::assign(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
 {
-  std::size_t size = 64;
-  while (3 * size < 4 * matches.size())
-    size *= 2;
-  makeRoom(slots_, size);
-  makeRoom(numbers_, scan.blockNumbers() * kLanes);
-  slots_.assign(size, Slot{});
+  reserve(matches.size());
+  slots_.assign(slotsFor(matches.size()), Slot{});
   numbers_.resize(scan.blockNumbers() * kLanes);
   count_ = 0;
   std::uint32_t plane = 0, of_plane = kFree;

@@ -86,6 +86,7 @@ const GroupedMeasurements& PlaneGrouping::group(
   result_.shared_noise.setZero();
   for (const Matrix6& noise : chunk_noise_)
     result_.shared_noise += noise;
+  makeRoom(result_.groups, matches.size());
   result_.groups.clear();
   addPoints(scan, matches);
   finishGroups();

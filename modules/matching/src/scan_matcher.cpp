@@ -97,7 +97,6 @@ void ScanMatcher::findConstraints(
   const double min_signal_to_noise = call.options.measurement.min_signal_to_noise;
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
   const BodyPoints& points = call.scan.surfaces;
-  makeRoom(chunk_noise_, measured_.chunks());
   chunk_noise_.resize(measured_.chunks());
   workers_->forEachChunk(
       points.size(),
@@ -157,6 +156,9 @@ MatchResult ScanMatcher::match(
   matches_.resize(points);
   world_edges_.resize(scan.edges.size());
   edge_matches_.resize(scan.edges.size());
+  // Which scans need these depends on what they see.
+  makeRoom(chunk_noise_, Workers::chunks(points));
+  without_strongest_planes_.reserve(points);
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));

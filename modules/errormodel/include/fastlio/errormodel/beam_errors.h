@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace fastlio
@@ -24,7 +25,7 @@ namespace fastlio
 class BeamErrors
 {
  public:
-  /** A scan was matched. Learns from every fourth one. \param R_world_scan attitude of the scan
+  /** A scan was matched. \param R_world_scan attitude of the scan
    * pose
    * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
@@ -34,8 +35,8 @@ class BeamErrors
   void forgetMap() { incidence_.forgetMap(); }
 
   /** Covariance of sum w h b over a scan, b by offsets of range and elevation, of beams and of
-   * sides. The points are those of the last scan that was learnt from, less than half a second
-   * before: what its beams meet stays nearly the same, seen from the sensor.
+   * sides. The points are those of the last lesson, which every fourth scan is: what the beams
+   * meet stays nearly the same, seen from the sensor.
    * \param R_world_scan attitude of the scan pose */
   [[nodiscard]] Matrix6 covariance(const Mat3& R_world_scan) const;
   /** Root mean square of the offsets; 0 while none is known. */
@@ -50,10 +51,9 @@ class BeamErrors
   struct Offset
   {
     double information = 0.0, weighted = 0.0;  // of all scans
-    Vector6 in_scan = Vector6::Zero();         // sum of w h times its derivative, last lesson
+    Vector6 in_lesson = Vector6::Zero();       // sum of w h times its derivative, last lesson
 
-    /** \param pull the derivative times the point's w h */
-    void add(const PointMeasurement& point, double derivative, const Vector6& pull);
+    void add(const PointMeasurement& point, double derivative);
   };
   using Offsets = std::array<Offset, kBeamBins>;
   struct SensorFrame;
@@ -61,11 +61,12 @@ class BeamErrors
 
   [[nodiscard]] static BeamLanes beamsOf(
       const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame);
-  void add(
-      const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
-      const Vector6& by_range);
+  void add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point);
+  void beginLesson(const Mat3& R_world_scan);
+  void learn(
+      const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane);
 
-  /** Of the pulls of the last scan, as outer products. */
+  /** Of what the last lesson says, as outer products. */
   [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
   [[nodiscard]] double rangeVariance() const;
@@ -76,7 +77,7 @@ class BeamErrors
   IncidenceBias incidence_;
   SideErrors sides_;
   std::size_t scans_ = 0;
-  Mat3 R_world_lesson_ = Mat3::Identity();  // attitude of the scan that was learnt from last
+  Mat3 R_world_lesson_ = Mat3::Identity();  // attitude of the scan of the last lesson
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 

@@ -37,6 +37,8 @@ inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
 class WithoutStrongestPlanes
 {
  public:
+  /** Makes room for a scan of so many points. */
+  void reserve(std::size_t points);
   void operator()(
       const MeasuredScan& scan, const std::vector<PlaneMatch>& matches,
       ScanConstraints& constraints);

@@ -110,6 +110,8 @@ class MeasuredScan
 class PlaneNumbers
 {
  public:
+  /** Makes room for the planes of a scan of so many points. */
+  void reserve(std::size_t points);
   /** Numbers the planes of a scan. */
   void assign(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
 
@@ -132,6 +134,8 @@ class PlaneNumbers
   };
   static constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
+  /** How many slots a scan of so many points needs. */
+  [[nodiscard]] static std::size_t slotsFor(std::size_t points);
   /** Of the plane or, if it has none, the one that is free for it. */
   [[nodiscard]] std::size_t slotOf(std::uint32_t plane) const;
 
