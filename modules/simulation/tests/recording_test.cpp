@@ -203,7 +203,8 @@ TEST(Recording, SameSettingsGiveTheSameBytes)
 
 TEST(Recording, AFullDiskLeavesWhatWasThere)
 {
-  const TemporaryFolder directory;
+  const TemporaryFolder around;
+  const std::string folder = around.file("recording");
   SimulationSettings settings = testing::shortSettings("uav", 2.0, 10);
   const Simulation simulation(settings);
   settings.seed = 77;
@@ -211,15 +212,15 @@ TEST(Recording, AFullDiskLeavesWhatWasThere)
   const auto write_on_full_disk = [&](const Simulation& s)
   {
     const testing::FileSizeLimit limit(20'000);
-    EXPECT_THROW((void)writeRecording(s, directory.path(), {}, true), std::runtime_error);
+    EXPECT_THROW((void)writeRecording(s, folder, {}, true), std::runtime_error);
   };
   write_on_full_disk(simulation);
-  EXPECT_FALSE(std::filesystem::exists(directory.path()));
-  writeRecording(simulation, directory.path());
-  const auto before = filesIn(directory.path());
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  writeRecording(simulation, folder);
+  const auto before = filesIn(folder);
   ASSERT_GE(before.size(), 4U);
   write_on_full_disk(other);
-  EXPECT_EQ(filesIn(directory.path()), before);
+  EXPECT_EQ(filesIn(folder), before);
 }
 
 TEST(Recording, SaysWhatIsTrue)
@@ -270,16 +271,16 @@ TEST(Recording, GroundTruthIsThePoseAt200Hz)
 TEST(Recording, UnwritableDirectoriesAreNamed)
 {
   const TemporaryFolder directory;
-  std::ofstream(directory.path()) << "a file";
+  const std::string file = directory.write("file", "no folder");
   const Simulation simulation(testing::shortSettings("rest", 0.5));
   try
   {
-    (void)writeRecording(simulation, directory.path() + "/below");
+    (void)writeRecording(simulation, file + "/below");
     FAIL() << "a directory below a file was accepted";
   }
   catch (const std::runtime_error& e)
   {
-    EXPECT_NE(std::string(e.what()).find(directory.path()), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(file), std::string::npos) << e.what();
   }
 }
 
