@@ -71,7 +71,9 @@ ScanMatcher::ScanMatcher(std::shared_ptr<const Workers> workers) : workers_(std:
 void ScanMatcher::associate(const Pose& T_world_scan, int iteration, const Call& call)
 {
   const Stopwatch watch;
-  const bool stays_near = iteration > 0 && isSmallStep(associated_at_, T_world_scan);
+  // Where little of a scan matches, each plane counts.
+  const bool stays_near = iteration > 0 && isSmallStep(associated_at_, T_world_scan) &&
+                          2 * measured_.sums().count >= call.scan.surfaces.size();
   associated_at_ = T_world_scan;
   std::swap(world_, world_before_);
   const BodyPoints& points = call.scan.surfaces;
