@@ -12,7 +12,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <random>
 
 namespace fastlio::benchmarks
@@ -47,20 +46,15 @@ Matched matchedPoints(std::size_t count)
   return matched;
 }
 
-void measureAll(const Matched& matched, MeasuredScan& scan)
+void measure(const Matched& matched, const Workers& workers, MeasuredScan& scan)
 {
-  const std::size_t count = matched.matches.size();
-  scan.clear(count);
-  for (std::size_t chunk = 0; chunk < scan.chunks(); ++chunk)
-    scan.measure(
-        Pose{}, matched.body, matched.matches, ResidualModel{}, chunk, chunk * Workers::kChunk,
-        std::min(count, (chunk + 1) * Workers::kChunk));
+  scan.measure(workers, Pose{}, matched.body, matched.matches, ResidualModel{});
 }
 
 InformationSums sumsOf(const Matched& matched)
 {
   MeasuredScan scan;
-  measureAll(matched, scan);
+  measure(matched, Workers(1), scan);
   return scan.sums();
 }
 
@@ -74,10 +68,11 @@ FilterState someState()
 void measurePoints(benchmark::State& state)
 {
   const Matched matched = matchedPoints(static_cast<std::size_t>(state.range(0)));
+  const Workers workers(1);
   MeasuredScan scan;
   for (auto _ : state)
   {
-    measureAll(matched, scan);
+    measure(matched, workers, scan);
     benchmark::DoNotOptimize(scan.sums());
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));

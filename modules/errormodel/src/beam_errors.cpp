@@ -16,9 +16,9 @@ constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
 constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
 // The variance of an offset over that of independent residuals: they share the errors of the map.
 constexpr double kSharedNoise = 4.0;
-// What all scans of a run tell of a single number, a fourth of them tell as well. What its beams
-// meet hardly changes in so short a time, seen from the sensor.
-constexpr std::size_t kScansPerLesson = 4;
+// Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
+// what the beams meet, which hardly changes in so short a time, seen from the sensor.
+constexpr std::size_t kScansPerSample = 4;
 }  // namespace
 
 /** The axes of the sensor. */
@@ -77,8 +77,8 @@ void BeamErrors::add(
     const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
     const std::vector<PlaneMatch>& matches)
 {
-  const bool is_lesson = scans_++ % kScansPerLesson == 0;
-  if (is_lesson) beginLesson(R_world_scan);
+  const bool is_sampled = scans_++ % kScansPerSample == 0;
+  if (is_sampled) beginSample(R_world_scan);
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
       R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
@@ -91,10 +91,10 @@ void BeamErrors::add(
           if (block.weight[l] == 0.0 || !(beams.cosine[l] > kLeastCosine)) continue;
           const PointMeasurement point = block.point(l);
           add(beams, l, point);
-          if (is_lesson) learn(beams, l, point, matches[block.index[l]].plane);
+          if (is_sampled) sample(beams, l, point, matches[block.index[l]].plane);
         }
       });
-  if (!is_lesson) return;
+  if (!is_sampled) return;
   incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
 }
@@ -111,24 +111,24 @@ void BeamErrors::add(const BeamLanes& beams, std::size_t lane, const PointMeasur
   upright_range_ += upright * beams.range[lane];
 }
 
-void BeamErrors::beginLesson(const Mat3& R_world_scan)
+void BeamErrors::beginSample(const Mat3& R_world_scan)
 {
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
-      offset.in_lesson.setZero();
+      offset.in_sampled.setZero();
   sides_.beginScan();
-  R_world_lesson_ = R_world_scan;
+  R_world_sampled_ = R_world_scan;
 }
 
-void BeamErrors::learn(
+void BeamErrors::sample(
     const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane)
 {
   const BeamGeometry beam{
       beams.forward[lane], beams.left[lane], beams.along[lane], beams.turned_up[lane]};
   const Vector6 by_range = beam.along * point.weighted_h;
   const std::size_t bin = beamBin(beams.sine[lane]);
-  range_[bin].in_lesson += by_range;
-  elevation_[bin].in_lesson += beams.range[lane] * beams.upward[lane] * point.weighted_h;
+  range_[bin].in_sampled += by_range;
+  elevation_[bin].in_sampled += beams.range[lane] * beams.upward[lane] * point.weighted_h;
   sides_.add(beam, point, by_range);
   incidence_.add(plane, beam.along, point);
 }
@@ -191,7 +191,7 @@ Matrix6 BeamErrors::sumOfSquares(const Offsets& offsets)
 {
   Matrix6 sum = Matrix6::Zero();
   for (const Offset& offset : offsets)
-    if (offset.information > 0.0) sum += offset.in_lesson * offset.in_lesson.transpose();
+    if (offset.information > 0.0) sum += offset.in_sampled * offset.in_sampled.transpose();
   return sum;
 }
 
@@ -199,7 +199,7 @@ Matrix6 BeamErrors::covariance(const Mat3& R_world_scan) const
 {
   Matrix6 covariance = rangeVariance() * sumOfSquares(range_) +
                        elevationVariance() * sumOfSquares(elevation_) + sides_.covariance();
-  const Mat3 turn = R_world_scan * R_world_lesson_.transpose();
+  const Mat3 turn = R_world_scan * R_world_sampled_.transpose();
   covariance.bottomRows<3>() = turn * covariance.bottomRows<3>().eval();
   covariance.rightCols<3>() = covariance.rightCols<3>().eval() * turn.transpose();
   return covariance;

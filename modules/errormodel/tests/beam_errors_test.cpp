@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -72,11 +71,7 @@ class RandomRoom
     model.range_variance = 0.0;
     model.gate = 1e6;
     MeasuredScan measured;
-    measured.clear(matches.size());
-    for (std::size_t chunk = 0; chunk < measured.chunks(); ++chunk)
-      measured.measure(
-          Pose{}, scan.surfaces, matches, model, chunk, chunk * Workers::kChunk,
-          std::min(matches.size(), (chunk + 1) * Workers::kChunk));
+    measured.measure(Workers(1), Pose{}, scan.surfaces, matches, model);
     return measured;
   }
 

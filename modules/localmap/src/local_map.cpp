@@ -35,7 +35,6 @@ LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers
       radius_(options.map.radius),
       surfaces_(makeSurfaceMap(options, workers)),
       edges_(edgeMapOptions(options)),
-      groups_(workers),
       workers_(std::move(workers))
 {
 }
@@ -46,7 +45,6 @@ LocalMap::LocalMap(
       radius_(options.map.radius),
       surfaces_(makeSurfaceMap(options, workers, saved)),
       edges_(edgeMapOptions(options)),
-      groups_(workers),
       workers_(std::move(workers)),
       insertions_(surfaces_->insertionCount()),
       given_(true)
@@ -87,7 +85,7 @@ UpdateByCalibration LocalMap::considerUpdate(
   const GroupedMeasurements* grouped = nullptr;
   workers_->alongside(
       [&] { beams.add(update.T_world_scan.R, scan, measured, *match.matches); },
-      [&] { grouped = &groups_.group(measured, *match.matches); });
+      [&] { grouped = &groups_.group(*workers_, measured, *match.matches); });
   UpdateByCalibration by_calibration;
   workers_->alongside(
       [&] { by_calibration = calibration_.update(update, *grouped); },

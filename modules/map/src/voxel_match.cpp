@@ -116,6 +116,7 @@ PlaneMatch bestPlane(const Query& query, float x, float y, float z)
       plane.created_insertion,
       plane.normalVariance()};
 }
+
 /** Which of the points [first, first + kBatch) or fewer are no longer in the voxels where they
  * were. Without branches, for the compiler. */
 void findMoved(

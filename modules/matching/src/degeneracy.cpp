@@ -41,7 +41,6 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
   m.leftCols<3>() /= lever_arm;
   return m;
 }
-
 }  // namespace
 
 Matrix6 normalNoiseInformation(
@@ -112,13 +111,13 @@ ScanConstraints informationByDirection(const Matrix6& information, const Matrix6
   return c;
 }
 
-void WithoutStrongestPlanes::reserve(std::size_t points)
+void StrongestPlanes::reserve(std::size_t points)
 {
   planes_.reserve(points);
   makeRoom(of_plane_, points);
 }
 
-void WithoutStrongestPlanes::operator()(
+void StrongestPlanes::takeFromSupport(
     const MeasuredScan& scan, const std::vector<PlaneMatch>& matches, ScanConstraints& constraints)
 {
   if (!isWeak(constraints, 0)) return;
@@ -127,11 +126,11 @@ void WithoutStrongestPlanes::operator()(
   {
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
-    constraints.supported_information[i] -= strongest(scan, direction);
+    constraints.supported_information[i] -= informationAlong(scan, direction);
   }
 }
 
-double WithoutStrongestPlanes::strongest(const MeasuredScan& scan, const Vector6& direction)
+double StrongestPlanes::informationAlong(const MeasuredScan& scan, const Vector6& direction)
 {
   of_plane_.assign(planes_.count(), 0.0);
   scan.forEachBlock(

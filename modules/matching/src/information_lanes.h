@@ -4,12 +4,10 @@
 /** \file information_lanes.h The sums of the information form, kept apart per lane. */
 #pragma once
 
-#include "measurement_lanes.h"
 #include <fastlio/filter/update.h>
-#include <fastlio/matching/measured_scan.h>
+#include <fastlio/matching/measurement_block.h>
 
 #include <cstddef>
-#include <cstdint>
 
 namespace fastlio
 {
@@ -21,27 +19,6 @@ template <std::size_t N>
   for (const double lane : lanes)
     sum += lane;
   return sum;
-}
-
-/** Measures the first \a filled lanes. Those that are not consistent with the model become zero in
- * every respect, as a NaN times a weight of zero would not. */
-inline void measure(
-    const Pose& T_world_scan, const MatchLanes<kLanes>& lanes, std::size_t filled,
-    const ResidualModel& model, MeasurementBlock& block)
-{
-  const MeasurementLanes<kLanes> m = measure(T_world_scan, lanes, model.range_variance);
-  bool counts[kLanes];
-  for (std::size_t l = 0; l < kLanes; ++l)
-  {
-    const double h[6] = {m.h[0][l], m.h[1][l], m.h[2][l], m.h[3][l], m.h[4][l], m.h[5][l]};
-    counts[l] = l < filled && withinGate(m.z[l], m.variance[l], h, model);
-    block.weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
-    block.z[l] = counts[l] ? m.z[l] : 0.0;
-    block.index[l] = static_cast<std::uint32_t>(lanes.index[l]);
-  }
-  for (std::size_t k = 0; k < 6; ++k)
-    for (std::size_t l = 0; l < kLanes; ++l)
-      block.h[k][l] = counts[l] ? m.h[k][l] : 0.0;
 }
 
 /** Sum of w h h^T of vectors h with D elements. */

@@ -31,10 +31,6 @@ Matrix6 sharedNoise(
 }
 }  // namespace
 
-PlaneGrouping::PlaneGrouping(std::shared_ptr<const Workers> workers) : workers_(std::move(workers))
-{
-}
-
 void PlaneGrouping::addPoints(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
 {
   std::vector<PlaneGroup>& groups = result_.groups;
@@ -73,13 +69,13 @@ void PlaneGrouping::finishGroups()
 }
 
 const GroupedMeasurements& PlaneGrouping::group(
-    const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
+    const Workers& workers, const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
 {
   std::swap(planes_, planes_before_);
   planes_.assign(scan, matches);
   makeRoom(chunk_noise_, scan.chunks());
   chunk_noise_.resize(scan.chunks());
-  workers_->forEach(
+  workers.forEach(
       scan.chunks(),
       [&](std::size_t chunk) { chunk_noise_[chunk] = sharedNoise(scan, matches, chunk); });
   result_.information = scan.sums().HtRinvH;

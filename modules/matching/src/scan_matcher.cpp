@@ -100,9 +100,9 @@ void ScanMatcher::findConstraints(
   if (min_signal_to_noise <= 0.0 || !mayBeDegenerate(sums.HtRinvH)) return;
   const BodyPoints& points = call.scan.surfaces;
   chunk_noise_.resize(measured_.chunks());
-  workers_->forEachChunk(
-      points.size(),
-      [&](std::size_t chunk, std::size_t, std::size_t)
+  workers_->forEach(
+      measured_.chunks(),
+      [&](std::size_t chunk)
       {
         chunk_noise_[chunk] =
             normalNoiseInformation(R_world_scan, points, matches_, measured_, chunk);
@@ -112,7 +112,7 @@ void ScanMatcher::findConstraints(
     noise += part;
   ScanConstraints& constraints = call.result.constraints;
   constraints = informationByDirection(sums.HtRinvH, noise);
-  without_strongest_planes_(measured_, matches_, constraints);
+  strongest_planes_.takeFromSupport(measured_, matches_, constraints);
   leaveOutUnconstrained(min_signal_to_noise, constraints);
 }
 
@@ -125,10 +125,7 @@ MeasurementEvaluation ScanMatcher::evaluate(
   const ResidualModel& model = call.result.model;
   const Pose T_world_scan = scanPose(iterate, compensation);
   if (iteration < call.options.association_iterations) associate(T_world_scan, iteration, call);
-  measured_.clear(points.size());
-  workers_->forEachChunk(
-      points.size(), [&](std::size_t chunk, std::size_t first, std::size_t last)
-      { measured_.measure(T_world_scan, points, matches_, model, chunk, first, last); });
+  measured_.measure(*workers_, T_world_scan, points, matches_, model);
   MeasurementEvaluation evaluation;
   evaluation.sums = measured_.sums();
   addSums(
@@ -160,7 +157,7 @@ MatchResult ScanMatcher::match(
   edge_matches_.resize(scan.edges.size());
   // Which scans need these depends on what they see.
   makeRoom(chunk_noise_, Workers::chunks(points));
-  without_strongest_planes_.reserve(points);
+  strongest_planes_.reserve(points);
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));

@@ -90,7 +90,7 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   const MeasuredScan measured_scan = measured(pose, scan.body, scan.matches, model);
   a.sums = measured_scan.sums();
   a.constraints = informationByDirection(a.sums.HtRinvH, noiseOf(scan, pose, measured_scan));
-  WithoutStrongestPlanes()(measured_scan, scan.matches, a.constraints);
+  StrongestPlanes().takeFromSupport(measured_scan, scan.matches, a.constraints);
   leaveOutUnconstrained(min_signal_to_noise, a.constraints);
   return a;
 }

@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <vector>
 
 namespace fastlio
@@ -120,42 +119,22 @@ TEST(MeasuredScan, ForgetsTheScanBefore)
 {
   const Matching large = randomMatching(12, 1000), small = randomMatching(13, 10);
   MeasuredScan scan = measured(large, wideOpen());
-  scan.clear(small.body.size());
+  scan.measure(Workers(1), small.x.pose(), {}, {}, wideOpen());
   EXPECT_EQ(scan.sums().count, 0U);
-  scan.measure(small.x.pose(), small.body, small.matches, wideOpen(), 0, 0, small.body.size());
+  scan.measure(Workers(1), small.x.pose(), small.body, small.matches, wideOpen());
   EXPECT_EQ(indicesOf(scan).size(), scan.sums().count);
   expectEqual(scan.sums(), sumOneByOne(small, wideOpen()));
 }
 
-TEST(PlaneNumbers, CountInTheOrderOfTheFirstPoints)
+TEST(MeasuredScan, IsTheSameOnSeveralThreads)
 {
-  // Numbers of planes that collide in any table, and the largest ones there are.
-  Matching m = randomMatching(14, 1500);
-  for (std::size_t i = 0; i < m.matches.size(); ++i)
-    m.matches[i].plane = i % 5 == 0 ? ~std::uint32_t{0} - static_cast<std::uint32_t>(i % 3)
-                                    : static_cast<std::uint32_t>(i / 2) * 4096U;
-  const MeasuredScan scan = measured(m, wideOpen());
-  PlaneNumbers numbers;
-  EXPECT_FALSE(numbers.contains(0));
-  for (int repetition = 0; repetition < 2; ++repetition)
-  {
-    numbers.assign(scan, m.matches);
-    std::map<std::uint32_t, std::uint32_t> expected;
-    scan.forEachBlock(
-        [&](const MeasurementBlock& block, std::size_t number)
-        {
-          for (std::size_t l = 0; l < kLanes; ++l)
-          {
-            if (block.weight[l] == 0.0) continue;
-            const std::uint32_t plane = m.matches[block.index[l]].plane;
-            const auto next = static_cast<std::uint32_t>(expected.size());
-            EXPECT_EQ(numbers.of(number, l), expected.try_emplace(plane, next).first->second);
-          }
-        });
-    EXPECT_EQ(numbers.count(), expected.size());
-    EXPECT_TRUE(numbers.contains(expected.begin()->first));
-    EXPECT_FALSE(numbers.contains(4097));
-  }
+  const Matching m = randomMatching(15, 2000);
+  MeasuredScan several;
+  several.measure(Workers(3), m.x.pose(), m.body, m.matches, wideOpen());
+  const MeasuredScan one = measured(m, wideOpen());
+  EXPECT_EQ(several.sums().HtRinvH, one.sums().HtRinvH);
+  EXPECT_EQ(several.sums().HtRinvz, one.sums().HtRinvz);
+  EXPECT_EQ(indicesOf(several), indicesOf(one));
 }
 }  // namespace
 }  // namespace fastlio

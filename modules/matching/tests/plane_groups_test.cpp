@@ -73,7 +73,7 @@ TEST(PlaneGrouping, IsTheSumsByPlane)
     const Matching m = onFewPlanes(static_cast<unsigned>(n), n);
     const Definition expected = definition(m, model);
     PlaneGrouping grouping;
-    const GroupedMeasurements& grouped = grouping.group(measured(m, model), m.matches);
+    const GroupedMeasurements& grouped = grouping.group(Workers(1), measured(m, model), m.matches);
     const double scale = kRelative * expected.information.norm();
     EXPECT_LE((grouped.information - expected.information).norm(), scale) << n << " points";
     EXPECT_LE(
@@ -89,7 +89,7 @@ TEST(PlaneGrouping, GivesEachPlaneItsPointsInTheOrderOfTheFirst)
   const Matching m = onFewPlanes(3, 800);
   const Definition expected = definition(m, model);
   PlaneGrouping grouping;
-  const auto& groups = grouping.group(measured(m, model), m.matches).groups;
+  const auto& groups = grouping.group(Workers(1), measured(m, model), m.matches).groups;
   std::vector<std::uint32_t> planes;
   for (std::size_t i = 0; i < m.matches.size(); ++i)
   {
@@ -118,11 +118,12 @@ TEST(PlaneGrouping, KnowsWhichPlanesTheScanBeforeHadSeen)
   const ResidualModel model = narrow();
   const Matching m = onFewPlanes(4, 400);
   PlaneGrouping grouping;
-  EXPECT_EQ(grouping.group(measured(m, model), m.matches).persistence, 0.0);
-  EXPECT_EQ(grouping.group(measured(m, model), m.matches).persistence, 1.0);
+  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 0.0);
+  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 1.0);
   const std::vector<PlaneMatch> none(m.matches.size());
-  EXPECT_EQ(grouping.group(measured(m.x.pose(), m.body, none, model), none).persistence, 0.0);
-  EXPECT_EQ(grouping.group(measured(m, model), m.matches).persistence, 0.0);
+  EXPECT_EQ(
+      grouping.group(Workers(1), measured(m.x.pose(), m.body, none, model), none).persistence, 0.0);
+  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 0.0);
 }
 
 TEST(PlaneGrouping, LeavesOutWhatIsNoNumber)
@@ -133,7 +134,7 @@ TEST(PlaneGrouping, LeavesOutWhatIsNoNumber)
   m.matches[20].shared_variance = std::numeric_limits<float>::quiet_NaN();
   m.matches[20].d = 1e6F;  // far outside of the gate
   PlaneGrouping grouping;
-  const GroupedMeasurements& grouped = grouping.group(measured(m, model), m.matches);
+  const GroupedMeasurements& grouped = grouping.group(Workers(1), measured(m, model), m.matches);
   EXPECT_TRUE(grouped.information.allFinite());
   EXPECT_TRUE(grouped.shared_noise.allFinite());
 }
@@ -143,9 +144,9 @@ TEST(PlaneGrouping, IsTheSameOnSeveralThreads)
   const ResidualModel model = narrow();
   const Matching m = onFewPlanes(6, 2000);
   const MeasuredScan scan = measured(m, model);
-  PlaneGrouping one, several(std::make_shared<const Workers>(3));
-  const GroupedMeasurements& a = one.group(scan, m.matches);
-  const GroupedMeasurements& b = several.group(scan, m.matches);
+  PlaneGrouping one, several;
+  const GroupedMeasurements& a = one.group(Workers(1), scan, m.matches);
+  const GroupedMeasurements& b = several.group(Workers(3), scan, m.matches);
   EXPECT_EQ(a.information, b.information);
   EXPECT_EQ(a.shared_noise, b.shared_noise);
   ASSERT_EQ(a.groups.size(), b.groups.size());

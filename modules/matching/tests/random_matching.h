@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -77,17 +76,12 @@ inline void expectEqual(const InformationSums& a, const InformationSums& b)
   EXPECT_NEAR(a.squares, b.squares, 1e-9 * b.squares);
 }
 
-/** All points of a scan, measured chunk after chunk. */
 inline MeasuredScan measured(
     const Pose& T_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const ResidualModel& model)
 {
   MeasuredScan scan;
-  scan.clear(body.size());
-  for (std::size_t chunk = 0; chunk < scan.chunks(); ++chunk)
-    scan.measure(
-        T_world_scan, body, matches, model, chunk, chunk * Workers::kChunk,
-        std::min(body.size(), (chunk + 1) * Workers::kChunk));
+  scan.measure(Workers(1), T_world_scan, body, matches, model);
   return scan;
 }
 

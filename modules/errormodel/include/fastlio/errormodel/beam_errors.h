@@ -25,8 +25,7 @@ namespace fastlio
 class BeamErrors
 {
  public:
-  /** A scan was matched. \param R_world_scan attitude of the scan
-   * pose
+  /** A scan was matched. \param R_world_scan attitude of the scan pose
    * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
       const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
@@ -35,8 +34,8 @@ class BeamErrors
   void forgetMap() { incidence_.forgetMap(); }
 
   /** Covariance of sum w h b over a scan, b by offsets of range and elevation, of beams and of
-   * sides. The points are those of the last lesson, which every fourth scan is: what the beams
-   * meet stays nearly the same, seen from the sensor.
+   * sides. The points are those of the last sampled scan, which every fourth one is: what the
+   * beams meet stays nearly the same, seen from the sensor.
    * \param R_world_scan attitude of the scan pose */
   [[nodiscard]] Matrix6 covariance(const Mat3& R_world_scan) const;
   /** Root mean square of the offsets; 0 while none is known. */
@@ -51,7 +50,7 @@ class BeamErrors
   struct Offset
   {
     double information = 0.0, weighted = 0.0;  // of all scans
-    Vector6 in_lesson = Vector6::Zero();       // sum of w h times its derivative, last lesson
+    Vector6 in_sampled = Vector6::Zero();      // sum of w h times its derivative, sampled scan
 
     void add(const PointMeasurement& point, double derivative);
   };
@@ -62,11 +61,11 @@ class BeamErrors
   [[nodiscard]] static BeamLanes beamsOf(
       const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame);
   void add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point);
-  void beginLesson(const Mat3& R_world_scan);
-  void learn(
+  void beginSample(const Mat3& R_world_scan);
+  void sample(
       const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane);
 
-  /** Of what the last lesson says, as outer products. */
+  /** Of the sampled scan, as outer products. */
   [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
   [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
   [[nodiscard]] double rangeVariance() const;
@@ -77,7 +76,7 @@ class BeamErrors
   IncidenceBias incidence_;
   SideErrors sides_;
   std::size_t scans_ = 0;
-  Mat3 R_world_lesson_ = Mat3::Identity();  // attitude of the scan of the last lesson
+  Mat3 R_world_sampled_ = Mat3::Identity();  // attitude of the sampled scan
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 

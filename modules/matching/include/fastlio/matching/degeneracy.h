@@ -7,6 +7,7 @@
 
 #include <fastlio/interface/scan_constraints.h>
 #include <fastlio/matching/measured_scan.h>
+#include <fastlio/matching/plane_numbers.h>
 #include <fastlio/matching/point_to_plane.h>
 
 #include <cstddef>
@@ -31,22 +32,23 @@ inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
 [[nodiscard]] ScanConstraints informationByDirection(
     const Matrix6& information, const Matrix6& noise_information);
 
-/** Computes the supported information of the weak directions. A plane that a voxel at an edge has
- * fitted to points of two walls may stand across a tunnel. It is certain of a position that nothing
- * else confirms, so one or two planes never constrain a direction. Keeps its storage. */
-class WithoutStrongestPlanes
+/** The planes that say most about a direction. A plane that a voxel at an edge has fitted to points
+ * of two walls may stand across a tunnel. It is certain of a position that nothing else confirms,
+ * so one or two planes never constrain a direction. Keeps its storage. */
+class StrongestPlanes
 {
  public:
   /** Makes room for a scan of so many points. */
   void reserve(std::size_t points);
-  void operator()(
+  /** Takes them from the supported information of the weak directions. */
+  void takeFromSupport(
       const MeasuredScan& scan, const std::vector<PlaneMatch>& matches,
       ScanConstraints& constraints);
 
  private:
   /** Information along a direction of the three planes that say most about it [1/m^2].
    * \param direction of a step of the scan pose */
-  [[nodiscard]] double strongest(const MeasuredScan& scan, const Vector6& direction);
+  [[nodiscard]] double informationAlong(const MeasuredScan& scan, const Vector6& direction);
 
   PlaneNumbers planes_;
   std::vector<double> of_plane_;  // information by number of the plane

@@ -8,10 +8,10 @@
 #include <fastlio/filter/state.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/matching/measured_scan.h>
+#include <fastlio/matching/plane_numbers.h>
 #include <fastlio/parallel/workers.h>
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace fastlio
@@ -39,19 +39,14 @@ struct GroupedMeasurements
 class PlaneGrouping
 {
  public:
-  /** \param workers who share the points; the result does not depend on them */
-  explicit PlaneGrouping(
-      std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
-
   /** The measurements of a scan by plane; valid until the next call. */
   const GroupedMeasurements& group(
-      const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
+      const Workers& workers, const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
 
  private:
   void addPoints(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
   void finishGroups();
 
-  std::shared_ptr<const Workers> workers_;
   GroupedMeasurements result_;
   std::vector<Matrix6> chunk_noise_;
   PlaneNumbers planes_, planes_before_;  // of the scan and of the one before

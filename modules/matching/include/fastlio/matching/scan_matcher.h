@@ -77,7 +77,7 @@ class ScanMatcher
   std::vector<LineMatch> edge_matches_;
   MeasuredScan measured_;
   std::vector<Matrix6> chunk_noise_;
-  WithoutStrongestPlanes without_strongest_planes_;
+  StrongestPlanes strongest_planes_;
 };
 
 }  // namespace fastlio
