@@ -74,19 +74,27 @@ Beam::Beam(const BeamSettings& settings)
 {
 }
 
-std::optional<Return> Beam::receive(const Ray& ray, const Vec3& up, const Look& look) const
+RayBundle Beam::rays(const Ray& middle, const Vec3& up) const
 {
-  if (half_width_ == 0.0 && half_height_ == 0.0) return look(ray);
+  RayBundle rays(middle);
+  if (hasNoWidth()) return rays;
   // Five rays of equal light: the middle, and the middle of each quarter, a little farther out.
   constexpr double kOuter = 0.6;
-  const Vec3 aside = half_width_ * kOuter * up.cross(ray.direction).normalized();
-  const Vec3 upward =
-      half_height_ * kOuter * ray.direction.cross(up.cross(ray.direction)).normalized();
-  Parts parts;
-  parts.add(look(ray));
+  const Vec3& d = middle.direction;
+  const Vec3 aside = half_width_ * kOuter * up.cross(d).normalized();
+  const Vec3 upward = half_height_ * kOuter * d.cross(up.cross(d)).normalized();
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
-      parts.add(look({ray.origin, (ray.direction + x * aside + y * upward).normalized()}));
+      rays.directions[rays.count++] = (d + x * aside + y * upward).normalized();
+  return rays;
+}
+
+std::optional<Return> Beam::receive(const BeamReturns& backs) const
+{
+  if (hasNoWidth()) return backs[0];
+  Parts parts;
+  for (const auto& back : backs)
+    parts.add(back);
   return strongest(parts);
 }
 

@@ -51,23 +51,34 @@ Echo Caster::echo(const Shot& shot, const Instant& at) const
   const LidarSettings& lidar = simulation_->settings().lidar;
   const LidarErrors& errors = simulation_->lidarErrors();
   const Pose& T = at.T_world_lidar;
-  const FirstHit first_hit = [&](const Ray& ray, double max_range)
-  { return firstHit(ray, at, max_range); };
-  const Look look = [&](const Ray& ray) { return panes_.follow(ray, lidar.max_range, first_hit); };
-  const auto back = beam_.receive({T.p, T.R * trueDirection(shot, errors)}, T.R.col(2), look);
+  const RayBundle rays = beam_.rays({T.p, T.R * trueDirection(shot, errors)}, T.R.col(2));
+  const auto back = beam_.receive(returnsOf(rays, at));
   if (!back || back->range < lidar.min_range) return {};
   const double range = back->range + errors.range_offset[shot.ring] + rangeBias(lidar.beam, *back);
   return {std::max(range, 0.0), static_cast<float>(255.0 * back->reflectivity * back->facing)};
 }
 
-std::optional<RayHit> Caster::firstHit(const Ray& ray, const Instant& at, double max_range) const
+BeamReturns Caster::returnsOf(const RayBundle& rays, const Instant& at) const
 {
-  auto nearest = simulation_->world().cast(ray, at.t, max_range);
+  const double max_range = simulation_->settings().lidar.max_range;
+  const FirstHit behind_a_pane = [&](const Ray& ray, double reach)
+  { return firstHits(RayBundle(ray), at, reach)[0]; };
+  const BundleHits hits = firstHits(rays, at, max_range);
+  BeamReturns backs;
+  for (std::size_t i = 0; i < rays.count; ++i)
+    backs[i] = panes_.follow(rays.ray(i), hits[i], max_range, behind_a_pane);
+  return backs;
+}
+
+BundleHits Caster::firstHits(const RayBundle& rays, const Instant& at, double max_range) const
+{
+  BundleHits nearest = simulation_->world().cast(rays, at.t, max_range);
   for (const Primitive& person : at.people)
-  {
-    const auto hit = intersect(person, ray);
-    if (hit && hit->range <= (nearest ? nearest->range : max_range)) nearest = hit;
-  }
+    for (std::size_t i = 0; i < rays.count; ++i)
+    {
+      const auto hit = intersect(person, rays.ray(i));
+      if (hit && hit->range <= (nearest[i] ? nearest[i]->range : max_range)) nearest[i] = hit;
+    }
   return nearest;
 }
 

@@ -31,8 +31,9 @@ class Caster
 
   [[nodiscard]] Instant instantOf(double t) const;
   [[nodiscard]] Echo echo(const Shot& shot, const Instant& at) const;
-  [[nodiscard]] std::optional<RayHit> firstHit(
-      const Ray& ray, const Instant& at, double max_range) const;
+  [[nodiscard]] BeamReturns returnsOf(const RayBundle& rays, const Instant& at) const;
+  [[nodiscard]] BundleHits firstHits(
+      const RayBundle& rays, const Instant& at, double max_range) const;
 
   const Simulation* simulation_;
   Beam beam_;

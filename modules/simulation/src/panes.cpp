@@ -43,13 +43,12 @@ Panes::Surface Panes::surfaceAt(const Vec3& point, const RayHit& hit) const
   return chance < settings_.glass + settings_.mirrors ? Surface::Mirror : Surface::Matt;
 }
 
-std::optional<Return> Panes::follow(Ray ray, double max_range, const FirstHit& first_hit) const
+std::optional<Return> Panes::follow(
+    Ray ray, std::optional<RayHit> hit, double max_range, const FirstHit& next) const
 {
   double gone = 0.0, light = 1.0;
-  for (int panes = 0; panes <= kMostPanes; ++panes)
+  for (int panes = 0; hit && panes <= kMostPanes; ++panes)
   {
-    const auto hit = first_hit(ray, max_range - gone);
-    if (!hit) return std::nullopt;
     const double facing = -hit->normal.dot(ray.direction);
     const Vec3 point = ray.origin + hit->range * ray.direction;
     const Surface surface = surfaceAt(point, *hit);
@@ -61,6 +60,7 @@ std::optional<Return> Panes::follow(Ray ray, double max_range, const FirstHit& f
     ray.origin = point + kSkip * ray.direction;
     gone = range + kSkip;
     light *= kPassed;
+    hit = next(ray, max_range - gone);
   }
   return std::nullopt;
 }

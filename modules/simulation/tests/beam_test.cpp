@@ -24,6 +24,11 @@ Primitive wall(double x, double min_y, double max_y, double reflectivity = 0.5)
       reflectivity};
 }
 
+std::optional<Return> through(const Panes& panes, const Ray& ray, const FirstHit& first)
+{
+  return panes.follow(ray, first(ray, kFar), kFar, first);
+}
+
 /** Ranges of a fan of horizontal beams from the origin. */
 class Fan
 {
@@ -35,12 +40,13 @@ class Fan
 
   [[nodiscard]] std::optional<Return> at(double azimuth) const
   {
-    const Panes panes({});
-    const FirstHit first = [&](const Ray& ray, double reach)
-    { return world_.cast(ray, 0.0, reach); };
-    const Look look = [&](const Ray& ray) { return panes.follow(ray, kFar, first); };
-    return beam_.receive(
-        {Vec3::Zero(), {std::cos(azimuth), std::sin(azimuth), 0.0}}, Vec3::UnitZ(), look);
+    const Ray middle{Vec3::Zero(), {std::cos(azimuth), std::sin(azimuth), 0.0}};
+    const RayBundle rays = beam_.rays(middle, Vec3::UnitZ());
+    const BundleHits hits = world_.cast(rays, 0.0, kFar);
+    BeamReturns backs;
+    for (std::size_t i = 0; i < rays.count; ++i)
+      backs[i] = through(Panes({}), rays.ray(i), [&](const Ray&, double) { return hits[i]; });
+    return beam_.receive(backs);
   }
 
  private:
@@ -133,7 +139,7 @@ Shares sharesOf(const SurfaceSettings& settings)
   const Vec3 direction = Vec3(2.0, 1.0, 0.0).normalized();
   for (int i = 0; i < kRays; ++i)
   {
-    const auto back = panes.follow({{0.0, 0.37 * i - 4000.0, 0.5}, direction}, kFar, first);
+    const auto back = through(panes, {{0.0, 0.37 * i - 4000.0, 0.5}, direction}, first);
     const double depth = back ? back->range * direction.x() : 0.0;
     const auto is = [depth](double x) { return std::abs(depth - x) < 1e-3 ? 1.0 / kRays : 0.0; };
     shares.wall += is(10.0);
@@ -159,10 +165,10 @@ TEST(Panes, ShineBackAtARightAngleOnly)
   const World world({{wall(10.0, -9e3, 9e3)}, {}, std::nullopt});
   const Panes glass({1.0, 0.0});
   const FirstHit first = [&](const Ray& ray, double reach) { return world.cast(ray, 0.0, reach); };
-  const auto straight = glass.follow({Vec3::Zero(), Vec3::UnitX()}, kFar, first);
+  const auto straight = through(glass, {Vec3::Zero(), Vec3::UnitX()}, first);
   ASSERT_TRUE(straight);
   EXPECT_NEAR(straight->range, 10.0, 1e-9);
-  EXPECT_FALSE(glass.follow({Vec3::Zero(), Vec3(1.0, 0.3, 0.0).normalized()}, kFar, first));
+  EXPECT_FALSE(through(glass, {Vec3::Zero(), Vec3(1.0, 0.3, 0.0).normalized()}, first));
 }
 
 TEST(Panes, AreNeitherGroundNorRound)
@@ -175,8 +181,8 @@ TEST(Panes, AreNeitherGroundNorRound)
   const World world(parts);
   const Panes all_glass({1.0, 0.0});
   const FirstHit first = [&](const Ray& ray, double reach) { return world.cast(ray, 0.0, reach); };
-  EXPECT_NEAR(all_glass.follow({Vec3::Zero(), -Vec3::UnitZ()}, kFar, first)->range, 1.0, 1e-9);
-  EXPECT_NEAR(all_glass.follow({{0, 0.5, 0}, Vec3::UnitX()}, kFar, first)->range, 18.06, 0.01);
+  EXPECT_NEAR(through(all_glass, {Vec3::Zero(), -Vec3::UnitZ()}, first)->range, 1.0, 1e-9);
+  EXPECT_NEAR(through(all_glass, {{0, 0.5, 0}, Vec3::UnitX()}, first)->range, 18.06, 0.01);
 }
 }  // namespace
 }  // namespace fastlio

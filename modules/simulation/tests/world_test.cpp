@@ -168,6 +168,46 @@ TEST(World, HierarchyFindsWhatTestingEveryBodyFinds)
   EXPECT_GT(hits, 1000);
 }
 
+double hilly(double x, double y)
+{
+  return 1.5 * std::sin(0.4 * x) * std::cos(0.3 * y) + 0.1 * x;
+}
+
+TEST(World, ABundleMeetsWhatItsRaysMeetOneByOne)
+{
+  Dice dice;
+  WorldDescription parts;
+  for (int i = 0; i < 200; ++i)
+    parts.bodies.push_back(randomPrimitive(dice, 15.0));
+  for (int i = 0; i < 20; ++i)
+    parts.moving.push_back({randomPrimitive(dice, 15.0), dice.point(2.0), 0.7, 0.1 * i});
+  parts.ground.emplace(HeightField::Extent{-15.0, -15.0, 1.0, 30, 30}, hilly, 0.3);
+  const World world(parts);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    RayBundle rays({dice.point(15.0), dice.direction()});
+    const double width = i % 2 == 0 ? 0.01 : 1.0;
+    while (rays.count < 1 + static_cast<std::size_t>(i) % RayBundle::kMost)
+      rays.directions[rays.count++] = (rays.directions[0] + width * dice.direction()).normalized();
+    const double t = 0.01 * i;
+    const BundleHits found = world.cast(rays, t, 20.0);
+    for (std::size_t ray = 0; ray < rays.count; ++ray)
+    {
+      const auto alone = world.cast(rays.ray(ray), t, 20.0);
+      ASSERT_EQ(found[ray].has_value(), alone.has_value());
+      if (!alone) continue;
+      EXPECT_EQ(found[ray]->range, alone->range);
+      EXPECT_EQ(found[ray]->normal, alone->normal);
+      EXPECT_EQ(found[ray]->reflectivity, alone->reflectivity);
+      ++hits;
+    }
+    for (std::size_t none = rays.count; none < RayBundle::kMost; ++none)
+      EXPECT_FALSE(found[none].has_value());
+  }
+  EXPECT_GT(hits, 3000);
+}
+
 TEST(World, OfBodiesInTheSamePlaceTheSameOneIsHitFromEverySide)
 {
   Dice dice;
@@ -188,11 +228,6 @@ TEST(World, OfBodiesInTheSamePlaceTheSameOneIsHitFromEverySide)
       EXPECT_EQ(seen.emplace(pair, hit->reflectivity).first->second, hit->reflectivity);
     }
   EXPECT_GT(seen.size(), 30U);
-}
-
-double hilly(double x, double y)
-{
-  return 1.5 * std::sin(0.4 * x) * std::cos(0.3 * y) + 0.1 * x;
 }
 
 TEST(HeightField, RaysEndOnTheSurfaceAndPassNothingBefore)

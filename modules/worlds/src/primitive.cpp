@@ -16,28 +16,21 @@ namespace
 constexpr double kNearestHit = 1e-6;
 constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
-/** Distance along the ray and outward normal, both in the primitive's frame. */
-struct LocalHit
+void keepNearer(BodyHit& best, double t, const Vec3& normal)
 {
-  double t = kNoHit;
-  Vec3 normal = Vec3::UnitZ();
-};
-
-void keepNearer(LocalHit& best, double t, const Vec3& normal)
-{
-  if (t > kNearestHit && t < best.t) best = {t, normal};
+  if (t > kNearestHit && t < best.range) best = {t, normal};
 }
 
-LocalHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
+BodyHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
 {
   const double t = -o.z() / d.z();
   const Vec3 p = o + t * d;
-  LocalHit hit;
+  BodyHit hit;
   if (std::abs(p.x()) <= size.x() && std::abs(p.y()) <= size.y()) keepNearer(hit, t, Vec3::UnitZ());
   return hit;
 }
 
-LocalHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
+BodyHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
 {
   double enter = -kNoHit, leave = kNoHit;
   int enter_axis = 0, leave_axis = 0;
@@ -49,18 +42,18 @@ LocalHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
     if (std::min(a, b) > enter) enter = std::min(a, b), enter_axis = i;
     if (std::max(a, b) < leave) leave = std::max(a, b), leave_axis = i;
   }
-  LocalHit hit;
+  BodyHit hit;
   if (enter > leave) return hit;
   keepNearer(hit, enter, Vec3::Unit(enter_axis));
   keepNearer(hit, leave, Vec3::Unit(leave_axis));
   return hit;
 }
 
-LocalHit hitSphere(const Vec3& o, const Vec3& d, double radius)
+BodyHit hitSphere(const Vec3& o, const Vec3& d, double radius)
 {
   const double b = o.dot(d);
   const double discriminant = b * b - o.squaredNorm() + radius * radius;
-  LocalHit hit;
+  BodyHit hit;
   if (discriminant < 0.0) return hit;
   const double root = std::sqrt(discriminant);
   for (const double t : {-b - root, -b + root})
@@ -82,12 +75,12 @@ bool holdsLeaf(const Vec3& p, double cell, double share)
   return static_cast<double>(hash >> 40U) < share * 16777216.0;
 }
 
-LocalHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
+BodyHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
 {
   constexpr double kLeaf = 0.1, kFreePath = 0.6;  // [m]
   const double b = o.dot(d);
   const double discriminant = b * b - o.squaredNorm() + radius * radius;
-  LocalHit hit;
+  BodyHit hit;
   if (discriminant < 0.0) return hit;
   const double leave = -b + std::sqrt(discriminant);
   for (double t = std::max(-b - std::sqrt(discriminant), 0.0) + 0.5 * kLeaf; t < leave; t += kLeaf)
@@ -99,9 +92,9 @@ LocalHit hitFoliage(const Vec3& o, const Vec3& d, double radius)
   return hit;
 }
 
-LocalHit hitCylinder(const Vec3& o, const Vec3& d, const Vec3& size)
+BodyHit hitCylinder(const Vec3& o, const Vec3& d, const Vec3& size)
 {
-  LocalHit hit;
+  BodyHit hit;
   const double radius = size.x();
   for (const double lid : {-size.z(), size.z()})
   {
@@ -123,24 +116,6 @@ LocalHit hitCylinder(const Vec3& o, const Vec3& d, const Vec3& size)
   return hit;
 }
 
-LocalHit hitShape(const Primitive& primitive, const Vec3& o, const Vec3& d)
-{
-  switch (primitive.shape)
-  {
-    case Primitive::Shape::Rectangle:
-      return hitRectangle(o, d, primitive.size);
-    case Primitive::Shape::Box:
-      return hitBox(o, d, primitive.size);
-    case Primitive::Shape::Cylinder:
-      return hitCylinder(o, d, primitive.size);
-    case Primitive::Shape::Sphere:
-      return hitSphere(o, d, primitive.size.x());
-    case Primitive::Shape::Foliage:
-      return hitFoliage(o, d, primitive.size.x());
-  }
-  return {};
-}
-
 Vec3 localHalfExtents(const Primitive& primitive)
 {
   const Vec3& s = primitive.size;
@@ -160,17 +135,41 @@ Vec3 localHalfExtents(const Primitive& primitive)
 }
 }  // namespace
 
+BodyHit intersectLocal(const Primitive& primitive, const Ray& local)
+{
+  const auto& [o, d] = local;
+  switch (primitive.shape)
+  {
+    case Primitive::Shape::Rectangle:
+      return hitRectangle(o, d, primitive.size);
+    case Primitive::Shape::Box:
+      return hitBox(o, d, primitive.size);
+    case Primitive::Shape::Cylinder:
+      return hitCylinder(o, d, primitive.size);
+    case Primitive::Shape::Sphere:
+      return hitSphere(o, d, primitive.size.x());
+    case Primitive::Shape::Foliage:
+      return hitFoliage(o, d, primitive.size.x());
+  }
+  return {};
+}
+
+RayHit worldHit(const Primitive& primitive, const BodyHit& hit, const Vec3& local_direction)
+{
+  const Vec3 towards = hit.normal.dot(local_direction) > 0.0 ? Vec3(-hit.normal) : hit.normal;
+  const bool flat =
+      primitive.shape == Primitive::Shape::Rectangle || primitive.shape == Primitive::Shape::Box;
+  return {hit.range, primitive.T_world_local.R * towards, primitive.reflectivity, flat};
+}
+
 std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)
 {
   const Mat3& R = primitive.T_world_local.R;
-  const Vec3 o = R.transpose() * (ray.origin - primitive.T_world_local.p);
-  const Vec3 d = R.transpose() * ray.direction;
-  const LocalHit hit = hitShape(primitive, o, d);
-  if (!(hit.t < kNoHit)) return std::nullopt;
-  const Vec3 towards = hit.normal.dot(d) > 0.0 ? Vec3(-hit.normal) : hit.normal;
-  const bool flat =
-      primitive.shape == Primitive::Shape::Rectangle || primitive.shape == Primitive::Shape::Box;
-  return RayHit{hit.t, R * towards, primitive.reflectivity, flat};
+  const Ray local{
+      R.transpose() * (ray.origin - primitive.T_world_local.p), R.transpose() * ray.direction};
+  const BodyHit hit = intersectLocal(primitive, local);
+  if (!(hit.range < kNoHit)) return std::nullopt;
+  return worldHit(primitive, hit, local.direction);
 }
 
 void Bounds::include(const Bounds& other)

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "traced_bundle.h"
 #include <fastlio/worlds/world.h>
 
 #include <algorithm>
@@ -14,30 +15,6 @@ namespace fastlio
 namespace
 {
 constexpr std::uint32_t kLeafSize = 2;
-constexpr double kMissed = std::numeric_limits<double>::infinity();
-
-/** A ray with what the box test needs. */
-struct TracedRay
-{
-  Vec3 origin, inverse;
-};
-
-TracedRay traced(const Ray& ray)
-{
-  // A zero component would give 0 * inf at a box's border.
-  const auto invert = [](double d) { return 1.0 / (std::abs(d) < 1e-200 ? 1e-200 : d); };
-  return {ray.origin, ray.direction.unaryExpr(invert)};
-}
-
-/** Where a ray enters a box [m], infinite where it misses the box within its range. */
-double entryInto(const Bounds& bounds, const TracedRay& ray, double max_range)
-{
-  const Vec3 a = (bounds.min - ray.origin).cwiseProduct(ray.inverse);
-  const Vec3 b = (bounds.max - ray.origin).cwiseProduct(ray.inverse);
-  const double enter = a.cwiseMin(b).maxCoeff();
-  const double leave = a.cwiseMax(b).minCoeff();
-  return enter <= leave && leave >= 0.0 && enter <= max_range ? enter : kMissed;
-}
 
 /** Everywhere that a moving object can be. */
 Bounds sweptBounds(const MovingObject& object)
@@ -47,10 +24,6 @@ Bounds sweptBounds(const MovingObject& object)
   return {middle.min - reach, middle.max + reach};
 }
 
-void keepNearer(std::optional<RayHit>& best, const std::optional<RayHit>& hit, double max_range)
-{
-  if (hit && hit->range <= (best ? best->range : max_range)) best = hit;
-}
 }  // namespace
 
 Primitive MovingObject::at(double t) const
@@ -97,61 +70,58 @@ std::uint32_t World::build(std::uint32_t first, std::uint32_t last)
   return index;
 }
 
-std::optional<RayHit> World::castBodies(const Ray& ray, double max_range) const
+void World::castBodies(TracedBundle& rays) const
 {
-  if (nodes_.empty()) return std::nullopt;
+  if (nodes_.empty()) return;
   struct Visit
   {
     std::uint32_t node;
     double enter;
   };
-  const TracedRay fast = traced(ray);
-  std::array<Visit, 64> stack{};
+  std::array<Visit, 64> stack;
   std::size_t depth = 0;
-  std::optional<RayHit> best;
-  std::uint32_t best_body = 0;
-  const auto reach = [&] { return best ? best->range : max_range; };
   const auto push = [&](const Visit& visit)
   {
-    if (visit.enter < kMissed) stack[depth++] = visit;
+    if (visit.enter < TracedBundle::kMissed) stack[depth++] = visit;
   };
-  push({0, entryInto(nodes_[0].bounds, fast, max_range)});
+  push({0, rays.entryInto(nodes_[0].bounds)});
   while (depth > 0)
   {
     const auto [index, enter] = stack[--depth];
-    if (enter > reach()) continue;
+    if (enter > rays.reach()) continue;
     const Node& node = nodes_[index];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-    {
-      const auto hit = intersect(description_.bodies[i], ray);
-      if (!hit || hit->range > reach()) continue;
-      // Of two bodies that touch, the last counts, in whatever order they are visited.
-      if (best && hit->range == best->range && i < best_body) continue;
-      best = hit;
-      best_body = i;
-    }
+      rays.meet(description_.bodies[i], i);
     if (node.count > 0) continue;
     // The nearer child first: what it stops need not be looked for in the other.
-    Visit nearer{index + 1, entryInto(nodes_[index + 1].bounds, fast, reach())};
-    Visit farther{node.first, entryInto(nodes_[node.first].bounds, fast, reach())};
+    Visit nearer{index + 1, rays.entryInto(nodes_[index + 1].bounds)};
+    Visit farther{node.first, rays.entryInto(nodes_[node.first].bounds)};
     if (farther.enter < nearer.enter) std::swap(nearer, farther);
     push(farther);
     push(nearer);
   }
-  return best;
+}
+
+void World::castMoving(TracedBundle& rays, double t) const
+{
+  constexpr auto kInFront = std::numeric_limits<std::uint32_t>::max();
+  for (std::size_t i = 0; i < swept_.size(); ++i)
+    if (rays.entryInto(swept_[i]) < TracedBundle::kMissed)
+      rays.meet(description_.moving[i].at(t), kInFront);
+}
+
+BundleHits World::cast(const RayBundle& rays, double t, double max_range) const
+{
+  TracedBundle traced(rays, max_range);
+  castBodies(traced);
+  if (description_.ground) traced.meet(*description_.ground);
+  castMoving(traced, t);
+  return traced.hits();
 }
 
 std::optional<RayHit> World::cast(const Ray& ray, double t, double max_range) const
 {
-  std::optional<RayHit> best = castBodies(ray, max_range);
-  if (description_.ground)
-    keepNearer(best, description_.ground->cast(ray, best ? best->range : max_range), max_range);
-  if (swept_.empty()) return best;
-  const TracedRay fast = traced(ray);
-  for (std::size_t i = 0; i < swept_.size(); ++i)
-    if (entryInto(swept_[i], fast, best ? best->range : max_range) < kMissed)
-      keepNearer(best, intersect(description_.moving[i].at(t), ray), max_range);
-  return best;
+  return cast(RayBundle(ray), t, max_range)[0];
 }
 
 }  // namespace fastlio

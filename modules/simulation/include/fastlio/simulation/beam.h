@@ -5,15 +5,15 @@
 #pragma once
 
 #include <fastlio/simulation/lidar_errors.h>
-#include <fastlio/worlds/primitive.h>
+#include <fastlio/worlds/ray_bundle.h>
 
-#include <functional>
+#include <array>
 #include <optional>
 
 namespace fastlio
 {
-/** The hit of a ray of no width. */
-using Look = std::function<std::optional<Return>(const Ray&)>;
+/** What came back of each ray of a beam. */
+using BeamReturns = std::array<std::optional<Return>, RayBundle::kMost>;
 
 /** Splits a beam into rays and makes one return of what they find, as a receiver for the strongest
  * return does: ranges that lie closer together than a pulse melt into their mean (a mixed pixel);
@@ -27,11 +27,16 @@ class Beam
    * a pulse of spinning sensors. */
   static constexpr double kPulseLength = 0.9;
 
-  /** \param ray the middle of the beam \param up the LiDAR's z axis, in the frame of the ray */
-  [[nodiscard]] std::optional<Return> receive(
-      const Ray& ray, const Vec3& up, const Look& look) const;
+  /** The rays of a beam.
+   * \param middle of the beam \param up the LiDAR's z axis, in the frame of the ray */
+  [[nodiscard]] RayBundle rays(const Ray& middle, const Vec3& up) const;
+
+  /** The return of the beam, of those of its rays. */
+  [[nodiscard]] std::optional<Return> receive(const BeamReturns& backs) const;
 
  private:
+  [[nodiscard]] bool hasNoWidth() const { return half_width_ == 0.0 && half_height_ == 0.0; }
+
   double half_width_, half_height_;  // [rad]
 };
 

@@ -22,9 +22,10 @@ class Panes
  public:
   explicit Panes(const SurfaceSettings& settings) : settings_(settings) {}
 
-  /** The surface from which light comes back to the ray's origin; range along the way of light. */
+  /** The surface from which light comes back to the ray's origin; range along the way of light.
+   * \param hit the first hit of the ray \param next finds those after panes */
   [[nodiscard]] std::optional<Return> follow(
-      Ray ray, double max_range, const FirstHit& first_hit) const;
+      Ray ray, std::optional<RayHit> hit, double max_range, const FirstHit& next) const;
 
  private:
   enum class Surface

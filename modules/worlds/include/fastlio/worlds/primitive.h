@@ -6,6 +6,7 @@
 
 #include <fastlio/math/pose.h>
 
+#include <limits>
 #include <optional>
 
 namespace fastlio
@@ -46,6 +47,21 @@ struct Primitive
 
 /** Nearest intersection farther than 1e-6 m. */
 [[nodiscard]] std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray);
+
+/** Where a ray meets a body, in the frame of the body. */
+struct BodyHit
+{
+  double range = std::numeric_limits<double>::infinity();  //!< along the ray [m]; infinite: nowhere
+  Vec3 normal = Vec3::UnitZ();                             //!< unit normal, outward
+};
+
+/** intersect() for a ray in the frame of the primitive; whoever casts many rays from one point into
+ * one body moves that point once. */
+[[nodiscard]] BodyHit intersectLocal(const Primitive& primitive, const Ray& local);
+
+/** A hit of a ray in the frame of the primitive as a hit in the world. */
+[[nodiscard]] RayHit worldHit(
+    const Primitive& primitive, const BodyHit& hit, const Vec3& local_direction);
 
 /** Axis-aligned box. */
 struct Bounds

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/worlds/height_field.h>
+#include <fastlio/worlds/ray_bundle.h>
 
 #include <cstdint>
 #include <vector>
@@ -31,6 +32,8 @@ struct WorldDescription
   std::optional<HeightField> ground;
 };
 
+class TracedBundle;
+
 /** A world to cast rays into; immutable, usable from many threads at once. */
 class World
 {
@@ -39,6 +42,9 @@ class World
 
   /** The nearest surface within max_range [m] along the ray at t [s]. */
   [[nodiscard]] std::optional<RayHit> cast(const Ray& ray, double t, double max_range) const;
+
+  /** The same for each ray of a bundle, in a fraction of the time. */
+  [[nodiscard]] BundleHits cast(const RayBundle& rays, double t, double max_range) const;
 
   [[nodiscard]] const WorldDescription& description() const { return description_; }
 
@@ -52,7 +58,8 @@ class World
   };
 
   std::uint32_t build(std::uint32_t first, std::uint32_t last);
-  [[nodiscard]] std::optional<RayHit> castBodies(const Ray& ray, double max_range) const;
+  void castBodies(TracedBundle& rays) const;
+  void castMoving(TracedBundle& rays, double t) const;
 
   WorldDescription description_;
   std::vector<Node> nodes_;
