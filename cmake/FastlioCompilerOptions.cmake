@@ -9,6 +9,8 @@ target_compile_options(fastlio_compiler_options INTERFACE -ffile-prefix-map=${PR
 # Nobody reads errno after std::sqrt() or the exception flags of the processor. Without them, loops over points
 # become vector instructions, with the same results.
 target_compile_options(fastlio_compiler_options INTERFACE -fno-math-errno -fno-trapping-math)
+# Nobody replaces single functions of our libraries by others, so they may be inlined within a library.
+target_compile_options(fastlio_compiler_options INTERFACE -fno-semantic-interposition)
 # GCC collects its garbage rarely: a tenth of the time of units that are full of Eigen's templates. With this
 # the largest takes about 1 GB.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
