@@ -130,6 +130,7 @@ TEST_F(RunFolderTest, WhatAKilledRunLeftIsReplacedAndRemoved)
   for (const char* name : {".fastlio-lock", "a.csv", "a.csv.abcdefgh.tmp", "b.csv.abcdefgh.tmp"})
     write(name, "x");
   fs::create_directories(folder().file("map-tiles-Ab12xY"));
+  fs::create_directories(folder().file("map-submaps-Ab12xY"));
   fs::create_directories(folder().file("map-tiles-of-mine"));
   EXPECT_EQ(refusal(), "");
   write(".fastlio-lock", "x");

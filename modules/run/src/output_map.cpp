@@ -7,24 +7,14 @@
 #include <fastlio/run/output_map.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
-#include <string_view>
-#include <system_error>
 
 namespace fastlio
 {
 namespace
 {
-namespace fs = std::filesystem;
-
-constexpr std::string_view kTileFolder = "map-tiles-";
-constexpr std::string_view kUnique = "XXXXXX";  // for mkdtemp
-constexpr float kFarthest = 1e7F;               // [m]: tiles are numbered by int
+constexpr float kFarthest = 1e7F;  // [m]: tiles are numbered by int
 
 bool usable(float x, float y, float z)
 {
@@ -39,52 +29,6 @@ void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
   to.z.push_back(from.z[i]);
   to.intensity.push_back(from.intensity[i]);
   to.stamp_ns.push_back(from.stamp_ns[i]);
-}
-
-template <typename T>
-void writeColumn(std::ofstream& out, const std::vector<T>& column)
-{
-  out.write(
-      reinterpret_cast<const char*>(column.data()),
-      static_cast<std::streamsize>(column.size() * sizeof(T)));
-}
-
-template <typename T>
-void readColumn(std::ifstream& in, std::vector<T>& column, std::size_t n)
-{
-  column.resize(n);
-  in.read(reinterpret_cast<char*>(column.data()), static_cast<std::streamsize>(n * sizeof(T)));
-}
-
-void writeTileFile(const std::string& path, const OutputPoints& points)
-{
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  writeColumn(out, points.x);
-  writeColumn(out, points.y);
-  writeColumn(out, points.z);
-  writeColumn(out, points.intensity);
-  writeColumn(out, points.stamp_ns);
-  out.close();
-  if (!out)
-    throw std::runtime_error(
-        "cannot write '" + path +
-        "', a piece of the map that is saved; check permissions and free space, or allow more "
-        "memory (output.map_memory)");
-}
-
-OutputPoints readTile(const std::string& path, std::size_t n)
-{
-  std::ifstream in(path, std::ios::binary);
-  OutputPoints points;
-  readColumn(in, points.x, n);
-  readColumn(in, points.y, n);
-  readColumn(in, points.z, n);
-  readColumn(in, points.intensity, n);
-  readColumn(in, points.stamp_ns, n);
-  if (!in)
-    throw std::runtime_error(
-        "cannot read '" + path + "', a piece of the map that is saved: was it removed?");
-  return points;
 }
 }  // namespace
 
@@ -104,10 +48,11 @@ struct OutputMap::Tile
   OutputPoints points;
   std::size_t size = 0;
   std::uint64_t last_insertion = 0;
-  std::string path;
+  ScratchFile file;
 };
 
-OutputMap::OutputMap(OutputMapOptions options) : options_(std::move(options))
+OutputMap::OutputMap(OutputMapOptions options)
+    : options_(std::move(options)), folder_(ScratchContent::MapTiles, options_.directory)
 {
   if (!(options_.spacing >= 0.0) || !(options_.tile_size > 0.0))
     throw std::invalid_argument(
@@ -115,11 +60,7 @@ OutputMap::OutputMap(OutputMapOptions options) : options_(std::move(options))
         std::to_string(options_.spacing) + " and " + std::to_string(options_.tile_size));
 }
 
-OutputMap::~OutputMap()
-{
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
+OutputMap::~OutputMap() = default;
 
 std::map<OutputMap::Key, OutputPoints> OutputMap::byTile(const OutputPoints& points) const
 {
@@ -154,7 +95,7 @@ void OutputMap::restore(Tile& tile)
   if (tile.index) return;
   tile.index = std::make_unique<CIncrementalPointsMap>(options_.spacing);
   if (tile.size == 0) return;
-  tile.points = readTile(tile.path, tile.size);
+  tile.points = readBack(tile);
   tile.index->insertPoints(
       tile.points.x.data(), tile.points.y.data(), tile.points.z.data(), tile.size);
   in_memory_ += tile.size;
@@ -180,31 +121,27 @@ void OutputMap::addTo(Tile& tile, const OutputPoints& points)
   in_memory_ += kept - before;
 }
 
-std::string OutputMap::pathOf(const Key& key)
-{
-  if (folder_.empty())
-  {
-    const fs::path place =
-        options_.directory.empty() ? fs::temp_directory_path() : fs::path(options_.directory);
-    std::string name = (place / kTileFolder).string().append(kUnique);
-    if (mkdtemp(name.data()) == nullptr)
-      throw std::runtime_error(
-          "cannot make the folder '" + name +
-          "' for pieces of the map: " + std::generic_category().message(errno) +
-          "; check permissions and free space, or allow more memory (output.map_memory)");
-    folder_ = name;
-  }
-  return (fs::path(folder_) / (std::to_string(key.first) + "_" + std::to_string(key.second)))
-      .string();
-}
-
 void OutputMap::store(const Key& key, Tile& tile)
 {
-  tile.path = pathOf(key);
-  writeTileFile(tile.path, tile.points);
+  const OutputPoints& p = tile.points;
+  tile.file = folder_.write(
+      std::to_string(key.first) + "_" + std::to_string(key.second), p.x, p.y, p.z, p.intensity,
+      p.stamp_ns);
   in_memory_ -= tile.size;
   tile.points = {};
   tile.index.reset();
+}
+
+OutputPoints OutputMap::readBack(const Tile& tile) const
+{
+  OutputPoints p;
+  p.x.resize(tile.size);
+  p.y.resize(tile.size);
+  p.z.resize(tile.size);
+  p.intensity.resize(tile.size);
+  p.stamp_ns.resize(tile.size);
+  folder_.read(tile.file, p.x, p.y, p.z, p.intensity, p.stamp_ns);
+  return p;
 }
 
 void OutputMap::keepWithinMemory()
@@ -231,14 +168,8 @@ void OutputMap::forEachTile(const std::function<void(const OutputPoints&)>& use)
     if (tile->index)
       use(tile->points);
     else
-      use(readTile(tile->path, tile->size));
+      use(readBack(*tile));
   }
-}
-
-bool isTileFolder(const std::string& name)
-{
-  return name.size() == kTileFolder.size() + kUnique.size() &&
-         name.compare(0, kTileFolder.size(), kTileFolder) == 0;
 }
 
 OutputPoints outputPointsOf(const WorldPoints& points, const RegisteredFields& fields)

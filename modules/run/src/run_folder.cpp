@@ -3,7 +3,7 @@
 
 #include "run_record.h"
 #include <fastlio/files/same_file.h>
-#include <fastlio/run/output_map.h>
+#include <fastlio/files/scratch_folder.h>
 #include <fastlio/run/run_folder.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ void removeFinishedOf(
 bool isUnfinished(const RunFolderPlan& plan, const std::string& name)
 {
   const auto is_of = [&name](const std::string& file) { return isTemporaryOf(file, name); };
-  return isTileFolder(name) || std::any_of(plan.files.begin(), plan.files.end(), is_of);
+  return isScratchFolder(name) || std::any_of(plan.files.begin(), plan.files.end(), is_of);
 }
 
 void removeUnfinished(const RunFolderPlan& plan)

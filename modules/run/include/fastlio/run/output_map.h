@@ -5,6 +5,7 @@
  * as the disk. */
 #pragma once
 
+#include <fastlio/files/scratch_folder.h>
 #include <fastlio/math/so3.h>
 
 #include <cstddef>
@@ -81,18 +82,14 @@ class OutputMap
   void restore(Tile& tile);
   void store(const Key& key, Tile& tile);
   void keepWithinMemory();
-  [[nodiscard]] std::string pathOf(const Key& key);
+  [[nodiscard]] OutputPoints readBack(const Tile& tile) const;
 
   OutputMapOptions options_;
   std::map<Key, std::unique_ptr<Tile>> tiles_;
   std::size_t size_ = 0, in_memory_ = 0;
   std::uint64_t insertions_ = 0;
-  std::string folder_;  //!< of the files; empty until there is one
+  ScratchFolder folder_;
 };
-
-/** Whether a folder of that name holds the tiles of an OutputMap: its process was killed when it is
- * still there afterwards. */
-[[nodiscard]] bool isTileFolder(const std::string& name);
 
 /** The points that a scan added to the odometry's map (Odometry::registeredPoints()). */
 [[nodiscard]] OutputPoints outputPointsOf(
