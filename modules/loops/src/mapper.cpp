@@ -189,17 +189,17 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   closure.a = a;
   closure.b = b;
   closure.predicted = predictedMotion(a, b);
-  const Submap &target = result_.submaps[a], &source = result_.submaps[b];
-  if (std::min(target.planes.size(), source.planes.size()) < limits_.min_planes)
+  const auto target = result_.submaps[a].surfaces.get(), source = result_.submaps[b].surfaces.get();
+  if (std::min(target->planes.size(), source->planes.size()) < limits_.min_planes)
   {
     closure.reason = mrpt::format(
-        "%zu and %zu planes: at least %zu are needed", target.planes.size(), source.planes.size(),
+        "%zu and %zu planes: at least %zu are needed", target->planes.size(), source->planes.size(),
         limits_.min_planes);
     return closure;
   }
   const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
   closure.registration =
-      SubmapRegistration(target.planes, workers_).search(source.planes, closure.predicted, up);
+      SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
   judge(closure);
   return closure;
 }

@@ -47,12 +47,12 @@ void Mapper::searchAnchor()
     settle();
     places_ = std::make_unique<PlaceIndex>(cellOf(result_.submaps));
     for (std::size_t i = 0; i < result_.submaps.size(); ++i)
-      places_->add(result_.submaps[i].planes, levelingRotation(poses_[i].R));
+      places_->add(result_.submaps[i].surfaces.get()->planes, levelingRotation(poses_[i].R));
   }
   const Submap& query = floating_.back();
   SessionAnchor& anchor = result_.anchors[query.session];
   ++anchor.tried;
-  if (query.planes.size() < limits_.min_planes) return;
+  if (query.surfaces.planes() < limits_.min_planes) return;
   const auto found = recognised(query);
   if (!found) return;
   hypotheses_.push_back({found->T_world_session, found->margin, floating_.size() - 1});
@@ -82,7 +82,8 @@ std::optional<Mapper::Hypothesis> Mapper::recognised(const Submap& query) const
     Registration registration;
   };
   std::vector<Verified> verified;
-  for (const PlaceMatch& match : places_->find(query.planes, level_query, kPlacesToVerify))
+  const auto surfaces = query.surfaces.get();
+  for (const PlaceMatch& match : places_->find(surfaces->planes, level_query, kPlacesToVerify))
   {
     const Pose& T_world_place = poses_[match.place];
     const Mat3 level_place = levelingRotation(T_world_place.R);
@@ -94,8 +95,8 @@ std::optional<Mapper::Hypothesis> Mapper::recognised(const Submap& query) const
     predicted.covariance.diagonal().tail<3>().setConstant(
         std::pow(kGuessCells * places_->cell(), 2));
     const Registration registration =
-        SubmapRegistration(result_.submaps[match.place].planes, workers_)
-            .search(query.planes, predicted, T_world_place.R.transpose() * Vec3::UnitZ());
+        SubmapRegistration(result_.submaps[match.place].surfaces.get()->planes, workers_)
+            .search(surfaces->planes, predicted, T_world_place.R.transpose() * Vec3::UnitZ());
     if (!registration.converged) continue;
     verified.push_back(
         {T_world_place * registration.motion.T_a_b, registration.evidence.cost, registration});

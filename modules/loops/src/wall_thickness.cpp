@@ -34,10 +34,10 @@ struct Wall
 
 /** Upright planes of a submap, whose variance is the one that was measured: the floor for the
  * sensor's noise would hide how thin a single pass is. */
-std::vector<VoxelPlane> wallsOf(const Submap& submap, const Mat3& R_world_submap)
+std::vector<VoxelPlane> wallsOf(const SubmapSurfaces& submap, const Mat3& R_world_submap)
 {
   std::vector<VoxelPlane> walls;
-  for (std::size_t i = 0; i < std::min(submap.planes.size(), submap.spreads.size()); ++i)
+  for (std::size_t i = 0; i < submap.planes.size(); ++i)
   {
     VoxelPlane plane = submap.planes[i];
     const Eigen::Vector3f n(plane.nx, plane.ny, plane.nz);
@@ -102,8 +102,9 @@ void addWalls(const MappingResult& r, const Closure& closure, Thicknesses& all)
              &T_world_b = r.estimate.nodes.at(closure.b);
   const Pose T_a_b = T_world_a.inverse() * T_world_b;
   const Pose odometry = a.reference.T_world_body.inverse() * b.reference.T_world_body;
-  const std::vector<VoxelPlane> sources = wallsOf(b, T_world_b.R);
-  for (const PlanePair& pair : SubmapRegistration(wallsOf(a, T_world_a.R)).pairs(sources, T_a_b))
+  const std::vector<VoxelPlane> sources = wallsOf(*b.surfaces.get(), T_world_b.R);
+  for (const PlanePair& pair :
+       SubmapRegistration(wallsOf(*a.surfaces.get(), T_world_a.R)).pairs(sources, T_a_b))
   {
     const Wall target(pair.target), source(sources[pair.source]);
     if (!isSameWall(pair, target, T_a_b)) continue;

@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
+#include <utility>
 
 namespace fastlio
 {
@@ -41,7 +43,9 @@ Submap submapAt(const Pose& T_world_submap, unsigned seed)
     map.insert(points, Vec3::Zero());
   }
   Submap submap;
-  submap.planes = map.bestPlanes(submap.spreads);
+  SubmapSurfaces surfaces;
+  surfaces.planes = map.bestPlanes(surfaces.spreads);
+  submap.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(surfaces));
   return submap;
 }
 

@@ -24,12 +24,11 @@ bool isInterrupted(const PassHooks& hooks)
 
 /** The odometry over one session into submaps. */
 SessionOutcome addSession(
-    const Session& session, std::size_t number, Mapper& mapper, PoseTrack& track,
-    const PassHooks& hooks)
+    const Session& session, std::size_t number, SubmapBuilder submaps, Mapper& mapper,
+    PoseTrack& track, const PassHooks& hooks)
 {
   SessionOutcome outcome;
   outcome.name = session.name();
-  SubmapBuilder submaps(number);
   std::optional<CalibrationCheck> calibration;
   const auto use = [&](const ScanResult& result, const Odometry& odometry)
   {
@@ -61,7 +60,8 @@ BuiltMap buildMap(
   for (std::size_t i = 0; i < sessions.size() && !built.interrupted; ++i)
   {
     PoseTrack track(OutputFrame{});
-    built.sessions.push_back(addSession(sessions[i], i, mapper, track, hooks));
+    built.sessions.push_back(
+        addSession(sessions[i], i, SubmapBuilder(i, {}, options.store), mapper, track, hooks));
     SessionOutcome& outcome = built.sessions.back();
     // A recording without other sensors has nothing that is worth another pass.
     const bool wanted = options.use_gnss || options.use_wheels;

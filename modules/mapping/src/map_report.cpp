@@ -151,7 +151,8 @@ PlotCells wallsOf(
 {
   constexpr double kReach = 15.0, kUpright = 0.3;
   PlotCells cells{colour, 0.8, 0.12, {}};
-  for (const VoxelPlane& plane : submap.planes)
+  const auto surfaces = submap.surfaces.get();
+  for (const VoxelPlane& plane : surfaces->planes)
   {
     const Vec3 n = T_world_submap.R * Eigen::Vector3f(plane.nx, plane.ny, plane.nz).cast<double>();
     const Vec3 q =
@@ -253,9 +254,13 @@ std::vector<ClosureAgreement> agreements(const MappingResult& r)
   {
     const Closure& closure = r.closures[i];
     if (closure.verdict != ClosureVerdict::Accepted) continue;
-    const SubmapRegistration target(r.submaps.at(closure.a).planes);
+    const auto of_a = r.submaps.at(closure.a).surfaces.get(),
+               of_b = r.submaps.at(closure.b).surfaces.get();
+    // They cannot be read back any more: SubmapStore::troubles().
+    if (of_a->planes.empty() || of_b->planes.empty()) continue;
+    const SubmapRegistration target(of_a->planes);
     const auto apart = [&](const Pose& a, const Pose& b)
-    { return target.medianDistance(r.submaps.at(closure.b).planes, a.inverse() * b); };
+    { return target.medianDistance(of_b->planes, a.inverse() * b); };
     ClosureAgreement agreement;
     agreement.closure = i;
     agreement.after = apart(r.estimate.nodes.at(closure.a), r.estimate.nodes.at(closure.b));

@@ -80,7 +80,7 @@ MapJson submapsJson(const MappingResult& result)
         {{"session", submap.session},
          {"stamp_ns", submap.reference.stamp_ns},
          {"scans", submap.scans},
-         {"planes", submap.planes.size()},
+         {"planes", submap.surfaces.planes()},
          {"odometry_xyz_m", vectorJson(submap.reference.T_world_body.p)},
          {"xyz_m", vectorJson(corrected.p)},
          {"xyz_std_m",

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fastlio
 {
@@ -56,9 +57,11 @@ void moved(const WorldPoints& points, const Vec3& origin, const Pose& motion, Wo
   }
 }
 
-SubmapBuilder::SubmapBuilder(std::size_t session, SubmapRule rule)
+SubmapBuilder::SubmapBuilder(
+    std::size_t session, SubmapRule rule, std::shared_ptr<SubmapStore> store)
     : session_(session),
       rule_(rule),
+      store_(std::move(store)),
       surfaces_(std::make_unique<VoxelPlaneMap>(VoxelPlaneOptions{}))
 {
 }
@@ -108,7 +111,9 @@ std::optional<Submap> SubmapBuilder::finish()
   if (current_.scans == 0) return std::nullopt;
   Submap ended = std::move(current_);
   ended.gravity = gravity_.take();
-  ended.planes = surfaces_->bestPlanes(ended.spreads);
+  SubmapSurfaces surfaces;
+  surfaces.planes = surfaces_->bestPlanes(surfaces.spreads);
+  ended.surfaces = StoredSurfaces(store_, std::move(surfaces));
   current_ = {};
   return ended;
 }

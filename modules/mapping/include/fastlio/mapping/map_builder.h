@@ -64,6 +64,8 @@ struct BuildOptions
   ClosureLimits limits;
   bool use_gnss = true;    //!< where a recording has it
   bool use_wheels = true;  //!< likewise
+  /** Holds the surfaces of the submaps, also for those who use the result. */
+  std::shared_ptr<SubmapStore> store = std::make_shared<SubmapStore>();
 };
 
 /** The first pass: odometry over every session, submaps, closures, optimisation.

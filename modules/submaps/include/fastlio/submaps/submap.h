@@ -6,16 +6,15 @@
 #pragma once
 
 #include <fastlio/interface/scan_result.h>
-#include <fastlio/map/plane_voxel.h>
 #include <fastlio/map/surface_map.h>
 #include <fastlio/run/pose_track.h>
 #include <fastlio/submaps/gravity_reading.h>
+#include <fastlio/submaps/submap_store.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace fastlio
 {
@@ -33,8 +32,7 @@ struct Submap
   double travel = 0.0;                    //!< of the run, up to the reference [m]
   double range = 0.0;                     //!< median, of the first scan [m]
   std::size_t scans = 0;
-  std::vector<VoxelPlane> planes;  //!< each surface once; frame of the reference [m]
-  std::vector<float> spreads;      //!< of each plane, rms distance of its points across it [m]
+  StoredSurfaces surfaces;  //!< in the frame of the reference
 };
 
 /** When a submap ends. */
@@ -50,7 +48,10 @@ struct SubmapRule
 class SubmapBuilder
 {
  public:
-  explicit SubmapBuilder(std::size_t session, SubmapRule rule = {});
+  /** \param store holds the surfaces of the submaps */
+  explicit SubmapBuilder(
+      std::size_t session, SubmapRule rule = {},
+      std::shared_ptr<SubmapStore> store = std::make_shared<SubmapStore>());
   ~SubmapBuilder();
   SubmapBuilder(SubmapBuilder&&) noexcept;
   SubmapBuilder& operator=(SubmapBuilder&&) noexcept;
@@ -72,6 +73,7 @@ class SubmapBuilder
 
   std::size_t session_;
   SubmapRule rule_;
+  std::shared_ptr<SubmapStore> store_;
   double length_ = 0.0;  //!< of the current one [m]
   double travel_ = 0.0;  //!< of the run [m]
   Submap current_;
