@@ -6,6 +6,7 @@
 #include "../shared/interruption.h"
 #include "../shared/run_names.h"
 #include "command_line.h"
+#include "map_account.h"
 #include "map_outputs.h"
 #include "session_input.h"
 #include "session_verdicts.h"
@@ -197,27 +198,6 @@ std::unique_ptr<MovingObjects> votedObjects(
   return moving;
 }
 
-MapAccount accountOf(
-    const MapArguments& arguments, const std::vector<std::string>& recordings,
-    const std::vector<Session>& sessions, const BuiltMap& map, const MapOutputs& outputs)
-{
-  return {
-      MRPT_FASTLIO_VERSION,
-      recordings,
-      arguments.config_file.empty() ? "defaults" : arguments.config_file,
-      map,
-      std::nullopt,
-      agreements(map.result),
-      wallThickness(map.result),
-      outputs.points(),
-      std::nullopt,
-      notesOf(sessions, map),
-      outputs.files(),
-      outputs.problems(),
-      0.0,
-      statusOf(map, outputs.problems())};
-}
-
 ExitStatus run(const MapArguments& arguments)
 {
   const Stopwatch stopwatch;
@@ -238,11 +218,14 @@ ExitStatus run(const MapArguments& arguments)
   catchInterruptions();
   const PassHooks hooks = hooksOf(arguments.quiet);
   const auto workers = std::make_shared<const Workers>(arguments.threads);
+  const auto store =
+      std::make_shared<SubmapStore>(submapStoreOptions(arguments, sessions.front().config()));
   const BuiltMap map = checked(
       [&]
       {
         return buildMap(
-            sessions, BuildOptions{{}, arguments.use_gnss, arguments.use_wheels}, workers, hooks);
+            sessions, BuildOptions{{}, arguments.use_gnss, arguments.use_wheels, store}, workers,
+            hooks);
       });
   endIfInterrupted(map.interrupted);
   if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });
@@ -262,7 +245,7 @@ ExitStatus run(const MapArguments& arguments)
       endIfInterrupted(!outputs->add(sessions[i], i, map.result, moving.get(), hooks));
   outputs->finish(map.result, MapOutputs::frameOf(sessions.front(), arguments.frame), place);
   if (hooks.progress) std::cerr << "\r\033[K";
-  MapAccount account = accountOf(arguments, recordings, sessions, map, *outputs);
+  MapAccount account = accountOf(arguments, recordings, sessions, map, *outputs, *store);
   account.place = place;
   if (moving) account.removed = moving->counts();
   if (account.removed) account.notes.push_back(removalSentence(*account.removed));

@@ -15,14 +15,14 @@ namespace fastlio
 {
 namespace
 {
+constexpr double kPerMillion = 1e6;
+
 OutputMapOptions mapOptions(const MapArguments& arguments, const Config& config)
 {
-  constexpr double kPointsPerMillion = 1e6;
   OutputMapOptions options;
   options.spacing = config.odometry.map.output_spacing;
   options.tile_size = config.exporters.tile_size;
-  options.points_in_memory =
-      static_cast<std::size_t>(config.exporters.map_memory * kPointsPerMillion);
+  options.points_in_memory = static_cast<std::size_t>(config.exporters.map_memory * kPerMillion);
   options.directory = arguments.output_directory;
   return options;
 }
@@ -136,6 +136,13 @@ std::vector<std::string> MapFiles::names() const
          ++session)
       names.push_back(nameOf(kind, session));
   return names;
+}
+
+SubmapStoreOptions submapStoreOptions(const MapArguments& arguments, const Config& config)
+{
+  return {
+      static_cast<std::size_t>(config.exporters.submap_memory * kPerMillion),
+      arguments.output_directory};
 }
 
 MapOutputs::MapOutputs(

@@ -13,6 +13,7 @@
 #include <fastlio/run/output_map.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/run/run_folder.h>
+#include <fastlio/submaps/submap_store.h>
 
 #include <memory>
 #include <optional>
@@ -46,6 +47,10 @@ class MapFiles
 
 /** Whether there is one file of a kind for each session. */
 [[nodiscard]] bool isOfSession(const std::string& kind);
+
+/** How many planes of submaps stay in memory, and where the others go. */
+[[nodiscard]] SubmapStoreOptions submapStoreOptions(
+    const MapArguments& arguments, const Config& config);
 
 /** The second pass: corrected scans into files. */
 class MapOutputs

@@ -10,7 +10,8 @@ namespace
 {
 using Rows = OptionTable<ExportOptions>;
 
-Rows exportRows()
+/** Which files, and the form of the rawlog. */
+Rows fileRows()
 {
   return {
       {"output.exporters", "",
@@ -48,6 +49,13 @@ Rows exportRows()
          return RealValue{&o.scan_2d_thickness, 0.01, 10.0};
        },
        "thickness of the slice that the planar scan is made of; the nearest point in a ray counts"},
+  };
+}
+
+/** Maps and keyframes. */
+Rows mapRows()
+{
+  return {
       {"output.tile_size", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.tile_size, 1.0, 1e4};
@@ -59,6 +67,12 @@ Rows exportRows()
        },
        "number of points of the saved map that stay in memory; beyond it, the least recently used "
        "tiles go to files in the output folder"},
+      {"output.submap_memory", "million",
+       [](auto& o) -> OptionValue {
+         return RealValue{&o.submap_memory, 0.001, 1e4};
+       },
+       "fastlio-map: number of planes of submaps that stay in memory (68 bytes each); beyond it, "
+       "the least recently used submaps go to files in the output folder"},
       {"output.keyframe_distance", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.keyframe_distance, 0.01, 1e4};
@@ -72,11 +86,18 @@ Rows exportRows()
   };
 }
 
+Rows allRows()
+{
+  Rows all;
+  for (const Rows& rows : {fileRows(), mapRows()})
+    all.insert(all.end(), rows.begin(), rows.end());
+  return all;
+}
 }  // namespace
 
 const OptionTable<ExportOptions>& exportOptionTable()
 {
-  static const Rows table = exportRows();
+  static const Rows table = allRows();
   return table;
 }
 

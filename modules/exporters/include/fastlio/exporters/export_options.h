@@ -21,6 +21,7 @@ struct ExportOptions
   std::string exporters;           //!< names, separated by commas; empty: the standard ones
   double tile_size = 50.0;         //!< edge of the pieces that a map is kept in [m]
   double map_memory = 5.0;         //!< so many points of the map stay in memory [million]
+  double submap_memory = 5.0;      //!< so many planes of submaps stay in memory [million]
   double keyframe_distance = 1.0;  //!< a keyframe after so much travel [m]
   double keyframe_angle = 0.3490658503988659;  //!< or so much rotation [rad] (YAML: deg)
   RawlogForm rawlog_form = RawlogForm::Observations;
