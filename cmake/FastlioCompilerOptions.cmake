@@ -19,11 +19,13 @@ endif()
 if(MRPT_FASTLIO_WERROR)
   target_compile_options(fastlio_compiler_options INTERFACE -Werror)
 endif()
+# MRPT's libraries, built for the baseline of x86-64, share Eigen's inline functions with ours, and so do programs that
+# use our libraries: all have to agree on how memory is aligned and released. With AVX, Eigen releases memory in another
+# way than malloc() gives it, whatever EIGEN_MAX_ALIGN_BYTES says. So Eigen does not see AVX; the compiler uses it all
+# the same.
+set(FASTLIO_EIGEN_AS_BASELINE -U__AVX__ -U__AVX2__ -U__AVX512F__ -U__AVX512DQ__ -U__FMA__)
 if(MRPT_FASTLIO_NATIVE)
-  target_compile_options(fastlio_compiler_options INTERFACE -march=native)
-  # Eigen's heap layout follows the widest vectors unless configured otherwise, and MRPT's libraries, built for
-  # the baseline of x86-64, share Eigen's inline functions with ours: they must agree on 16 bytes.
-  target_compile_definitions(fastlio_compiler_options INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
+  target_compile_options(fastlio_compiler_options INTERFACE -march=native ${FASTLIO_EIGEN_AS_BASELINE})
   # GCC's flow analysis warns inside of its own AVX-512 header (GCC bug 105593) and of Eigen's AVX2 loads
   # that it cannot see to be unreachable. Which of these come depends on the processor, so that a build could
   # fail on one machine only; the builds for the baseline keep all of them.
@@ -38,6 +40,8 @@ if(MRPT_FASTLIO_SANITIZE)
     # What is suppressed at runtime (cmake/ubsan.supp) must be able to go on; the rest halts all the same.
     -fsanitize-recover=alignment)
   target_link_options(fastlio_compiler_options INTERFACE -fsanitize=${MRPT_FASTLIO_SANITIZE})
+  # With the address sanitizer Eigen would have its own way, too, which MRPT's libraries do not know of.
+  target_compile_definitions(fastlio_compiler_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   # With sanitizers GCC finds uninitialised members where there are none (in <regex>, for one).
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(fastlio_compiler_options INTERFACE -Wno-maybe-uninitialized)
