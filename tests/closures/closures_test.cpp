@@ -85,6 +85,26 @@ bool isFalse(const RelativePose& motion, const Pose& truth)
   return off.dot(covariance.inverse() * off) > kSigmas * kSigmas;
 }
 
+/** What spoke for a false closure, to find out why. */
+void print(const Closure& closure, const Pose& truth)
+{
+  const RegistrationEvidence& e = closure.registration.evidence;
+  const Vec3 off = truth.p - closure.registration.motion.T_a_b.p;
+  const Vec3 predicted = truth.p - closure.predicted.T_a_b.p;
+  const auto stdOf = [](const RelativePose& motion) -> Vec3
+  { return motion.covariance.diagonal().tail<3>().cwiseSqrt(); };
+  const Vec3 known = stdOf(closure.registration.motion), expected = stdOf(closure.predicted);
+  std::printf(
+      "false: %zu - %zu, off by %.2f %.2f %.2f m (std %.2f %.2f %.2f), predicted off by %.2f %.2f "
+      "%.2f m (std %.2f %.2f %.2f); overlap %.2f, inliers %.2f to %.3f m, score %.2f, upright "
+      "%.2f, "
+      "margin %.1f, rival %.2f %.2f %.2f m; %s\n",
+      closure.a, closure.b, off.x(), off.y(), off.z(), known.x(), known.y(), known.z(),
+      predicted.x(), predicted.y(), predicted.z(), expected.x(), expected.y(), expected.z(),
+      e.overlap, e.inlier_ratio, e.residual_rms, e.score, e.upright_score, e.margin, e.rival.x(),
+      e.rival.y(), e.rival.z(), closure.reason.c_str());
+}
+
 /** Whether two places are neighbours with nothing between them: what lies behind a wall or on
  * another floor has no surface in common. */
 bool isInSight(const World& world, const Vec3& a, const Vec3& b, double t)
@@ -112,7 +132,11 @@ struct Tally
       if (closure.verdict != ClosureVerdict::Accepted) continue;
       ++accepted;
       const Pose T_a_b = truth[closure.a].inverse() * truth[closure.b];
-      if (isFalse(closure.registration.motion, T_a_b)) ++wrong;
+      if (isFalse(closure.registration.motion, T_a_b))
+      {
+        ++wrong;
+        print(closure, T_a_b);
+      }
       is_closed[closure.b] = true;
     }
     submaps += truth.size();

@@ -6,11 +6,13 @@
 
 #include <mrpt/core/format.h>
 
+#include <cmath>
+#include <utility>
+
 namespace fastlio
 {
 namespace
 {
-constexpr double kPredictionQuantile = 22.46;  // chi-square, 6 degrees of freedom, 99.9 %
 // Doors and pillars that are alike pull a registration along a corridor by more than it knows of.
 constexpr double kWeak = 0.1;   // [m]
 constexpr double kOpen = 10.0;  // as of directions that nothing constrains [m]
@@ -114,14 +116,15 @@ void Mapper::judge(Closure& closure) const
   const bool is_open = limits.open_directions > 0 && openWeakDirection(closure.registration.motion);
   if (is_open) edge.measured.covariance.setZero();
   edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
-  const double squared = squaredError(edge, Pose{}, closure.predicted.T_a_b);
+  const double deviation = std::sqrt(squaredError(edge, Pose{}, closure.predicted.T_a_b));
   const double moved = (closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
-  if (squared > kPredictionQuantile)
+  if (deviation > limits.max_deviation)
     return decide(
         ClosureVerdict::OutOfReach,
         mrpt::format(
-            "%.2f m from where the odometry has it: %.1f of its standard deviations", moved,
-            std::sqrt(squared)));
+            "%.2f m from where the odometry has it: %.1f of its standard deviations, counted %.0f "
+            "times; at most %.1f",
+            moved, deviation, limits.odometry_std_factor, limits.max_deviation));
   decide(
       ClosureVerdict::Accepted,
       mrpt::format(

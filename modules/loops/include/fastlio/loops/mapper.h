@@ -70,6 +70,9 @@ struct ClosureLimits
   /** Standard deviations of the odometry count so many times: real sensors have errors that it does
    * not know of. */
   double odometry_std_factor = 2.0;
+  /** From the prediction, in these deviations. What repeats fits perfectly where the odometry is
+   * worst, on another floor for example: nothing else than its distance tells it apart. */
+  double max_deviation = 2.5;
   /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
    * fewer surfaces suffice, and the closure may leave one direction open. */
   double known_place_std = 0.5;
