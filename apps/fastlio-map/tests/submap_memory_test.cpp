@@ -79,7 +79,7 @@ class SubmapMemory : public Map
 TEST_F(SubmapMemory, ABoundChangesNoByteOfTheFiles)
 {
   const std::string first = record("first", walk(45.0));
-  SimulationSettings settings = walk(25.0);
+  SimulationSettings settings = walk(15.0);
   settings.seed = 9;
   settings = withSetting(settings, "path_start", "20");
   const std::string second = record("second", settings);

@@ -25,11 +25,11 @@ namespace
 {
 using testing::TemporaryFolder;
 
-/** Of a walk that comes back to its beginning. */
+/** Of a walk. */
 std::vector<Submap> walkedSubmaps()
 {
   SimulationSettings settings = defaultSettings("campus");
-  settings.duration = 50.0;
+  settings.duration = 25.0;
   settings.speed = 3.0;
   settings.lidar.stride = 8;
   const Simulation simulation(settings);
