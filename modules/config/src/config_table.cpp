@@ -31,14 +31,13 @@ auto placeOf(std::string_view key)
 
 Rows allRows()
 {
-  Rows all = rowsOf(
-      sensorOptionTable(), +[](Config& c) -> SensorOptions& { return c.sensors; });
-  const Rows odometry = rowsOf(
-      odometryOptionTable(), +[](Config& c) -> OdometryOptions& { return c.odometry; });
-  const Rows exporters = rowsOf(
-      exportOptionTable(), +[](Config& c) -> ExportOptions& { return c.exporters; });
-  all.insert(all.end(), odometry.begin(), odometry.end());
-  all.insert(all.end(), exporters.begin(), exporters.end());
+  Rows all = joinedRows<Config>(
+      {rowsOf(
+           sensorOptionTable(), +[](Config& c) -> SensorOptions& { return c.sensors; }),
+       rowsOf(
+           odometryOptionTable(), +[](Config& c) -> OdometryOptions& { return c.odometry; }),
+       rowsOf(
+           exportOptionTable(), +[](Config& c) -> ExportOptions& { return c.exporters; })});
   std::stable_sort(
       all.begin(), all.end(),
       [](const auto& a, const auto& b) { return placeOf(a.key) < placeOf(b.key); });

@@ -85,19 +85,11 @@ Rows mapRows()
        "keyframes: largest rotation from one to the next"},
   };
 }
-
-Rows allRows()
-{
-  Rows all;
-  for (const Rows& rows : {fileRows(), mapRows()})
-    all.insert(all.end(), rows.begin(), rows.end());
-  return all;
-}
 }  // namespace
 
 const OptionTable<ExportOptions>& exportOptionTable()
 {
-  static const Rows table = allRows();
+  static const Rows table = joinedRows<ExportOptions>({fileRows(), mapRows()});
   return table;
 }
 

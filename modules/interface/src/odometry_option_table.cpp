@@ -9,23 +9,15 @@ namespace fastlio
 {
 namespace
 {
-OdometryOptionRows allRows()
-{
-  OdometryOptionRows all;
-  for (const auto& rows :
-       {initializationRows(), startRows(), imuRows(), imuReadingRows(), lidarRows(),
-        calibrationRows(), scanRows(), measurementRows(), behaviourRows()})
-    all.insert(all.end(), rows.begin(), rows.end());
-  return all;
-}
-
 // Scales are off by percents, and axes by a few degrees. Units and turned axes have other keys.
 constexpr double kLargestMatrixError = 0.5;
 }  // namespace
 
 const OptionTable<OdometryOptions>& odometryOptionTable()
 {
-  static const OdometryOptionRows table = allRows();
+  static const OdometryOptionRows table = joinedRows<OdometryOptions>(
+      {initializationRows(), startRows(), imuRows(), imuReadingRows(), lidarRows(),
+       calibrationRows(), scanRows(), measurementRows(), behaviourRows()});
   return table;
 }
 

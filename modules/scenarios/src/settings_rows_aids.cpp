@@ -92,10 +92,7 @@ Rows wheelRows()
 
 Rows aidRows()
 {
-  Rows rows = gnssRows();
-  const Rows wheels = wheelRows();
-  rows.insert(rows.end(), wheels.begin(), wheels.end());
-  return rows;
+  return joinedRows<S>({gnssRows(), wheelRows()});
 }
 
 }  // namespace fastlio

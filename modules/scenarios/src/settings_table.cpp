@@ -222,20 +222,13 @@ Rows imuFaultRows()
   };
 }
 
-Rows makeTable()
-{
-  Rows table;
-  for (const Rows& rows :
-       {generalRows(), worldRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(),
-        imuFaultRows(), imperfectionRows(), aidRows()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  return table;
-}
 }  // namespace
 
 const OptionTable<SimulationSettings>& settingsTable()
 {
-  static const Rows table = makeTable();
+  static const Rows table = joinedRows<SimulationSettings>(
+      {generalRows(), worldRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(),
+       imuFaultRows(), imperfectionRows(), aidRows()});
   return table;
 }
 

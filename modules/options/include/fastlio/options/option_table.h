@@ -110,6 +110,16 @@ std::vector<OptionText> textsOf(const OptionTable<Options>& table, Options optio
   return texts;
 }
 
+/** The rows of some tables, one after the other. */
+template <typename Options>
+OptionTable<Options> joinedRows(const std::vector<OptionTable<Options>>& tables)
+{
+  OptionTable<Options> all;
+  for (const auto& table : tables)
+    all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
 /** The rows of a part as rows of the whole. \param part gives the part of a whole */
 template <typename Whole, typename Part>
 OptionTable<Whole> rowsOf(const OptionTable<Part>& table, Part& (*part)(Whole&))
