@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fastlio
 {
@@ -25,16 +27,29 @@ double traced(const Primitive& primitive, const Ray& ray, double max_range)
   return max_range;
 }
 
+/** A body, and a ray to somewhere near it. */
+struct Aimed
+{
+  Primitive primitive;
+  Ray ray;
+  std::optional<RayHit> hit;
+};
+
+Aimed aimed(Dice& dice)
+{
+  const Primitive primitive = randomPrimitive(dice, 2.0);
+  const Vec3 origin = dice.point(4.0);
+  const Ray ray{origin, (dice.point(2.0) - origin).normalized()};
+  return {primitive, ray, intersect(primitive, ray)};
+}
+
 TEST(Primitive, RaysHitWhereSphereTracingDoes)
 {
   Dice dice;
   int hits = 0;
   for (int i = 0; i < 3000; ++i)
   {
-    const Primitive primitive = randomPrimitive(dice, 2.0);
-    const Vec3 origin = dice.point(4.0);
-    const Ray ray{origin, (dice.point(2.0) - origin).normalized()};
-    const auto hit = intersect(primitive, ray);
+    const auto [primitive, ray, hit] = aimed(dice);
     const double expected = traced(primitive, ray, 20.0);
     // Sphere tracing creeps past grazing surfaces: both must agree whenever the ray is not grazing.
     if (hit && std::abs(hit->normal.dot(ray.direction)) < 0.02) continue;
@@ -49,10 +64,7 @@ TEST(Primitive, NormalsAreUnitAndFaceTheRay)
   Dice dice;
   for (int i = 0; i < 2000; ++i)
   {
-    const Primitive primitive = randomPrimitive(dice, 2.0);
-    const Vec3 origin = dice.point(4.0);
-    const Ray ray{origin, (dice.point(2.0) - origin).normalized()};
-    const auto hit = intersect(primitive, ray);
+    const auto [primitive, ray, hit] = aimed(dice);
     if (!hit) continue;
     EXPECT_NEAR(hit->normal.norm(), 1.0, 1e-12);
     EXPECT_LE(hit->normal.dot(ray.direction), 0.0);
@@ -68,10 +80,7 @@ TEST(Primitive, BoundsHoldTheSurface)
   Dice dice;
   for (int i = 0; i < 2000; ++i)
   {
-    const Primitive primitive = randomPrimitive(dice, 2.0);
-    const Vec3 origin = dice.point(4.0);
-    const Ray ray{origin, (dice.point(2.0) - origin).normalized()};
-    const auto hit = intersect(primitive, ray);
+    const auto [primitive, ray, hit] = aimed(dice);
     if (!hit) continue;
     const Vec3 at = ray.origin + hit->range * ray.direction;
     const Bounds bounds = boundsOf(primitive);
