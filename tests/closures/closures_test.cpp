@@ -7,12 +7,11 @@
  * FASTLIO_FIRST_SEED on. */
 
 #include "repeats.h"
+#include "simulated_submaps.h"
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/loops/mapper.h>
-#include <fastlio/odometry/odometry.h>
 #include <fastlio/scenarios/realistic.h>
 #include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/recording.h>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
@@ -55,24 +54,9 @@ SimulationSettings settingsOf(const std::string& scenario, std::uint64_t seed)
 
 MappingResult mapOf(const Simulation& simulation)
 {
-  OdometryOptions options = matchingParameters(simulation.settings());
-  options.threads = 1;
-  Odometry odometry(options);
-  SubmapBuilder submaps(0);
   Mapper mapper;
-  for (const ImuSample& sample : simulation.imu().samples)
-  {
-    odometry.addImu(sample);
-    submaps.addImu(sample);
-  }
-  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
-  {
-    odometry.addScan(simulation.scan(i));
-    while (const auto result = odometry.next())
-      if (auto submap = submaps.add(*result, odometry.registeredPoints(), odometry.mapOrigin()))
-        mapper.add(std::move(*submap));
-  }
-  if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
+  for (Submap& submap : submapsOf(simulation))
+    mapper.add(std::move(submap));
   return std::move(mapper).result();
 }
 

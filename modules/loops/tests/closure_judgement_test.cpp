@@ -1,10 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "simulated_submaps.h"
 #include <fastlio/loops/mapper.h>
-#include <fastlio/odometry/odometry.h>
 #include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/recording.h>
 
 #include <gtest/gtest.h>
 
@@ -23,21 +22,8 @@ Submap roomsAround()
   SimulationSettings settings = defaultSettings("office");
   settings.duration = 5.0;
   settings.lidar.stride = 4;
-  const Simulation simulation(settings);
-  OdometryOptions options = matchingParameters(settings);
-  options.threads = 1;
-  Odometry odometry(options);
-  SubmapBuilder builder(0, {100.0});
-  for (const ImuSample& sample : simulation.imu().samples)
-    odometry.addImu(sample);
-  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
-  {
-    odometry.addScan(simulation.scan(i));
-    while (const auto result = odometry.next())
-      if (builder.add(*result, odometry.registeredPoints(), odometry.mapOrigin()))
-        ADD_FAILURE() << "one submap was to hold all";
-  }
-  return builder.finish().value();
+  constexpr double kLong = 100.0;  // [m]: one submap holds all
+  return testing::submapsOf(Simulation(settings), {kLong}).at(0);
 }
 
 /** The closure between a submap and one later on that looks the same.

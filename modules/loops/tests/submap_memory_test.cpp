@@ -3,12 +3,11 @@
 
 // Submaps that do not fit into the memory: the same loops, the same sessions, the same walls.
 
+#include "simulated_submaps.h"
 #include "temporary_folder.h"
 #include <fastlio/loops/mapper.h>
 #include <fastlio/loops/wall_thickness.h>
-#include <fastlio/odometry/odometry.h>
 #include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/recording.h>
 
 #include <gtest/gtest.h>
 
@@ -32,26 +31,7 @@ std::vector<Submap> walkedSubmaps()
   settings.duration = 25.0;
   settings.speed = 3.0;
   settings.lidar.stride = 8;
-  const Simulation simulation(settings);
-  OdometryOptions options = matchingParameters(settings);
-  options.threads = 1;
-  Odometry odometry(options);
-  SubmapBuilder builder(0);
-  std::vector<Submap> submaps;
-  for (const ImuSample& sample : simulation.imu().samples)
-  {
-    odometry.addImu(sample);
-    builder.addImu(sample);
-  }
-  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
-  {
-    odometry.addScan(simulation.scan(i));
-    while (const auto result = odometry.next())
-      if (auto submap = builder.add(*result, odometry.registeredPoints(), odometry.mapOrigin()))
-        submaps.push_back(std::move(*submap));
-  }
-  if (auto submap = builder.finish()) submaps.push_back(std::move(*submap));
-  return submaps;
+  return testing::submapsOf(Simulation(settings));
 }
 
 /** Walked once, and then by somebody who has to find the place. */
