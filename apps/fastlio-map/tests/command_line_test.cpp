@@ -28,13 +28,13 @@ TEST_F(Map, ClosesTheLoopOfAWalk)
   EXPECT_GT(walls["single_m"].get<double>(), 0.001);
   EXPECT_LE(walls["after_m"].get<double>(), walls["before_m"].get<double>() + 0.002);
   EXPECT_LT(walls["ratio"].get<double>(), 1.5);
-  for (const std::string& text : {result.output, textOf(folder_.file("map") + "/report.html")})
+  for (const std::string& text : {result.output, contentOf(folder_.file("map") + "/report.html")})
     EXPECT_NE(text.find("walls of two passes are "), std::string::npos) << text.substr(0, 2000);
   for (const auto& file : summary["outputs"])
     EXPECT_EQ(fs::file_size(file["path"].get<std::string>()), file["bytes"].get<std::size_t>());
   EXPECT_NE(
-      textOf(folder_.file("map") + "/poses.g2o").find("EDGE_SE3:QUAT 0 1"), std::string::npos);
-  EXPECT_NE(textOf(folder_.file("map") + "/report.html").find("Closures"), std::string::npos);
+      contentOf(folder_.file("map") + "/poses.g2o").find("EDGE_SE3:QUAT 0 1"), std::string::npos);
+  EXPECT_NE(contentOf(folder_.file("map") + "/report.html").find("Closures"), std::string::npos);
 }
 
 TEST_F(Map, WithoutARevisitIsTheOdometryToTheBit)
@@ -50,7 +50,7 @@ TEST_F(Map, WithoutARevisitIsTheOdometryToTheBit)
           .wait();
   ASSERT_EQ(replay.exit_status, 0) << replay.output;
   for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.ply"})
-    EXPECT_TRUE(textOf(folder_.file("map") + file) == textOf(folder_.file("replay") + file))
+    EXPECT_TRUE(contentOf(folder_.file("map") + file) == contentOf(folder_.file("replay") + file))
         << file;
   // A folder of a run stands for its recording and its parameters.
   ASSERT_EQ(
@@ -58,8 +58,8 @@ TEST_F(Map, WithoutARevisitIsTheOdometryToTheBit)
           .exit_status,
       0);
   EXPECT_TRUE(
-      textOf(folder_.file("again") + "/trajectory.tum") ==
-      textOf(folder_.file("map") + "/trajectory.tum"));
+      contentOf(folder_.file("again") + "/trajectory.tum") ==
+      contentOf(folder_.file("map") + "/trajectory.tum"));
 }
 
 TEST_F(Map, DoesNotDependOnTheThreads)
@@ -72,16 +72,13 @@ TEST_F(Map, DoesNotDependOnTheThreads)
             .exit_status,
         0);
   for (const char* file : {"/covariance.csv", "/poses.graph", "/map.ply"})
-    EXPECT_TRUE(textOf(folder_.file("1") + file) == textOf(folder_.file("3") + file)) << file;
+    EXPECT_TRUE(contentOf(folder_.file("1") + file) == contentOf(folder_.file("3") + file)) << file;
 }
 
 TEST_F(Map, FindsAnotherDayInTheMap)
 {
   const std::string first = record("first", walk(45.0));
-  SimulationSettings settings = walk(25.0);
-  settings.seed = 9;
-  settings = withSetting(settings, "path_start", "20");
-  const std::string second = record("second", settings);
+  const std::string second = record("second", anotherDay(25.0));
   const ProcessResult result =
       run({first, second, "-o", folder_.file("both"), "--export", "trajectory,report"});
   ASSERT_EQ(result.exit_status, 0) << result.output;
@@ -122,7 +119,7 @@ TEST_F(Map, GnssTellsTheCoordinates)
   EXPECT_TRUE(summary["gnss"]["used"].get<bool>());
   EXPECT_NEAR(summary["gnss"]["horizontal_std_m"].get<double>(), 0.5, 0.35);
   EXPECT_EQ(summary["earth"]["crs"], "EPSG:32632");
-  const std::string las = textOf(folder_.file("map") + "/map.las");
+  const std::string las = contentOf(folder_.file("map") + "/map.las");
   EXPECT_EQ(las.substr(0, 4), "LASF");
   EXPECT_NE(las.find("UTM zone 32N"), std::string::npos);
 
@@ -148,8 +145,9 @@ TEST_F(Map, RemovesMovingObjects)
     EXPECT_NE(result.output.find("moving objects: "), std::string::npos) << result.output;
   }
   for (const char* file : {"/map.ply", "/map.planes"})
-    EXPECT_TRUE(textOf(folder_.file("1") + file) == textOf(folder_.file("3") + file)) << file;
-  EXPECT_NE(textOf(folder_.file("1") + "/report.html").find("moving objects: "), std::string::npos);
+    EXPECT_TRUE(contentOf(folder_.file("1") + file) == contentOf(folder_.file("3") + file)) << file;
+  EXPECT_NE(
+      contentOf(folder_.file("1") + "/report.html").find("moving objects: "), std::string::npos);
   const auto moving = summaryOf("1")["moving_objects"];
   EXPECT_GT(moving["removed_points"].get<int>(), moving["scan_points"].get<int>() / 100);
   EXPECT_LT(moving["removed_points"].get<int>(), moving["scan_points"].get<int>() / 5);
@@ -174,7 +172,7 @@ TEST_F(Map, WheelsTellTheWayThroughATunnel)
   EXPECT_NEAR(summary["wheels"]["scale"].get<double>(), 1.0, 0.05);
   EXPECT_NE(summary["result"].get<std::string>().find("wheel odometry"), std::string::npos);
   EXPECT_NE(
-      textOf(folder_.file("with") + "/report.html").find("wheel odometry determines"),
+      contentOf(folder_.file("with") + "/report.html").find("wheel odometry determines"),
       std::string::npos);
   run({rawlog, "-o", folder_.file("without"), "--export", "trajectory", "--no-wheels"});
   EXPECT_EQ(summaryOf("without")["wheels"]["readings"].get<int>(), 0);

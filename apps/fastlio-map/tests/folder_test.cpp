@@ -59,7 +59,7 @@ TEST_F(Map, KilledAndStartedAgainHasTheSameBytes)
   }
   ASSERT_EQ(Process(arguments("killed"), folder_.file("log.txt")).wait().exit_status, 0);
   for (const char* file : {"/trajectory.tum", "/covariance.csv", "/map.planes"})
-    EXPECT_TRUE(textOf(folder_.file("killed") + file) == textOf(folder_.file("whole") + file))
+    EXPECT_TRUE(contentOf(folder_.file("killed") + file) == contentOf(folder_.file("whole") + file))
         << file;
 }
 
@@ -81,7 +81,7 @@ TEST_F(Map, DoesNotReplaceWhatItHasNotWritten)
   fs::create_directory(folder_.file("mine"));
   std::ofstream(folder_.file("mine") + "/map.ply") << "mine";
   EXPECT_EQ(run({rawlog, "-o", folder_.file("mine"), "--export", "ply"}).exit_status, 1);
-  EXPECT_EQ(textOf(folder_.file("mine") + "/map.ply"), "mine");
+  EXPECT_EQ(contentOf(folder_.file("mine") + "/map.ply"), "mine");
 }
 
 }  // namespace

@@ -12,9 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +33,14 @@ class Map : public ::testing::Test
     return settings;
   }
 
+  /** A part of the same walk by other sensors. */
+  static SimulationSettings anotherDay(double duration)
+  {
+    SimulationSettings settings = walk(duration);
+    settings.seed = 9;
+    return withSetting(settings, "path_start", "20");
+  }
+
   std::string record(const std::string& name, const SimulationSettings& settings)
   {
     return writeRecording(Simulation(settings), folder_.file(name)).rawlog;
@@ -46,16 +52,9 @@ class Map : public ::testing::Test
     return Process(arguments, folder_.file("log.txt")).wait();
   }
 
-  static std::string textOf(const std::string& path)
-  {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  }
-
   nlohmann::json summaryOf(const std::string& name)
   {
-    return nlohmann::json::parse(textOf(folder_.file(name) + "/summary.json"));
+    return nlohmann::json::parse(contentOf(folder_.file(name) + "/summary.json"));
   }
 
   TemporaryFolder folder_;
