@@ -122,7 +122,7 @@ void Mapper::judge(Closure& closure) const
     return decide(
         ClosureVerdict::OutOfReach,
         mrpt::format(
-            "%.2f m from where the odometry has it: %.1f of its standard deviations, counted %.0f "
+            "%.2f m from where the odometry has it: %.1f of its standard deviations, counted %g "
             "times; at most %.1f",
             moved, deviation, limits.odometry_std_factor, limits.max_deviation));
   decide(
