@@ -14,7 +14,10 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace fastlio
@@ -26,19 +29,38 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestComplaint = 500;
 
 constexpr const char* kFolderName = "fastlio-tune-";
-constexpr const char* kOwnerFile = "owner";
+
+/** How the names of folders of a process begin. All is in the name, so that a folder has an owner
+ * from the first moment on: its process may be killed in the second. */
+std::string folderPrefix(const ProcessIdentity& process)
+{
+  return kFolderName + std::to_string(std::hash<std::string>{}(process.host)) + "-" +
+         std::to_string(process.pid) + "-" + std::to_string(process.start) + "-";
+}
+
+/** The process of this host that has made a folder of that name; nothing for all other names. */
+std::optional<ProcessIdentity> ownerOf(const std::string& folder)
+{
+  if (folder.rfind(kFolderName, 0) != 0) return std::nullopt;
+  std::istringstream fields(folder.substr(std::string_view(kFolderName).size()));
+  ProcessIdentity owner{thisProcess().host};
+  std::size_t host = 0;
+  char separator = 0;
+  fields >> host >> separator >> owner.pid >> separator >> owner.start;
+  if (!fields || folder.rfind(folderPrefix(owner), 0) != 0) return std::nullopt;
+  return owner;
+}
 
 /** A folder that is removed at the end; its name holds its process, in case that is killed. */
 struct ScratchFolder
 {
   ScratchFolder()
   {
-    std::string name = (fs::temp_directory_path() / kFolderName).string() + "XXXXXX";
+    std::string name =
+        (fs::temp_directory_path() / folderPrefix(thisProcess())).string() + "XXXXXX";
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("cannot make folder '" + name + "'; is TMPDIR full?");
     path = name;
-    const ProcessIdentity self = thisProcess();
-    std::ofstream(path / kOwnerFile) << self.pid << ' ' << self.start << ' ' << self.host << '\n';
   }
   ~ScratchFolder()
   {
@@ -145,18 +167,10 @@ RunOutcome outcomeOf(
 
 void removeLeftFolders()
 {
-  const std::string host = thisProcess().host;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored))
-  {
-    if (entry.path().filename().string().rfind(kFolderName, 0) != 0) continue;
-    ProcessIdentity owner;
-    std::ifstream in(entry.path() / kOwnerFile);
-    in >> owner.pid >> owner.start >> std::ws;
-    // Without a readable owner it is not ours to remove.
-    if (std::getline(in, owner.host) && owner.host == host && !isRunning(owner))
+    if (const auto owner = ownerOf(entry.path().filename().string()); owner && !isRunning(*owner))
       fs::remove_all(entry.path(), ignored);
-  }
 }
 
 std::string replayProgram()
