@@ -82,16 +82,28 @@ if(MRPT_FASTLIO_SANITIZE)
   set(FASTLIO_TEST_TIMEOUT 3600)
 endif()
 
-# fastlio_add_test(NAME SOURCES ... [LINK ...]): one GoogleTest program, each TEST a ctest entry.
+# fastlio_list_test_suites(NAME): each test suite of a GoogleTest program becomes an entry of CTest.
+function(fastlio_list_test_suites NAME)
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_suites.cmake)
+  string(REGEX REPLACE "^test_" "" module ${NAME})
+  add_custom_command(TARGET ${NAME} POST_BUILD BYPRODUCTS ${list} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${NAME}> -D MODULE=${module} -D TIMEOUT=${FASTLIO_TEST_TIMEOUT}
+      -D OUTPUT=${list} -P ${PROJECT_SOURCE_DIR}/cmake/list_test_suites.cmake)
+  # A program that was not built has an entry that fails.
+  set(include ${CMAKE_CURRENT_BINARY_DIR}/${NAME}_include.cmake)
+  file(WRITE ${include} "if(EXISTS [[${list}]])\n  include([[${list}]])\nelse()\n  add_test(${module}.NOT_BUILT ${NAME})\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${include})
+endfunction()
+
+# fastlio_add_test(NAME SOURCES ... [LINK ...]): a GoogleTest program.
 function(fastlio_add_test NAME)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
-  include(GoogleTest)
   add_executable(${NAME} ${ARG_SOURCES})
   target_link_libraries(${NAME} PRIVATE ${ARG_LINK} fastlio_compiler_options GTest::gtest
-    GTest::gtest_main)
+    fastlio_test_main)
   target_include_directories(${NAME} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support)
   target_compile_options(${NAME} PRIVATE ${FASTLIO_TEST_OPTIONS})
   fastlio_precompile(${NAME} test)
   fastlio_unity(${NAME} 6)
-  gtest_discover_tests(${NAME} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${FASTLIO_TEST_TIMEOUT})
+  fastlio_list_test_suites(${NAME})
 endfunction()
