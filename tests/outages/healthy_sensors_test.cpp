@@ -22,7 +22,7 @@ TEST(HealthySensors, ContradictEachOtherAmongTreesWithoutAStep)
   settings.seed = 1;
   settings = realistic(settings);
   OdometryOptions options = matchingParameters(settings);
-  options.threads = 2;
+  options.threads = 1;
   const SimulatedRun run = runOdometry(Simulation(settings), options);
   std::size_t steps = 0, disagreements = 0;
   for (const JudgedScan& scan : run.scans)

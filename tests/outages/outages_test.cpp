@@ -62,7 +62,7 @@ struct CastWalk
 SimulatedRun runWithOutage(const CastWalk& walk, const Outage& outage, Missing missing)
 {
   OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 2;
+  options.threads = 1;
   AlteredInputs inputs;
   inputs.cast = &walk.scans;
   inputs.scan = [&](LidarScan& scan)
@@ -164,7 +164,7 @@ TEST_P(AnyFault, EndsRightOrIsReported)
 {
   const CastWalk walk(GetParam());
   OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 2;
+  options.threads = 1;
   // All faults at every second in the full grid; here one half of them on each walk.
   const bool every = everything();
   const double step = every ? 1.0 : 16.0;

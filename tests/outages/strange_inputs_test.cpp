@@ -190,7 +190,7 @@ TEST_P(StrangeInputs, EndRightOrAreReported)
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
     scans.push_back(simulation.scan(i));
   OdometryOptions options = matchingParameters(settings);
-  options.threads = 2;
+  options.threads = 1;
   std::vector<StrangeInput> all = strangeImus();
   for (StrangeInput& strange : strangeScans())
     all.push_back(std::move(strange));
@@ -225,7 +225,7 @@ TEST_P(StepOfTheImu, IsLearnedFromTheScans)
   settings.lidar.stride = 4;
   const Simulation simulation(settings);
   OdometryOptions options = matchingParameters(settings);
-  options.threads = 2;
+  options.threads = 1;
   StrangeInput step{"step", kForever};
   step.imu = [](ImuSample& sample)
   {
@@ -260,7 +260,7 @@ TEST(StepOfTheClock, IsLearnedFromTheScans)
   settings.lidar.stride = 4;
   const Simulation simulation(settings);
   OdometryOptions options = matchingParameters(settings);
-  options.threads = 2;
+  options.threads = 1;
   StrangeInput late{"late", kForever};
   late.scan = [](LidarScan& scan)
   {

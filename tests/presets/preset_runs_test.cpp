@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <ostream>
 
 namespace fastlio
@@ -81,6 +82,17 @@ SimulationSettings recordingOf(const Preset& preset)
 class PresetRuns : public ::testing::TestWithParam<Preset>
 {
  protected:
+  /** That of a preset, simulated for the first test that asks. */
+  static RecordingFiles recordingFor(const Preset& preset)
+  {
+    static const TemporaryFolder folder;
+    static std::map<std::string, RecordingFiles> made;
+    const std::string name(preset.name);
+    if (made.count(name) == 0)
+      made[name] = writeRecording(Simulation(recordingOf(preset)), folder.file(name));
+    return made[name];
+  }
+
   ProcessResult run(std::vector<std::string> command)
   {
     return Process(command, folder_.file("log.txt")).wait();
@@ -91,8 +103,7 @@ class PresetRuns : public ::testing::TestWithParam<Preset>
 
 TEST_P(PresetRuns, KeepTheirSensorOnTrack)
 {
-  const RecordingFiles files =
-      writeRecording(Simulation(recordingOf(GetParam())), folder_.file("recording"));
+  const RecordingFiles files = recordingFor(GetParam());
   const std::string tum = folder_.file("estimate.tum");
   const std::string yaml =
       std::string(FASTLIO_PARAMS_DIR "/") + std::string(GetParam().name) + ".yaml";
@@ -107,8 +118,7 @@ TEST_P(PresetRuns, KeepTheirSensorOnTrack)
 
 TEST_P(PresetRuns, AreNotWarnedAboutOnTheirSensor)
 {
-  const RecordingFiles files =
-      writeRecording(Simulation(recordingOf(GetParam())), folder_.file("recording"));
+  const RecordingFiles files = recordingFor(GetParam());
   const ProcessResult info = run({FASTLIO_INFO_PROGRAM, files.rawlog, "--no-motion"});
   EXPECT_EQ(info.exit_status, 0) << info.output;
   EXPECT_EQ(info.output.find("WARNING"), std::string::npos) << info.output;
