@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The main function of all test programs. Where tests were skipped the status says so, and CTest lists them: what did not
-// run has not passed.
+// The main function of all test programs. Where tests were skipped the status says so, and CTest
+// lists them: what did not run has not passed.
 
 #include <gtest/gtest.h>
 
