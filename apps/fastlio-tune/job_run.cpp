@@ -28,27 +28,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kLongestComplaint = 500;
 
-constexpr const char* kFolderName = "fastlio-tune-";
-
-/** How the names of folders of a process begin. All is in the name, so that a folder has an owner
- * from the first moment on: its process may be killed in the second. */
-std::string folderPrefix(const ProcessIdentity& process)
+/** How the names of folders of this host begin. The names also tell the process: an owner that was
+ * written into the folder would be missing where the process was killed before. */
+std::string hostPrefix()
 {
-  return kFolderName + std::to_string(std::hash<std::string>{}(process.host)) + "-" +
-         std::to_string(process.pid) + "-" + std::to_string(process.start) + "-";
-}
-
-/** The process of this host that has made a folder of that name; nothing for all other names. */
-std::optional<ProcessIdentity> ownerOf(const std::string& folder)
-{
-  if (folder.rfind(kFolderName, 0) != 0) return std::nullopt;
-  std::istringstream fields(folder.substr(std::string_view(kFolderName).size()));
-  ProcessIdentity owner{thisProcess().host};
-  std::size_t host = 0;
-  char separator = 0;
-  fields >> host >> separator >> owner.pid >> separator >> owner.start;
-  if (!fields || folder.rfind(folderPrefix(owner), 0) != 0) return std::nullopt;
-  return owner;
+  return "fastlio-tune-" + std::to_string(std::hash<std::string>{}(thisProcess().host)) + "-";
 }
 
 /** A folder that is removed at the end; its name holds its process, in case that is killed. */
@@ -56,8 +40,9 @@ struct ScratchFolder
 {
   ScratchFolder()
   {
-    std::string name =
-        (fs::temp_directory_path() / folderPrefix(thisProcess())).string() + "XXXXXX";
+    const ProcessIdentity self = thisProcess();
+    std::string name = (fs::temp_directory_path() / hostPrefix()).string() +
+                       std::to_string(self.pid) + "-" + std::to_string(self.start) + "-XXXXXX";
     if (mkdtemp(name.data()) == nullptr)
       throw std::runtime_error("cannot make folder '" + name + "'; is TMPDIR full?");
     path = name;
@@ -167,10 +152,18 @@ RunOutcome outcomeOf(
 
 void removeLeftFolders()
 {
+  const std::string prefix = hostPrefix();
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(fs::temp_directory_path(), ignored))
-    if (const auto owner = ownerOf(entry.path().filename().string()); owner && !isRunning(*owner))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(prefix, 0) != 0) continue;
+    std::istringstream fields(name.substr(prefix.size()));
+    ProcessIdentity owner;
+    char separator = 0;
+    if (fields >> owner.pid >> separator >> owner.start && !isRunning(owner))
       fs::remove_all(entry.path(), ignored);
+  }
 }
 
 std::string replayProgram()

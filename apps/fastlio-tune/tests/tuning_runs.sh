@@ -82,25 +82,30 @@ for pause in 0.2 1; do
   sleep 0.3
   ! pgrep -f "$TMPDIR" >/dev/null || fail 'a run goes on after its tuner was killed'
 done
+expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml \
+  --report other.html
+[ -s other.html ] && [ ! -e killed.html ] || fail '--report names the page'
+[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
+cmp killed.yaml first.yaml || fail 'a killed search ends with other parameters'
+echo "$(counts tuned.yaml.sqlite) $(counts killed.yaml.sqlite)" | awk '
+  {exit !($6 == 0 && $7 == 0 && $8 == $3 && $9 == 0 && $10 >= $8 && $10 <= $8 + 4)}' ||
+  fail "jobs without kill: $(counts tuned.yaml.sqlite), with: $(counts killed.yaml.sqlite)"
 
-# Killed a third time, before there was anything in the folder of a run. A folder of others is not ours to remove.
-"$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml >log 2>&1 &
+# Killed before there was anything in the folder of a run. A folder of others is not ours to remove.
+"$tune" space.yaml a.rawlog b.rawlog -c bad.yaml -j 2 --budget 200 --method random -o early.yaml >log 2>&1 &
 process=$!
-until [ -n "$(ls tmp)" ] || ! kill -0 "$process" 2>/dev/null; do sleep 0.01; done
-kill -9 "$process" 2>/dev/null || true
+while kill -STOP "$process" && [ -z "$(ls tmp)" ]; do
+  kill -CONT "$process"
+  sleep 0.01
+done
+kill -9 "$process"
 wait "$process" || true
 sleep 0.3
 rm -rf tmp/*/*
 mkdir tmp/fastlio-tune-AbCdEf tmp/fastlio-tune-1-2-3-AbCdEf
-expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 12 -o killed.yaml \
-  --report other.html
-[ -s other.html ] && [ ! -e killed.html ] || fail '--report names the page'
+expect 0 'Better parameters' "$tune" space.yaml a.rawlog b.rawlog -c bad.yaml --method grid --budget 9 -o after.yaml
 rmdir tmp/fastlio-tune-AbCdEf tmp/fastlio-tune-1-2-3-AbCdEf || fail 'a folder of others was removed'
-[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
-cmp killed.yaml first.yaml || fail 'a killed search ends with other parameters'
-echo "$(counts tuned.yaml.sqlite) $(counts killed.yaml.sqlite)" | awk '
-  {exit !($6 == 0 && $7 == 0 && $8 == $3 && $9 == 0 && $10 >= $8 && $10 <= $8 + 6)}' ||
-  fail "jobs without kill: $(counts tuned.yaml.sqlite), with: $(counts killed.yaml.sqlite)"
+[ -z "$(ls tmp)" ] || fail "left in TMPDIR by a killed tuner: $(ls tmp)"
 
 # Ctrl-C gives running jobs back and ends the runs.
 "$tune" space.yaml a.rawlog b.rawlog c.rawlog -c bad.yaml -j 2 --budget 200 --method random -o stopped.yaml >log 2>&1 &
