@@ -7,6 +7,9 @@
 # tests share what the suite sets up, and the libraries are loaded once.
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_/]+\\." suites "${listed}")
+if(NOT suites)
+  message(FATAL_ERROR "${PROGRAM} lists no test suite:\n${listed}")
+endif()
 set(entries "")
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n|\\.$" "" suite "${suite}")
