@@ -69,6 +69,15 @@ struct Keeping
   }
 };
 
+/** A square root of the covariance of q by errors of the sensor. It is taken in the axes of the
+ * body: there it changes little from scan to scan, so that eta stays what it is in a turn. */
+AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
+{
+  AlignedMatrix6 turn = AlignedMatrix6::Identity();
+  turn.bottomRightCorner<3, 3>() = R_world_scan;
+  return turn * squareRoot(turn.transpose() * covariance * turn);
+}
+
 /** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
 AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 {
@@ -159,6 +168,7 @@ void MapErrorModel::propagate(const ErrorTransition& transition)
 {
   addition_ = transition.onBothSidesOf(addition_);
   Y_planes_ = transition.times(Y_planes_);
+  Y_beams_ = transition.times(Y_beams_);
   Y_poses_ = transition.times(Y_poses_);
 }
 
@@ -166,6 +176,7 @@ void MapErrorModel::correct(const StateMatrix& kept)
 {
   addition_ = transformedCovariance(kept, addition_);
   Y_planes_ = product(kept, Y_planes_);
+  Y_beams_ = product(kept, Y_beams_);
   Y_poses_ = product(kept, Y_poses_);
 }
 
@@ -177,7 +188,7 @@ void MapErrorModel::update(
   const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
-      squareRoot(L_inverse.transpose() * (planeErrors(scan.groups) + beam_errors) * L_inverse);
+      squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
   const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(update, scan.groups));
 
   const AlignedStateBy6 gain = gainOf(update);
@@ -185,18 +196,22 @@ void MapErrorModel::update(
   memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
   const AlignedStateBy6 in_planes = G * C_planes, in_poses = G * C_poses;
+  const AlignedStateBy6 in_beams = gain * sensorErrors(beam_errors, update.T_world_scan.R);
   const AlignedStateBy6 kept_planes = scan.persistence * keep.times(AlignedStateBy6(Y_planes_));
+  const AlignedStateBy6 kept_beams = keep.times(AlignedStateBy6(Y_beams_));
   const AlignedStateBy6 kept_poses = keep.times(AlignedStateBy6(Y_poses_));
 
   // One half of all that comes in; its transpose is the other.
   const AlignedStateBy6 planes = kept_planes + 0.5 * in_planes;
+  const AlignedStateBy6 beams = kept_beams + 0.5 * in_beams;
   const AlignedStateBy6 poses = kept_poses + 0.5 * in_poses;
   const AlignedStateBy6 noise = 0.5 * gain * scan.shared_noise;
-  const AlignedStateMatrix half = productByTransposed(planes, in_planes) +
-                                  productByTransposed(poses, in_poses) -
-                                  productByTransposed(noise, gain);
+  const AlignedStateMatrix half =
+      productByTransposed(planes, in_planes) + productByTransposed(beams, in_beams) +
+      productByTransposed(poses, in_poses) - productByTransposed(noise, gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
   Y_planes_ = kept_planes + in_planes;
+  Y_beams_ = kept_beams + in_beams;
   Y_poses_ = kept_poses + in_poses;
 }
 

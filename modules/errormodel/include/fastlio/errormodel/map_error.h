@@ -23,10 +23,11 @@
  * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, M = sum
  * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were created,
  * averaged with their weights; along a direction that few planes show, not less than with the
- * weights of these. Q = C C^T makes q = C eta of a unit vector eta, which persists: the
- * creating poses' wholly, the planes' own as far as the same planes stay in view. With Y = cov(e,
- * eta), E = cov(e) follows without any approximation. The part D of it that the filter has counted
- * as noise of the points is taken off. See docs/covariance.md. */
+ * weights of these. Errors that the points of a beam share add a third part, Q_b. Q = C C^T makes
+ * q = C eta of a unit vector eta, which persists: the creating poses' and the beams' wholly, the
+ * planes' own as far as the same planes stay in view. With Y = cov(e, eta), E = cov(e) follows
+ * without any approximation. The part D of it that the filter has counted as noise of the points is
+ * taken off. See docs/covariance.md. */
 #pragma once
 
 #include <fastlio/filter/propagation.h>
@@ -80,12 +81,12 @@ class MapErrorModel
 
   /** Takes in an update of the filter with the measurements \a scan.
    * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the
-   * scan pose's coordinates; they persist as the planes' own do */
+   * scan pose's coordinates; they belong to the sensor and stay when the planes change */
   void update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan,
       const Matrix6& beam_errors = Matrix6::Zero());
 
-  /** There is no map any more; the state's error stays. */
+  /** There is no map any more; the state's error stays, and so does the sensor's. */
   void forgetMap();
 
   /** The covariance to be added to the filter's own: the map's error, less the part of it that
@@ -117,6 +118,7 @@ class MapErrorModel
 
   StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
   StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors
+  StateBy6 Y_beams_ = StateBy6::Zero();         //!< the same of what the points of a beam share
   StateBy6 Y_poses_ = StateBy6::Zero();         //!< the same of the creating poses'
   double memory_ = 0.0;                         // since the last insertion
   std::vector<Insertion> insertions_;           // ascending by scan
