@@ -78,6 +78,16 @@ AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
   return turn * squareRoot(turn.transpose() * covariance * turn);
 }
 
+/** Goes on with Y = cov(e, eta) of one kind of error. \param kept what is left of Y
+ * \param in what the scan adds to it
+ * \return one half of what comes into cov(e); its transpose is the other */
+AlignedStateMatrix addShared(
+    Eigen::Ref<AlignedStateBy6> Y, const AlignedStateBy6& kept, const AlignedStateBy6& in)
+{
+  Y = kept + in;
+  return productByTransposed(AlignedStateBy6(kept + 0.5 * in), in);
+}
+
 /** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
 AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 {
@@ -195,24 +205,13 @@ void MapErrorModel::update(
   const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
   memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
-  const AlignedStateBy6 in_planes = G * C_planes, in_poses = G * C_poses;
-  const AlignedStateBy6 in_beams = gain * sensorErrors(beam_errors, update.T_world_scan.R);
-  const AlignedStateBy6 kept_planes = scan.persistence * keep.times(AlignedStateBy6(Y_planes_));
-  const AlignedStateBy6 kept_beams = keep.times(AlignedStateBy6(Y_beams_));
-  const AlignedStateBy6 kept_poses = keep.times(AlignedStateBy6(Y_poses_));
-
-  // One half of all that comes in; its transpose is the other.
-  const AlignedStateBy6 planes = kept_planes + 0.5 * in_planes;
-  const AlignedStateBy6 beams = kept_beams + 0.5 * in_beams;
-  const AlignedStateBy6 poses = kept_poses + 0.5 * in_poses;
-  const AlignedStateBy6 noise = 0.5 * gain * scan.shared_noise;
   const AlignedStateMatrix half =
-      productByTransposed(planes, in_planes) + productByTransposed(beams, in_beams) +
-      productByTransposed(poses, in_poses) - productByTransposed(noise, gain);
+      addShared(Y_planes_, scan.persistence * keep.times(Y_planes_), G * C_planes) +
+      addShared(
+          Y_beams_, keep.times(Y_beams_), gain * sensorErrors(beam_errors, update.T_world_scan.R)) +
+      addShared(Y_poses_, keep.times(Y_poses_), G * C_poses) -
+      productByTransposed(AlignedStateBy6(0.5 * gain * scan.shared_noise), gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
-  Y_planes_ = kept_planes + in_planes;
-  Y_beams_ = kept_beams + in_beams;
-  Y_poses_ = kept_poses + in_poses;
 }
 
 void MapErrorModel::forgetMap()
