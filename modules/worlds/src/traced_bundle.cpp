@@ -13,53 +13,48 @@ namespace
 /** A zero component would give 0 * inf at a box's border. */
 double inverseOf(double d)
 {
-  return 1.0 / (std::abs(d) < 1e-200 ? 1e-200 : d);
+  constexpr double kLeast = 1e-200;
+  return 1.0 / (d < 0.0 ? std::min(d, -kLeast) : std::max(d, kLeast));
 }
 }  // namespace
 
-TracedBundle::TracedBundle(const RayBundle& rays, double max_range)
-    : rays_(rays), pair_count_((rays.count + 1) / 2)
+TracedBundle::TracedBundle(const RayBundle& rays, double max_range) : rays_(rays), reach_(max_range)
 {
-  for (std::size_t i = 0; i < rays.count; ++i)
-    reachOf(i) = max_range;
-  for (std::size_t i = 0; i < 2 * pair_count_; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const Vec3& direction = rays.directions[i < rays.count ? i : 0];
-      pairs_[i / 2].inverse[axis][static_cast<Eigen::Index>(i % 2)] =
-          inverseOf(direction[static_cast<Eigen::Index>(axis)]);
-    }
-}
-
-double TracedBundle::entryInto(const Bounds& bounds) const
-{
-  const Vec3 low = bounds.min - rays_.origin;
-  const Vec3 high = bounds.max - rays_.origin;
-  double first = kMissed;
-  for (std::size_t i = 0; i < pair_count_; ++i)
+  free_.fill(max_range);
+  for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto& [inverse, reach] = pairs_[i];
-    Eigen::Array2d enter = Eigen::Array2d::Constant(-kMissed);
-    Eigen::Array2d leave = reach;
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    const auto component = static_cast<Eigen::Index>(axis);
+    const double first = inverseOf(rays.directions[0][component]);
+    axes_[axis] = {rays.origin[component], first, first, first < 0.0 ? 1U : 0U};
+    for (std::size_t i = 1; i < rays.count; ++i)
     {
-      const Eigen::Array2d a = low[axis] * inverse[static_cast<std::size_t>(axis)];
-      const Eigen::Array2d b = high[axis] * inverse[static_cast<std::size_t>(axis)];
-      enter = enter.max(a.min(b));
-      leave = leave.min(a.max(b));
+      const double inverse = inverseOf(rays.directions[i][component]);
+      axes_[axis].least = std::min(axes_[axis].least, inverse);
+      axes_[axis].greatest = std::max(axes_[axis].greatest, inverse);
     }
-    const bool hit = (leave - enter.max(0.0)).maxCoeff() >= 0.0;
-    if (hit) first = std::min(first, enter.minCoeff());
   }
-  return first;
 }
 
-double TracedBundle::reach() const
+TracedBundle::Spans TracedBundle::through(const FourBoxes& boxes) const
 {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < pair_count_; ++i)
-    farthest = std::max(farthest, pairs_[i].reach.maxCoeff());
-  return farthest;
+  using Numbers = FourBoxes::Numbers;
+  Spans spans{Numbers::Zero(), Numbers::Constant(reach_)};
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+  {
+    const Axis& axis = axes_[i];
+    const Numbers near = boxes.sides(i, axis.near) - axis.origin;
+    const Numbers far = boxes.sides(i, 1 - axis.near) - axis.origin;
+    spans.enter = spans.enter.max((near * axis.least).min(near * axis.greatest));
+    spans.leave = spans.leave.min((far * axis.least).max(far * axis.greatest));
+  }
+  return spans;
+}
+
+void TracedBundle::stop(std::size_t ray, double range)
+{
+  free_[ray] = range;
+  reach_ =
+      *std::max_element(free_.begin(), free_.begin() + static_cast<std::ptrdiff_t>(rays_.count));
 }
 
 void TracedBundle::meet(const Primitive& body, std::uint32_t number)
@@ -70,12 +65,11 @@ void TracedBundle::meet(const Primitive& body, std::uint32_t number)
   {
     const Ray local{origin, R.transpose() * rays_.directions[i]};
     const BodyHit hit = intersectLocal(body, local);
-    double& reach = reachOf(i);
-    if (!(hit.range < kMissed && hit.range <= reach)) continue;
-    if (hits_[i] && hit.range == reach && number < number_[i]) continue;
+    if (!std::isfinite(hit.range) || hit.range > free_[i]) continue;
+    if (hits_[i] && hit.range == free_[i] && number < number_[i]) continue;
     hits_[i] = worldHit(body, hit, local.direction);
     number_[i] = number;
-    reach = hit.range;
+    stop(i, hit.range);
   }
 }
 
@@ -83,11 +77,10 @@ void TracedBundle::meet(const HeightField& ground)
 {
   for (std::size_t i = 0; i < rays_.count; ++i)
   {
-    double& reach = reachOf(i);
-    const auto hit = ground.cast(rays_.ray(i), reach);
-    if (!hit || hit->range > reach) continue;
+    const auto hit = ground.cast(rays_.ray(i), free_[i]);
+    if (!hit || hit->range > free_[i]) continue;
     hits_[i] = hit;
-    reach = hit->range;
+    stop(i, hit->range);
   }
 }
 

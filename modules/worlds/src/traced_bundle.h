@@ -4,6 +4,7 @@
 /** \file traced_bundle.h How far each ray of a bundle is free, as far as is known (internal). */
 #pragma once
 
+#include <fastlio/worlds/four_boxes.h>
 #include <fastlio/worlds/height_field.h>
 #include <fastlio/worlds/ray_bundle.h>
 
@@ -16,15 +17,21 @@ namespace fastlio
 class TracedBundle
 {
  public:
+  /** \param rays of one octant, see RayBundle::isOfOneOctant() */
   TracedBundle(const RayBundle& rays, double max_range);
 
-  static constexpr double kMissed = std::numeric_limits<double>::infinity();
+  /** A part of the rays' way for each of four boxes [m]: not more than up to reach(); empty where
+   * enter is greater than leave. */
+  struct Spans
+  {
+    FourBoxes::Numbers enter, leave;
+  };
 
-  /** Where the rays enter a box, or earlier [m]; infinite where all of them miss it. */
-  [[nodiscard]] double entryInto(const Bounds& bounds) const;
+  /** Where a ray of the bundle can be inside of the boxes. */
+  [[nodiscard]] Spans through(const FourBoxes& boxes) const;
 
   /** Range [m] that the ray which is free the farthest has. */
-  [[nodiscard]] double reach() const;
+  [[nodiscard]] double reach() const { return reach_; }
 
   /** The rays meet a body, if it is not behind another one. Of two bodies that touch, that of the
    * higher number counts, in whatever order they come. */
@@ -36,21 +43,21 @@ class TracedBundle
   [[nodiscard]] const BundleHits& hits() const { return hits_; }
 
  private:
-  /** Two rays side by side, as a register takes them. */
-  struct Pair
+  /** What the rays have in common along an axis. */
+  struct Axis
   {
-    std::array<Eigen::Array2d, 3> inverse;  // of the directions, by axis
-    Eigen::Array2d reach{-1.0, -1.0};       // [m]; below zero: no ray
+    double origin;
+    double least, greatest;  // 1 / direction, of all rays
+    std::size_t near;        // side of a box that is met first: 0 or 1
   };
 
-  [[nodiscard]] double& reachOf(std::size_t ray)
-  {
-    return pairs_[ray / 2].reach[static_cast<Eigen::Index>(ray % 2)];
-  }
+  /** The ray is free up to range [m] only. */
+  void stop(std::size_t ray, double range);
 
   const RayBundle& rays_;
-  std::array<Pair, RayBundle::kMost / 2> pairs_;
-  std::size_t pair_count_;
+  std::array<Axis, 3> axes_;
+  std::array<double, RayBundle::kMost> free_;  // [m]
+  double reach_;                               // the greatest of them
   BundleHits hits_;
   std::array<std::uint32_t, RayBundle::kMost> number_{};  // of the body that is hit
 };

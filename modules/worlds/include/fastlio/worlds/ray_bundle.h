@@ -16,7 +16,7 @@ namespace fastlio
  */
 struct RayBundle
 {
-  static constexpr std::size_t kMost = 6;  //!< an even number: two fit into a register
+  static constexpr std::size_t kMost = 6;
 
   explicit RayBundle(const Ray& first) : origin(first.origin), count(1)
   {
@@ -28,6 +28,14 @@ struct RayBundle
   std::size_t count;
 
   [[nodiscard]] Ray ray(std::size_t i) const { return {origin, directions[i]}; }
+
+  /** All rays go the same way along each axis: they meet the sides of a box in one order. */
+  [[nodiscard]] bool isOfOneOctant() const
+  {
+    for (std::size_t i = 1; i < count; ++i)
+      if (((directions[i].array() < 0.0) != (directions[0].array() < 0.0)).any()) return false;
+    return true;
+  }
 };
 
 /** What each ray of a bundle meets first. */

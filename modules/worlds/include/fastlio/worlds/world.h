@@ -4,10 +4,10 @@
 /** \file world.h The world around the LiDAR: bodies at rest, ground and moving objects. */
 #pragma once
 
+#include <fastlio/worlds/box_tree.h>
 #include <fastlio/worlds/height_field.h>
 #include <fastlio/worlds/ray_bundle.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace fastlio
@@ -32,8 +32,6 @@ struct WorldDescription
   std::optional<HeightField> ground;
 };
 
-class TracedBundle;
-
 /** A world to cast rays into; immutable, usable from many threads at once. */
 class World
 {
@@ -49,21 +47,11 @@ class World
   [[nodiscard]] const WorldDescription& description() const { return description_; }
 
  private:
-  /** Node of the bounding volume hierarchy over the bodies: a leaf when count is not zero. */
-  struct Node
-  {
-    Bounds bounds;
-    std::uint32_t first = 0;  //!< leaf: first body; else: the right child (the left one follows)
-    std::uint32_t count = 0;
-  };
-
-  std::uint32_t build(std::uint32_t first, std::uint32_t last);
-  void castBodies(TracedBundle& rays) const;
   void castMoving(TracedBundle& rays, double t) const;
 
   WorldDescription description_;
-  std::vector<Node> nodes_;
-  std::vector<Bounds> swept_;  //!< of the moving objects
+  BoxTree tree_;                  //!< of the bodies
+  std::vector<FourBoxes> swept_;  //!< where the moving objects can be, four by four
 };
 
 }  // namespace fastlio
