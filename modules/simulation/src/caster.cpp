@@ -4,6 +4,7 @@
 #include "caster.h"
 
 #include <fastlio/math/time.h>
+#include <fastlio/worlds/pose_track.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,9 +19,8 @@ Caster::Caster(const Simulation& simulation)
 {
 }
 
-Caster::Instant Caster::instantOf(double t) const
+Caster::Instant Caster::instantOf(double t, const Pose& T_world_imu) const
 {
-  const Pose T_world_imu = simulation_->motion().pose(t);
   return {t, T_world_imu * simulation_->lidarErrors().T_imu_lidar, near_.at(t, T_world_imu)};
 }
 
@@ -30,6 +30,7 @@ std::vector<Echo> Caster::cast(const Sweep& sweep) const
   const double sweep_time = simulation_->secondsSinceStart(sweep.stamp_ns);
   std::vector<Echo> echoes(sweep.shots.size());
   std::int64_t posed_at = std::numeric_limits<std::int64_t>::min();
+  PoseTrack track(simulation_->motion());
   Instant instant;
   for (std::size_t i = 0; i < sweep.shots.size(); ++i)
   {
@@ -39,7 +40,8 @@ std::vector<Echo> Caster::cast(const Sweep& sweep) const
     if (shot.offset_ns != posed_at)
     {
       posed_at = shot.offset_ns;
-      instant = instantOf(sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond);
+      const double t = sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond;
+      instant = instantOf(t, track.at(t));
     }
     echoes[i] = echo(shot, instant);
   }

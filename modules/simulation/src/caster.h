@@ -29,7 +29,7 @@ class Caster
     std::vector<Primitive> people;
   };
 
-  [[nodiscard]] Instant instantOf(double t) const;
+  [[nodiscard]] Instant instantOf(double t, const Pose& T_world_imu) const;
   [[nodiscard]] Echo echo(const Shot& shot, const Instant& at) const;
   [[nodiscard]] BeamReturns returnsOf(const RayBundle& rays, const Instant& at) const;
   [[nodiscard]] BundleHits firstHits(

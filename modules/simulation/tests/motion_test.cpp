@@ -4,7 +4,9 @@
 #include "short_simulation.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/scenarios/realistic.h>
 #include <fastlio/worlds/path_builder.h>
+#include <fastlio/worlds/pose_track.h>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +31,37 @@ double fastestTurn(const Simulation& simulation)
   for (double t = 0.0; t < simulation.settings().duration; t += 0.005)
     fastest = std::max(fastest, simulation.motion().at(t).angular_rate.norm());
   return fastest;
+}
+
+/** How far two poses are apart [m], and how far their axes. */
+double difference(const Pose& a, const Pose& b)
+{
+  return std::max((a.p - b.p).norm(), (a.R - b.R).norm());
+}
+
+TEST(PoseTrack, IsTheMotion)
+{
+  for (const std::string_view name : scenarioNames())
+  {
+    const Simulation simulation(realistic(testing::shortSettings(name, 6.0)));
+    const Motion& motion = simulation.motion();
+    PoseTrack track(motion);
+    double worst = 0.0;
+    for (double t = -0.01; t < 6.0; t += t < 5.9 ? 0.01371 : 2.3e-6)
+      worst = std::max(worst, difference(track.at(t), motion.pose(t)));
+    EXPECT_LT(worst, 1e-11) << name;
+  }
+}
+
+TEST(PoseTrack, DoesNotDependOnWhatWasAskedBefore)
+{
+  const Simulation simulation(realistic(testing::shortSettings("office", 6.0)));
+  PoseTrack forward(simulation.motion()), backward(simulation.motion());
+  std::vector<Pose> poses;
+  for (int i = 0; i < 500; ++i)
+    poses.push_back(forward.at(4.0 + 7e-5 * i));
+  for (int i = 499; i >= 0; --i)
+    EXPECT_EQ(difference(backward.at(4.0 + 7e-5 * i), poses[static_cast<std::size_t>(i)]), 0.0);
 }
 
 TEST(UniformSpline, DerivativesMatchDifferences)
