@@ -6,6 +6,7 @@
 #include <fastlio/matching/degeneracy.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -126,13 +127,41 @@ Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_im
   return L * covariance * L.transpose();
 }
 
+/** The error of the poses that created the planes in view: own eta_a + by_beams eta_b, of unit
+ * vectors eta_a, and eta_b of the beams. */
+struct MapErrorModel::CreatingErrors
+{
+  AlignedMatrix6 own, by_beams;
+
+  /** \param covariance A \param with_beams cov(error, eta_b) */
+  CreatingErrors(const AlignedMatrix6& covariance, const AlignedMatrix6& with_beams)
+      : own(squareRoot(covariance)), by_beams(with_beams)
+  {
+    if (with_beams.isZero(0.0)) return;
+    AlignedMatrix6 explained = own.triangularView<Eigen::Lower>().solve(with_beams);
+    // Rounding and bounds of A must not let the beams explain more than there is.
+    const AlignedMatrix6 square = productByTransposed(explained, explained);
+    const Eigen::SelfAdjointEigenSolver<AlignedMatrix6> share(square, Eigen::EigenvaluesOnly);
+    const double most = std::max(share.eigenvalues().maxCoeff(), 1.0);
+    by_beams /= std::sqrt(most);
+    own = own * squareRoot(AlignedMatrix6::Identity() - square / most);
+  }
+};
+
+MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
+    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
+{
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, insertions_, weightOf);
+  const Matrix6 with_beams = meanWithBeams();
+  return {insertionCovariance(update, groups), with_beams};
+}
+
 /** The few planes that show a weak direction may be of other insertions than most planes are. Where
  * nothing showed that direction for a while, they are all wrong along it. */
 TwistCovariance MapErrorModel::insertionCovariance(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, insertions_, weightOf);
   const TwistCovariance mean = meanOfInsertions();
   TwistCovariance all = mean;
   const ScanConstraints& constraints = update.constraints;
@@ -164,6 +193,14 @@ TwistCovariance MapErrorModel::meanOfInsertions() const
     mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
     remembered += part * insertion.own;
   }
+  return mean;
+}
+
+Matrix6 MapErrorModel::meanWithBeams() const
+{
+  Matrix6 mean = Matrix6::Zero();
+  for (const Insertion& insertion : insertions_)
+    if (insertion.weight > 0.0) mean += insertion.weight * insertion.with_beams;
   return mean;
 }
 
@@ -199,17 +236,18 @@ void MapErrorModel::update(
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
-  const AlignedMatrix6 C_poses = M * squareRoot(insertionCovariance(update, scan.groups));
+  const CreatingErrors creating = creatingErrors(update, scan.groups);
 
   const AlignedStateBy6 gain = gainOf(update);
   const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
   memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
   const AlignedStateBy6 G = gain * L.transpose();
+  const AlignedStateBy6 by_beams =
+      gain * sensorErrors(beam_errors, update.T_world_scan.R) + G * (M * creating.by_beams);
   const AlignedStateMatrix half =
       addShared(Y_planes_, scan.persistence * keep.times(Y_planes_), G * C_planes) +
-      addShared(
-          Y_beams_, keep.times(Y_beams_), gain * sensorErrors(beam_errors, update.T_world_scan.R)) +
-      addShared(Y_poses_, keep.times(Y_poses_), G * C_poses) -
+      addShared(Y_beams_, keep.times(Y_beams_), by_beams) +
+      addShared(Y_poses_, keep.times(Y_poses_), G * (M * creating.own)) -
       productByTransposed(AlignedStateBy6(0.5 * gain * scan.shared_noise), gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
 }
@@ -232,12 +270,15 @@ StateMatrix MapErrorModel::additionAfter(const ErrorTransition& transition) cons
 }
 
 void MapErrorModel::recordInsertion(
-    std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan)
+    std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan,
+    const ScanPoseJacobian& by_state)
 {
   if (insertions_.size() >= kMaxInsertions) thinOut();
+  const AlignedMatrix6 with_beams = product(Aligned6ByState(by_state), AlignedStateBy6(Y_beams_));
   insertions_.push_back(
       {scan, twistCovariance(pose_error.inherited, T_world_scan),
-       twistCovariance(pose_error.own, T_world_scan), memory_, 0.0});
+       twistCovariance(pose_error.own, T_world_scan), twistJacobian(T_world_scan) * with_beams,
+       memory_, 0.0});
   memory_ = 1.0;
 }
 

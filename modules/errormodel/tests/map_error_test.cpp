@@ -1,55 +1,18 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/errormodel/map_error.h>
+#include "map_error_scans.h"
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 
-namespace fastlio
+namespace fastlio::testing
 {
 namespace
 {
-constexpr double kScanInformation = 1e4;
-
-/** Half of the weight on planes of each insertion; planes without errors of their own. */
-GroupedMeasurements scanOn(std::initializer_list<std::uint32_t> insertions)
-{
-  GroupedMeasurements scan;
-  scan.information = kScanInformation * Matrix6::Identity();
-  for (const std::uint32_t insertion : insertions)
-  {
-    PlaneGroup& group = scan.groups.emplace_back();
-    group.weight = 1.0;
-    group.created_insertion = insertion;
-  }
-  return scan;
-}
-
-/** An update that puts the scan wherever the map says: K H = I on the pose. */
-LinearizedUpdate fullTrust()
-{
-  LinearizedUpdate update;
-  update.gain.topRows<6>() = Matrix6::Identity() / kScanInformation;
-  return update;
-}
-
-InsertionError ownError(double variance)
-{
-  InsertionError error;
-  error.own = variance * Matrix6::Identity();
-  return error;
-}
-
-Matrix6 poseAddition(const MapErrorModel& model)
-{
-  return model.addition().topLeftCorner<6, 6>();
-}
-
 TEST(MapError, IsThatOfTheCreatingPosesWhereTheMapIsTrusted)
 {
   MapErrorModel model;
@@ -127,47 +90,6 @@ TEST(MapError, StaysBoundedOverMoreInsertionsThanAreKept)
   }
 }
 
-/** Three scans that correct half of the error each, on planes that none of them shares with
- * another.
- * \param R_world_scan attitude of each scan
- * \return variance of the position along the sensor's x axis, by an error of the sensor [m^2] */
-double varianceOfThreeScans(const std::array<Mat3, 3>& R_world_scan)
-{
-  MapErrorModel model;
-  LinearizedUpdate update = fullTrust();
-  update.gain *= 0.5;
-  for (const Mat3& R : R_world_scan)
-  {
-    GroupedMeasurements scan = scanOn({1});
-    scan.groups[0].shared_variance = 0.0;
-    scan.persistence = 0.0;
-    update.T_world_scan.R = R;
-    const Vec3 forward = kScanInformation * R.col(0);
-    Matrix6 beam_errors = Matrix6::Zero();
-    beam_errors.bottomRightCorner<3, 3>() = 4e-6 * forward * forward.transpose();
-    model.update(update, scan, beam_errors);
-  }
-  const Matrix6 added = poseAddition(model);
-  const Vec3 forward = R_world_scan.back().col(0);
-  return forward.dot(added.bottomRightCorner<3, 3>() * forward);
-}
-
-// Half of the error comes with each scan, and half of what was there stays: 0.5 + 0.25 + 0.125 of
-// 2 mm when the scans share it. Independent ones would add up to 1.15 mm.
-TEST(MapError, OfTheSensorStaysWhenThePlanesChange)
-{
-  const Mat3 ahead = Mat3::Identity();
-  EXPECT_NEAR(std::sqrt(varianceOfThreeScans({ahead, ahead, ahead})), 0.875 * 2e-3, 1e-6);
-}
-
-// After a quarter of a turn, the error that moved the platform ahead moves it to the left: along
-// the new direction, only the last two scans count.
-TEST(MapError, OfTheSensorTurnsWithIt)
-{
-  const Mat3 ahead = Mat3::Identity(), left = expSO3(Vec3(0.0, 0.0, 0.5 * M_PI));
-  EXPECT_NEAR(std::sqrt(varianceOfThreeScans({ahead, left, left})), 0.75 * 2e-3, 1e-6);
-}
-
 /** The recursion of docs/covariance.md with dense matrices, E and D apart. */
 class DenseRecursion
 {
@@ -183,7 +105,7 @@ class DenseRecursion
 
   void update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& insertion,
-      const Matrix6& beam_errors)
+      const Matrix6& insertion_with_beams, const Matrix6& beam_errors)
   {
     const StateBy6 G = update.gain;
     const StateMatrix keep =
@@ -193,8 +115,11 @@ class DenseRecursion
     for (const PlaneGroup& group : scan.groups)
       planes += group.shared_variance * group.g * group.g.transpose();
     const StateBy6 in_planes = G * squareRoot(planes);
-    const StateBy6 in_beams = G * squareRoot(beam_errors);
-    const StateBy6 in_poses = G * scan.information * squareRoot(insertion);
+    const StateBy6 in_beams =
+        G * squareRoot(beam_errors) + G * scan.information * insertion_with_beams;
+    const StateBy6 in_poses =
+        G * scan.information *
+        squareRoot(insertion - insertion_with_beams * insertion_with_beams.transpose());
     const StateMatrix cross = scan.persistence * keep * Y_planes_ * in_planes.transpose() +
                               keep * Y_beams_ * in_beams.transpose() +
                               keep * Y_poses_ * in_poses.transpose();
@@ -208,6 +133,8 @@ class DenseRecursion
   }
 
   [[nodiscard]] StateMatrix addition() const { return E_ - D_; }
+  [[nodiscard]] Matrix6 poseError() const { return E_.topLeftCorner<6, 6>(); }
+  [[nodiscard]] Matrix6 poseWithBeams() const { return Y_beams_.topRows<6>(); }
 
  private:
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6>;
@@ -231,8 +158,19 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
   MapErrorModel model;
   model.recordInsertion(1, insertion, {});
   DenseRecursion dense;
+  Matrix6 creating = insertion.inherited, creating_with_beams = Matrix6::Zero();
+  std::uint32_t newest = 1;
   for (int i = 0; i < 30; ++i)
   {
+    if (i == 15)  // half of the planes in view are those of a second insertion from then on
+    {
+      InsertionError second;
+      second.inherited = dense.poseError() + randomCovariance(1e-6);
+      model.recordInsertion(newest = 2, second, {});
+      creating = 0.5 * (insertion.inherited + second.inherited);
+      creating_with_beams = 0.5 * dense.poseWithBeams();
+      ASSERT_GT(creating_with_beams.norm(), 0.0);
+    }
     ErrorTransition transition;
     transition.by_state += 0.02 * MotionRows::Random();
     StateMatrix Phi = StateMatrix::Identity();
@@ -243,7 +181,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     model.correct(kept);
     dense.propagate(kept);
 
-    GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1});
+    GroupedMeasurements scan = scanOn({1, 1, 1, 1, newest, newest, newest, newest});
     scan.information = randomCovariance(kScanInformation);
     scan.shared_noise = randomCovariance(1e-3 * kScanInformation);
     scan.persistence = 0.7;
@@ -257,7 +195,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     update.gain.bottomRows<kCalibrationDim>().setZero();
     const Matrix6 beam_errors = randomCovariance(1e-4 * kScanInformation);
     model.update(update, scan, beam_errors);
-    dense.update(update, scan, insertion.inherited, beam_errors);
+    dense.update(update, scan, creating, creating_with_beams, beam_errors);
     const StateMatrix expected = dense.addition();
     ASSERT_GT(expected.norm(), 0.0);
     EXPECT_LT((model.addition() - expected).norm(), 1e-9 * expected.norm()) << "update " << i;
@@ -265,4 +203,4 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
 }
 
 }  // namespace
-}  // namespace fastlio
+}  // namespace fastlio::testing

@@ -131,7 +131,7 @@ void LocalMap::insert(
     const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
     const Vec3& center)
 {
-  error_.recordInsertion(++insertions_, error, T_world_scan);
+  error_.recordInsertion(++insertions_, error, T_world_scan, by_state);
   calibration_.recordInsertion(insertions_, T_world_scan, by_state);
   surfaces_->insert(surfaces, sensor);
   if (!given_) surfaces_->removeOutside(center, radius_);

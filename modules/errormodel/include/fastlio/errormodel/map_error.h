@@ -25,9 +25,10 @@
  * averaged with their weights; along a direction that few planes show, not less than with the
  * weights of these. Errors that the points of a beam share add a third part, Q_b. Q = C C^T makes
  * q = C eta of a unit vector eta, which persists: the creating poses' and the beams' wholly, the
- * planes' own as far as the same planes stay in view. With Y = cov(e, eta), E = cov(e) follows
- * without any approximation. The part D of it that the filter has counted as noise of the points is
- * taken off. See docs/covariance.md. */
+ * planes' own as far as the same planes stay in view. The same beams have been at work in the
+ * creating poses: what of A they explain has the eta of the beams. With Y = cov(e, eta), E = cov(e)
+ * follows without any approximation. The part D of it that the filter has counted as noise of the
+ * points is taken off. See docs/covariance.md. */
 #pragma once
 
 #include <fastlio/filter/propagation.h>
@@ -96,9 +97,11 @@ class MapErrorModel
   /** The same, some way after the last scan. */
   [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
-  /** Remembers how well the scan pose was known when insertion number \a scan was made. */
+  /** Remembers how well the scan pose was known when insertion number \a scan was made.
+   * \param by_state Jacobian of the scan pose by the state */
   void recordInsertion(
-      std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan);
+      std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan,
+      const ScanPoseJacobian& by_state = bodyPoseJacobian());
 
  private:
   struct Insertion
@@ -106,15 +109,22 @@ class MapErrorModel
     std::uint32_t scan = 0;
     TwistCovariance inherited = TwistCovariance::Zero();
     TwistCovariance own = TwistCovariance::Zero();
+    Matrix6 with_beams = Matrix6::Zero();  // cov(error, eta of the beams)
     double memory = 0.0;  // how much of the own error of the insertion before is in this one's
     double weight = 0.0;  // of a scan on its planes
   };
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
+  struct CreatingErrors;
+
   void thinOut();
+  [[nodiscard]] CreatingErrors creatingErrors(
+      const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
+  /** A, of insertions whose weights are set; it changes these. */
   [[nodiscard]] TwistCovariance insertionCovariance(
       const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
   [[nodiscard]] TwistCovariance meanOfInsertions() const;
+  [[nodiscard]] Matrix6 meanWithBeams() const;
 
   StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
   StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors

@@ -1,0 +1,82 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file beams_in_map_test.cpp What errors of the beams do over many scans: they are in the map, too. */
+
+#include "map_error_scans.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace fastlio::testing
+{
+namespace
+{
+/** Three scans that correct half of the error each, on planes that none of them shares with
+ * another.
+ * \param R_world_scan attitude of each scan
+ * \return variance of the position along the sensor's x axis, by an error of the sensor [m^2] */
+double varianceOfThreeScans(const std::array<Mat3, 3>& R_world_scan)
+{
+  MapErrorModel model;
+  LinearizedUpdate update = fullTrust();
+  update.gain *= 0.5;
+  for (const Mat3& R : R_world_scan)
+  {
+    GroupedMeasurements scan = scanOn({1});
+    scan.groups[0].shared_variance = 0.0;
+    scan.persistence = 0.0;
+    update.T_world_scan.R = R;
+    const Vec3 forward = kScanInformation * R.col(0);
+    Matrix6 beam_errors = Matrix6::Zero();
+    beam_errors.bottomRightCorner<3, 3>() = 4e-6 * forward * forward.transpose();
+    model.update(update, scan, beam_errors);
+  }
+  const Matrix6 added = poseAddition(model);
+  const Vec3 forward = R_world_scan.back().col(0);
+  return forward.dot(added.bottomRightCorner<3, 3>() * forward);
+}
+
+// Half of the error comes with each scan, and half of what was there stays: 0.5 + 0.25 + 0.125 of
+// 2 mm when the scans share it. Independent ones would add up to 1.15 mm.
+TEST(MapError, OfTheSensorStaysWhenThePlanesChange)
+{
+  const Mat3 ahead = Mat3::Identity();
+  EXPECT_NEAR(std::sqrt(varianceOfThreeScans({ahead, ahead, ahead})), 0.875 * 2e-3, 1e-6);
+}
+
+// After a quarter of a turn, the error that moved the platform ahead moves it to the left: along
+// the new direction, only the last two scans count.
+TEST(MapError, OfTheSensorTurnsWithIt)
+{
+  const Mat3 ahead = Mat3::Identity(), left = expSO3(Vec3(0.0, 0.0, 0.5 * M_PI));
+  EXPECT_NEAR(std::sqrt(varianceOfThreeScans({ahead, left, left})), 0.75 * 2e-3, 1e-6);
+}
+
+/** The sensor measures every scan 2 mm too far ahead, and each scan lies on planes that the one
+ * before has created. */
+double varianceOnNewGround(std::uint32_t scans)
+{
+  MapErrorModel model;
+  const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
+  for (std::uint32_t scan = 1; scan <= scans; ++scan)
+  {
+    InsertionError error;
+    error.inherited = poseAddition(model);
+    model.recordInsertion(scan, error, {});
+    model.update(fullTrust(), scanOn({scan}), std::pow(kScanInformation * 2e-3, 2) * along);
+  }
+  return poseAddition(model)(3, 3);
+}
+
+// The map has the errors of the sensor, too, and so each scan goes on from the error of the one
+// before: they add up. Independent errors would grow with the root of the number.
+TEST(MapError, OfTheSensorAddsUpWhereTheMapIsNew)
+{
+  for (const std::uint32_t scans : {1U, 2U, 5U, 50U})
+    EXPECT_NEAR(std::sqrt(varianceOnNewGround(scans)), scans * 2e-3, scans * 1e-8) << scans;
+}
+}  // namespace
+}  // namespace fastlio::testing
