@@ -133,14 +133,25 @@ void BeamErrors::sample(
   incidence_.add(plane, beam.along, point);
 }
 
-double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
+double BeamErrors::meanSquare(
+    const Offsets& offsets, const Offsets& others, double least_information) const
 {
   double squares = 0.0, known = 0.0;
-  for (const Offset& offset : offsets)
+  for (std::size_t bin = 0; bin < kBeamBins; ++bin)
   {
-    if (offset.information < least_information) continue;
-    const double square = std::pow(offset.weighted / offset.information, 2);
-    squares += std::max(0.0, square - kSharedNoise / offset.information);
+    const Offset &offset = offsets[bin], &other = others[bin];
+    double information = offset.information, weighted = offset.weighted;
+    // What the other offset of the laser explains is not of this one, where both can be told apart.
+    const double slope = other.information > 0.0 ? cross_[bin] / other.information : 0.0;
+    const double apart = information - slope * cross_[bin];
+    if (apart >= least_information)
+    {
+      information = apart;
+      weighted -= slope * other.weighted;
+    }
+    if (information < least_information) continue;
+    const double square = std::pow(weighted / information, 2);
+    squares += std::max(0.0, square - kSharedNoise / information);
     known += 1.0;
   }
   return known > 0.0 ? squares / known : 0.0;
@@ -148,12 +159,12 @@ double BeamErrors::meanSquare(const Offsets& offsets, double least_information)
 
 double BeamErrors::rangeVariance() const
 {
-  return meanSquare(range_, kLeastRangeInformation);
+  return meanSquare(range_, elevation_, kLeastRangeInformation);
 }
 
 double BeamErrors::elevationVariance() const
 {
-  return meanSquare(elevation_, kLeastElevationInformation);
+  return meanSquare(elevation_, range_, kLeastElevationInformation);
 }
 
 double BeamErrors::rangeOffset() const

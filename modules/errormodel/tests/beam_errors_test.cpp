@@ -27,6 +27,10 @@ struct LaserOffset
 class RandomRoom
 {
  public:
+  /** \param leaning how much the surfaces look upward, all alike: then range and elevation do the
+   * same to most of the residuals */
+  explicit RandomRoom(double leaning = 0.0) : leaning_(leaning) {}
+
   template <typename OffsetOf>
   void scan(BeamErrors& beams, double noise, const OffsetOf& offsetOf)
   {
@@ -43,7 +47,7 @@ class RandomRoom
           -std::sin(elevation) * std::cos(azimuth), -std::sin(elevation) * std::sin(azimuth),
           cosine);
       const Vec3 turned(normal_(random_), normal_(random_), normal_(random_));
-      const Vec3 normal = (beam + 0.5 * turned).normalized();
+      const Vec3 normal = (beam + 0.5 * turned + leaning_ * upward).normalized();
       const LaserOffset offset = offsetOf(i % kLines);
       const double z = offset.range * normal.dot(beam) +
                        kRadius * offset.elevation * normal.dot(upward) + noise * normal_(random_);
@@ -75,6 +79,7 @@ class RandomRoom
     return measured;
   }
 
+  double leaning_;
   std::mt19937 random_{7};
   std::normal_distribution<double> normal_;
 };
@@ -104,6 +109,16 @@ TEST(BeamErrors, AreAsLargeAsTheOffsetsOfTheLasers)
   }
   EXPECT_NEAR(by_range.rangeOffset(), 0.01, 5e-4);
   EXPECT_NEAR(by_elevation.elevationOffset(), 1e-3, 5e-5);
+}
+
+TEST(BeamErrors, OfTheElevationAreNotTakenForThoseOfTheRange)
+{
+  RandomRoom room(0.7);
+  BeamErrors beams;
+  for (int i = 0; i < 200; ++i)
+    room.scan(beams, 0.02, [](int line) { return LaserOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3}; });
+  EXPECT_LT(beams.rangeOffset(), 5e-4);
+  EXPECT_NEAR(beams.elevationOffset(), 1e-3, 5e-5);
 }
 
 TEST(BeamErrors, DoNotAverageOutWithTheNumberOfPoints)

@@ -67,7 +67,8 @@ class BeamErrors
 
   /** Of the sampled scan, as outer products. */
   [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
-  [[nodiscard]] static double meanSquare(const Offsets& offsets, double least_information);
+  [[nodiscard]] double meanSquare(
+      const Offsets& offsets, const Offsets& others, double least_information) const;
   [[nodiscard]] double rangeVariance() const;
   [[nodiscard]] double elevationVariance() const;
 
