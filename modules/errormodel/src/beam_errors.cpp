@@ -19,6 +19,13 @@ constexpr double kSharedNoise = 4.0;
 // Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
 // what the beams meet, which hardly changes in so short a time, seen from the sensor.
 constexpr std::size_t kScansPerSample = 4;
+
+Vec3 positionOf(const BodyPoints& points, std::size_t i)
+{
+  return {
+      static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
+      static_cast<double>(points.z[i])};
+}
 }  // namespace
 
 /** The axes of the sensor. */
@@ -74,10 +81,11 @@ void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
 }
 
 void BeamErrors::add(
-    const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
+    const Pose& T_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
     const std::vector<PlaneMatch>& matches)
 {
   const bool is_sampled = scans_++ % kScansPerSample == 0;
+  const Mat3& R_world_scan = T_world_scan.R;
   if (is_sampled) beginSample(R_world_scan);
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
@@ -91,7 +99,13 @@ void BeamErrors::add(
           if (block.weight[l] == 0.0 || !(beams.cosine[l] > kLeastCosine)) continue;
           const PointMeasurement point = block.point(l);
           add(beams, l, point);
-          if (is_sampled) sample(beams, l, point, matches[block.index[l]].plane);
+          if (!is_sampled) continue;
+          const PlaneMatch& match = matches[block.index[l]];
+          sample(beams, l, point, match.plane);
+          if (const Pose* view = views_.T_lidar_world(match.created_insertion))
+            sampleCreation(
+                *view, T_world_scan * positionOf(scan.surfaces, block.index[l]),
+                {block.h[3][l], block.h[4][l], block.h[5][l]}, point.weighted_h);
         }
       });
   if (!is_sampled) return;
@@ -131,6 +145,26 @@ void BeamErrors::sample(
   elevation_[bin].in_sampled += beams.range[lane] * beams.upward[lane] * point.weighted_h;
   sides_.add(beam, point, by_range);
   incidence_.add(plane, beam.along, point);
+}
+
+void BeamErrors::sampleCreation(
+    const Pose& T_lidar_world, const Vec3& point, const Vec3& normal, const Vector6& weighted_h)
+{
+  const Vec3 beam = T_lidar_world * point, turned = T_lidar_world.R * normal;
+  const double range = beam.norm(), sine = beam.z() / range;
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+  if (!(cosine > kLeastCosine)) return;
+  const double along = turned.dot(beam) / range;
+  const std::size_t bin = beamBin(sine);
+  range_[bin].in_sampled -= along * weighted_h;
+  elevation_[bin].in_sampled -= range * (turned.z() - sine * along) / cosine * weighted_h;
+  sides_.addCreation({beam.x(), beam.y(), along, turned.z()}, along * weighted_h);
+}
+
+void BeamErrors::forgetMap()
+{
+  incidence_.forgetMap();
+  views_.clear();
 }
 
 double BeamErrors::meanSquare(

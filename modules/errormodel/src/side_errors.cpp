@@ -36,6 +36,11 @@ void SideErrors::add(const BeamGeometry& beam, const PointMeasurement& point, co
   side.pull += pull;
 }
 
+void SideErrors::addCreation(const BeamGeometry& beam, const Vector6& pull)
+{
+  sides_[sideOf(beam)].pull -= pull;
+}
+
 void SideErrors::learn()
 {
   for (const Side& side : sides_)

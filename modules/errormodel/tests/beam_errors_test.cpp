@@ -61,8 +61,9 @@ class RandomRoom
       plane.nz = static_cast<float>(normal.z());
       plane.d = static_cast<float>(z - kRadius * normal.dot(beam));
       plane.variance = static_cast<float>(1.0 / kWeight);
+      plane.created_insertion = 1;
     }
-    beams.add(Mat3::Identity(), scan, measured(scan, matches), matches);
+    beams.add(Pose{}, scan, measured(scan, matches), matches);
   }
 
  private:
@@ -119,6 +120,40 @@ TEST(BeamErrors, OfTheElevationAreNotTakenForThoseOfTheRange)
     room.scan(beams, 0.02, [](int line) { return LaserOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3}; });
   EXPECT_LT(beams.rangeOffset(), 5e-4);
   EXPECT_NEAR(beams.elevationOffset(), 1e-3, 5e-5);
+}
+
+/** What offsets of 1 cm do to a scan whose planes were created from there. */
+double traceWithPlanesFrom(const Pose& T_world_lidar)
+{
+  RandomRoom room;
+  BeamErrors beams;
+  beams.recordInsertion(1, T_world_lidar);
+  for (int i = 0; i < 200; ++i)
+    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+  return beams.covariance(Mat3::Identity()).trace();
+}
+
+TEST(BeamErrors, AreInTheMapWhereTheSameBeamsHaveMadeIt)
+{
+  const double here = traceWithPlanesFrom({});
+  const double elsewhere = traceWithPlanesFrom({Mat3::Identity(), {0.0, 0.0, 3.0}});
+  EXPECT_GT(elsewhere, 0.0);
+  EXPECT_LT(here, 1e-6 * elsewhere);
+}
+
+TEST(CreatingViews, KnowFromWhereAnInsertionWasMade)
+{
+  CreatingViews views;
+  EXPECT_EQ(views.T_lidar_world(1), nullptr);
+  for (std::uint32_t insertion = 5; insertion < 1005; ++insertion)
+    views.record(insertion, {Mat3::Identity(), {0.1 * insertion, 0.0, 0.0}});
+  EXPECT_EQ(views.T_lidar_world(4), nullptr);
+  ASSERT_NE(views.T_lidar_world(1004), nullptr);
+  EXPECT_DOUBLE_EQ(views.T_lidar_world(1004)->p.x(), -100.4);
+  // Of a thousand, old ones are thinned out to every sixteenth.
+  EXPECT_NEAR(views.T_lidar_world(500)->p.x(), -50.0, 1.6);
+  views.clear();
+  EXPECT_EQ(views.T_lidar_world(1004), nullptr);
 }
 
 TEST(BeamErrors, DoNotAverageOutWithTheNumberOfPoints)

@@ -84,7 +84,7 @@ UpdateByCalibration LocalMap::considerUpdate(
   const MeasuredScan& measured = *match.measured;
   const GroupedMeasurements* grouped = nullptr;
   workers_->alongside(
-      [&] { beams.add(update.T_world_scan.R, scan, measured, *match.matches); },
+      [&] { beams.add(update.T_world_scan, scan, measured, *match.matches); },
       [&] { grouped = &groups_.group(*workers_, measured, *match.matches); });
   UpdateByCalibration by_calibration;
   workers_->alongside(

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/errormodel/calibration_sums.h>
+#include <fastlio/errormodel/creating_views.h>
 #include <fastlio/errormodel/incidence_bias.h>
 #include <fastlio/errormodel/side_errors.h>
 #include <fastlio/lidar/beam_corrections.h>
@@ -25,17 +26,23 @@ namespace fastlio
 class BeamErrors
 {
  public:
-  /** A scan was matched. \param R_world_scan attitude of the scan pose
+  /** A scan was matched. \param T_world_scan the scan pose
    * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
-      const Mat3& R_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
+      const Pose& T_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
       const std::vector<PlaneMatch>& matches);
+  /** A scan joined the map. \param insertion its number, greater than that before */
+  void recordInsertion(std::uint32_t insertion, const Pose& T_world_lidar)
+  {
+    views_.record(insertion, T_world_lidar);
+  }
   /** There is no map any more. */
-  void forgetMap() { incidence_.forgetMap(); }
+  void forgetMap();
 
   /** Covariance of sum w h b over a scan, b by offsets of range and elevation, of beams and of
-   * sides. The points are those of the last sampled scan, which every fourth one is: what the
-   * beams meet stays nearly the same, seen from the sensor.
+   * sides. The beams that created a plane had such offsets, too: where the same beam meets it
+   * again, nothing is wrong. The points are those of the last sampled scan, which every fourth one
+   * is: what the beams meet stays nearly the same, seen from the sensor.
    * \param R_world_scan attitude of the scan pose */
   [[nodiscard]] Matrix6 covariance(const Mat3& R_world_scan) const;
   /** Root mean square of the offsets; 0 while none is known. */
@@ -64,6 +71,8 @@ class BeamErrors
   void beginSample(const Mat3& R_world_scan);
   void sample(
       const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane);
+  void sampleCreation(
+      const Pose& T_lidar_world, const Vec3& point, const Vec3& normal, const Vector6& weighted_h);
 
   /** Of the sampled scan, as outer products. */
   [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
@@ -76,6 +85,7 @@ class BeamErrors
   std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
   IncidenceBias incidence_;
   SideErrors sides_;
+  CreatingViews views_;
   std::size_t scans_ = 0;
   Mat3 R_world_sampled_ = Mat3::Identity();  // attitude of the sampled scan
   double upright_weight_ = 0.0, upright_range_ = 0.0;

@@ -31,6 +31,8 @@ class SideErrors
   void beginScan() { sides_ = {}; }
   /** \param pull derivative of sum w h r by the offset: the cosine times the point's w h */
   void add(const BeamGeometry& beam, const PointMeasurement& point, const Vector6& pull);
+  /** A beam that created the plane which a point of the scan is on. \param pull as of add() */
+  void addCreation(const BeamGeometry& beam, const Vector6& pull);
   /** Learns from the scan, all of whose points were added. */
   void learn();
 

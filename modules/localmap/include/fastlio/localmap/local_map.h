@@ -58,6 +58,8 @@ class LocalMap
   [[nodiscard]] bool isSparse() const;
   /** It is the map of an earlier run. */
   [[nodiscard]] bool isGiven() const { return given_; }
+  /** So many scans have joined it. */
+  [[nodiscard]] std::uint32_t insertions() const { return insertions_; }
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
   [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
 
