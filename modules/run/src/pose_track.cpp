@@ -44,6 +44,13 @@ Matrix6 byLatter(const Pose& a)
   return J;
 }
 
+/** Of the map's part. */
+TwistCovariance unexplainedByBeams(const TrackedPose& pose)
+{
+  return twistCovariance(pose.map_covariance, pose.T_world_body) -
+         pose.motion_by_beams * pose.motion_by_beams.transpose();
+}
+
 void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
 {
   const double dt = secondsBetween(from.stamp_ns, to.stamp_ns);
@@ -63,11 +70,12 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 by_b = byLatter(a.T_world_body);
   const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
-  const TwistCovariance growth = twistCovariance(b.map_covariance, b.T_world_body) -
-                                 twistCovariance(a.map_covariance, a.T_world_body);
+  const TwistCovariance growth = unexplainedByBeams(b) - unexplainedByBeams(a);
+  const Matrix6 by_beams = b.motion_by_beams - a.motion_by_beams;
   // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
   // what had grown on the way.
-  const TwistCovariance changed = positivePart(growth) + positivePart(-growth);
+  const TwistCovariance changed =
+      positivePart(growth) + positivePart(-growth) + by_beams * by_beams.transpose();
   const Matrix6 of_b = own_b + poseCovariance(changed, b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
@@ -84,6 +92,7 @@ void PoseTrack::add(const ScanResult& result)
   pose.covariance = estimate.covariance;
   pose.map_covariance =
       poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
+  pose.motion_by_beams = result.motion_by_beams;
   if (poses_.empty())
     begin_ns_ = result.begin_ns;
   else
@@ -116,6 +125,8 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
       a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
   pose.covariance = (1.0 - fraction) * before.covariance + fraction * next->covariance;
   pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
+  pose.motion_by_beams =
+      (1.0 - fraction) * before.motion_by_beams + fraction * next->motion_by_beams;
   setVelocity(pose, before, *next);
   return pose;
 }

@@ -84,6 +84,29 @@ TEST(PoseTrack, KnowsNothingOutsideAndInGaps)
   EXPECT_FALSE(track.at(kTrackStamp + 30 * kScan + 1));
 }
 
+/** A vehicle that a constant error of the sensor turns by 1 mrad for each metre. */
+TrackedPose turnedByBeams(double way)
+{
+  TrackedPose pose;
+  pose.T_world_body.p.x() = way;
+  pose.motion_by_beams(2, 0) = 1e-3 * way;
+  const Vec3 phi(0.0, 0.0, 1e-3 * way);
+  Vector6 error;
+  error << phi, skew(phi) * pose.T_world_body.p;
+  pose.map_covariance = pose.covariance = error * error.transpose();
+  return pose;
+}
+
+// The difference of the covariances would grow with the way: 199 mrad^2 for the last metre of 100.
+TEST(RelativePose, ErrorsOfTheBeamsAreTheSameForEveryMetre)
+{
+  for (const double way : {0.0, 1.0, 99.0})
+  {
+    const RelativePose metre = relativePose(turnedByBeams(way), turnedByBeams(way + 1.0));
+    EXPECT_NEAR(metre.covariance(2, 2), 1e-6, 1e-12) << way;
+  }
+}
+
 /** Without a map's part: the two errors are independent, so numerical derivatives check the
  * analytical ones.
  */

@@ -97,6 +97,9 @@ class MapErrorModel
   /** The same, some way after the last scan. */
   [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
+  /** The part of addition() by the errors of the beams: B B^T with B = cov(e, eta), pose rows. */
+  [[nodiscard]] Matrix6 poseByBeams() const { return Y_beams_.topRows<6>(); }
+
   /** Remembers how well the scan pose was known when insertion number \a scan was made.
    * \param by_state Jacobian of the scan pose by the state */
   void recordInsertion(
