@@ -1,5 +1,5 @@
 #!/bin/sh
-# mrpt_fastlio: checks lengths of files and functions, and the licence line of each source file.
+# mrpt_fastlio: checks lengths of files and functions, licence lines, and that each class has a name of its own.
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: tests/structure/check_structure.sh [SOURCE_DIR]
@@ -31,10 +31,23 @@ check_licence() {
     echo "$1: 'SPDX-License-Identifier: BSD-3-Clause' is missing in the first lines"
 }
 
+# Modules share a namespace, and a program may contain both of two classes of one name: then one's functions run
+# on the other's objects.
+check_names() {
+  for program in modules apps/* plugins/*; do
+    [ ! -d "$program" ] || find modules "$program" -path '*/tests' -prune -o -type f -name '*.h' -exec \
+      grep -HoE '^(class|struct) [A-Za-z0-9_]+( final)?( : .*)?$' {} + |
+      sed -E 's/^([^:]*):(class|struct) ([A-Za-z0-9_]+).*/\3 \1/' | sort -u |
+      awk '$1 == name { print $2 ": " name " is a class of " file ", too: give one of them another name" }
+           { name = $1; file = $2 }'
+  done | sort -u
+}
+
 for file in $(sources_of) $(scripts_of); do
   check_length "$file"
   check_licence "$file"
 done >"$failures"
+check_names >>"$failures"
 # shellcheck disable=SC2046  # no blanks in the names of our files
 awk -v limit="$max_function_lines" -f "$here/long_functions.awk" $(sources_of) >>"$failures" || true
 

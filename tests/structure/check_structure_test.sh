@@ -48,5 +48,13 @@ rm "$tree/tests/long.h"
 echo 'int x;' >"$tree/plugins/bare.cpp"
 expect_failure "a missing licence" 'plugins/bare.cpp: .SPDX'
 rm "$tree/plugins/bare.cpp"
+mkdir -p "$tree/modules/a/src" "$tree/modules/b/include" "$tree/modules/b/tests"
+{ licence; printf 'class Twin final : public Base\n{\n};\nclass Other;\n'; } >"$tree/modules/a/src/twin.h"
+{ licence; printf 'class Other\n{\n};\n'; } >"$tree/modules/b/include/other.h"
+cp "$tree/modules/a/src/twin.h" "$tree/modules/b/tests/twin.h"
+expect_pass "a class, its declaration elsewhere, and one of a test"
+{ licence; printf 'struct Twin\n{\n};\n'; } >"$tree/modules/b/include/twin.h"
+expect_failure "two classes of one name" 'b/include/twin.h: Twin is a class of modules/a/src/twin.h'
+rm -r "$tree/modules/a" "$tree/modules/b"
 expect_pass "the tree after all"
 echo "The structure check finds what it should."

@@ -125,14 +125,14 @@ double numberAt(const std::vector<char>& record, const Place& place)
   return static_cast<double>(value);
 }
 
-LocalPoints readBinary(std::ifstream& in, const Header& header, const std::string& path)
+FilePoints readBinary(std::ifstream& in, const Header& header, const std::string& path)
 {
   const auto places = placesOf(header, path);
   std::size_t bytes = 0;
   for (const Field& field : header.fields)
     bytes += field.size * field.count;
   std::vector<char> record(bytes);
-  LocalPoints points;
+  FilePoints points;
   for (std::size_t i = 0; i < header.points; ++i)
   {
     if (!in.read(record.data(), static_cast<std::streamsize>(bytes)))
@@ -145,10 +145,10 @@ LocalPoints readBinary(std::ifstream& in, const Header& header, const std::strin
   return points;
 }
 
-LocalPoints readAscii(std::ifstream& in, const Header& header, const std::string& path)
+FilePoints readAscii(std::ifstream& in, const Header& header, const std::string& path)
 {
   const auto places = placesOf(header, path);
-  LocalPoints points;
+  FilePoints points;
   std::vector<std::string> cells;
   for (std::string line; points.points.size() < header.points && readBoundedLine(in, line);)
   {
@@ -177,7 +177,7 @@ LocalPoints readAscii(std::ifstream& in, const Header& header, const std::string
 }
 }  // namespace
 
-LocalPoints readPcd(const std::string& path)
+FilePoints readPcd(const std::string& path)
 {
   std::ifstream in(path, std::ios::binary);
   const Header header = readHeader(in, path);

@@ -4,7 +4,7 @@
 /** \file pcd_file.h Coordinates out of PCD files. */
 #pragma once
 
-#include "local_points.h"
+#include "file_points.h"
 
 #include <string>
 
@@ -12,6 +12,6 @@ namespace fastlio
 {
 /** The fields x, y, z of a PCD file (version 0.7, DATA ascii or binary, 4- or 8-byte floats).
  * \exception std::runtime_error the file is damaged or of another form */
-[[nodiscard]] LocalPoints readPcd(const std::string& path);
+[[nodiscard]] FilePoints readPcd(const std::string& path);
 
 }  // namespace fastlio

@@ -224,13 +224,13 @@ std::array<std::size_t, 3> axesOf(const Element& vertex, const std::string& path
 }
 }  // namespace
 
-LocalPoints readPly(const std::string& path)
+FilePoints readPly(const std::string& path)
 {
   std::ifstream in(path, std::ios::binary);
   const PlyHeader header = readPlyHeader(in, path);
   PlyBody body(in, *header.format);
   std::vector<double> values;
-  LocalPoints points;
+  FilePoints points;
   for (const Element& element : header.elements)
   {
     const bool is_vertex = element.name == "vertex";

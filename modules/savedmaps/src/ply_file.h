@@ -4,7 +4,7 @@
 /** \file ply_file.h Coordinates out of PLY files. */
 #pragma once
 
-#include "local_points.h"
+#include "file_points.h"
 
 #include <string>
 
@@ -14,6 +14,6 @@ namespace fastlio
  * binary_big_endian); other elements and properties are skipped. MRPT's own reader takes what is
  * missing at the end for points, with a line on standard error for each.
  * \exception std::runtime_error the file is damaged or of another form */
-[[nodiscard]] LocalPoints readPly(const std::string& path);
+[[nodiscard]] FilePoints readPly(const std::string& path);
 
 }  // namespace fastlio

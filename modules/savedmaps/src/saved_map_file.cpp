@@ -56,7 +56,7 @@ bool isPcd(const std::string& beginning)
   return beginning.rfind("# .PCD", 0) == 0 || beginning.rfind("VERSION", 0) == 0;
 }
 
-void take(LocalPoints&& read, SavedMap& saved)
+void take(FilePoints&& read, SavedMap& saved)
 {
   saved.points = std::move(read.points);
   saved.origin = read.origin;
@@ -64,9 +64,9 @@ void take(LocalPoints&& read, SavedMap& saved)
   if (!saved.origin.isZero()) saved.planes.reset();
 }
 
-LocalPoints pointsOf(const mrpt::maps::CPointsMap& map)
+FilePoints pointsOf(const mrpt::maps::CPointsMap& map)
 {
-  LocalPoints points;
+  FilePoints points;
   for (std::size_t i = 0; i < map.size(); ++i)
   {
     mrpt::math::TPoint3Df p;
@@ -110,7 +110,7 @@ class OnceStream
 bool hasUsablePoint(const WorldPoints& points)
 {
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (LocalPoints::usable(
+    if (FilePoints::usable(
             {static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
              static_cast<double>(points.z[i])}))
       return true;

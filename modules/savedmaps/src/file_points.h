@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file local_points.h The points of a map file, in single precision wherever they lie. */
+/** \file file_points.h The points of a map file, in single precision wherever they lie. */
 #pragma once
 
 #include <fastlio/map/surface_map.h>
@@ -16,7 +16,7 @@ constexpr double kFarthestPoint = 1e7;
 
 /** Points that are counted from a place near them when they lie far from the origin of their file:
  * at UTM coordinates, single precision has steps of half a metre. */
-class LocalPoints
+class FilePoints
 {
  public:
   /** The first usable point decides on the origin. \param p in the coordinates of the file [m] */

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "local_points.h"
+#include "file_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ constexpr double kNear = 1e4;  // single precision has steps of 1 mm there [m]
 constexpr double kStep = 1e3;  // origins are round numbers [m]
 }  // namespace
 
-bool LocalPoints::usable(const std::array<double, 3>& p)
+bool FilePoints::usable(const std::array<double, 3>& p)
 {
   return std::all_of(
       p.begin(), p.end(), [](double c) { return std::abs(c) <= kFarthestPoint; });  // not for NaN
 }
 
-void LocalPoints::add(const std::array<double, 3>& p)
+void FilePoints::add(const std::array<double, 3>& p)
 {
   if (!placed_ && usable(p))
   {
