@@ -4,7 +4,7 @@
 #include "caster.h"
 
 #include <fastlio/math/time.h>
-#include <fastlio/worlds/pose_track.h>
+#include <fastlio/worlds/sampled_motion.h>
 
 #include <algorithm>
 #include <limits>
@@ -30,7 +30,7 @@ std::vector<Echo> Caster::cast(const Sweep& sweep) const
   const double sweep_time = simulation_->secondsSinceStart(sweep.stamp_ns);
   std::vector<Echo> echoes(sweep.shots.size());
   std::int64_t posed_at = std::numeric_limits<std::int64_t>::min();
-  PoseTrack track(simulation_->motion());
+  SampledMotion motion(simulation_->motion());
   Instant instant;
   for (std::size_t i = 0; i < sweep.shots.size(); ++i)
   {
@@ -41,7 +41,7 @@ std::vector<Echo> Caster::cast(const Sweep& sweep) const
     {
       posed_at = shot.offset_ns;
       const double t = sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond;
-      instant = instantOf(t, track.at(t));
+      instant = instantOf(t, motion.at(t));
     }
     echoes[i] = echo(shot, instant);
   }

@@ -6,7 +6,7 @@
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/realistic.h>
 #include <fastlio/worlds/path_builder.h>
-#include <fastlio/worlds/pose_track.h>
+#include <fastlio/worlds/sampled_motion.h>
 
 #include <gtest/gtest.h>
 
@@ -39,24 +39,24 @@ double difference(const Pose& a, const Pose& b)
   return std::max((a.p - b.p).norm(), (a.R - b.R).norm());
 }
 
-TEST(PoseTrack, IsTheMotion)
+TEST(SampledMotion, IsTheMotion)
 {
   for (const std::string_view name : scenarioNames())
   {
     const Simulation simulation(realistic(testing::shortSettings(name, 6.0)));
     const Motion& motion = simulation.motion();
-    PoseTrack track(motion);
+    SampledMotion sampled(motion);
     double worst = 0.0;
     for (double t = -0.01; t < 6.0; t += t < 5.9 ? 0.01371 : 2.3e-6)
-      worst = std::max(worst, difference(track.at(t), motion.pose(t)));
+      worst = std::max(worst, difference(sampled.at(t), motion.pose(t)));
     EXPECT_LT(worst, 1e-11) << name;
   }
 }
 
-TEST(PoseTrack, DoesNotDependOnWhatWasAskedBefore)
+TEST(SampledMotion, DoesNotDependOnWhatWasAskedBefore)
 {
   const Simulation simulation(realistic(testing::shortSettings("office", 6.0)));
-  PoseTrack forward(simulation.motion()), backward(simulation.motion());
+  SampledMotion forward(simulation.motion()), backward(simulation.motion());
   std::vector<Pose> poses;
   for (int i = 0; i < 500; ++i)
     poses.push_back(forward.at(4.0 + 7e-5 * i));

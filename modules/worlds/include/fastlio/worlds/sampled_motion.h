@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file pose_track.h Poses of a motion at many instants that lie close together. */
+/** \file sampled_motion.h Poses of a motion at many instants that lie close together. */
 #pragma once
 
 #include <fastlio/worlds/motion.h>
@@ -16,11 +16,11 @@ namespace fastlio
  * few microseconds, and a vibrating carrier's pose takes sixty sines.
  *
  * The error is below 1e-11 m and rad for vibrations up to 200 Hz, and the pose at an instant is the
- * same whichever was asked for before. The motion must outlive the track. */
-class PoseTrack
+ * same whichever was asked for before. The motion must outlive it. */
+class SampledMotion
 {
  public:
-  explicit PoseTrack(const Motion& motion) : motion_(&motion) {}
+  explicit SampledMotion(const Motion& motion) : motion_(&motion) {}
 
   /** Pose of the IMU at t [s] since the start; a later instant near the last one is the fastest. */
   [[nodiscard]] Pose at(double t);

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/worlds/pose_track.h>
+#include <fastlio/worlds/sampled_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::array<double, 6> weightsAt(double x)
 }
 }  // namespace
 
-Pose PoseTrack::at(double t)
+Pose SampledMotion::at(double t)
 {
   constexpr double kBefore = 2.0;  // knots before the interval of t
   const double knot = t / kSpacing;
@@ -47,7 +47,7 @@ Pose PoseTrack::at(double t)
   return pose;
 }
 
-void PoseTrack::moveTo(std::int64_t first)
+void SampledMotion::moveTo(std::int64_t first)
 {
   constexpr auto kCount = static_cast<std::int64_t>(kKnots);
   const bool some_are_known = first_ && first >= *first_ && first - *first_ < kCount;
