@@ -10,7 +10,7 @@ jobs=${2:-1}
 shift $(($# < 2 ? $# : 2))
 
 # What an ordinary build does not compile has no compiler flags.
-not_built='^plugins/mola_fastlio/|^benchmarks/peers/|^tests/fuzz/fuzz_[a-z]*\.cpp$'
+not_built='^plugins/mola_fastlio/|^tests/mola/|^benchmarks/peers/|^tests/fuzz/fuzz_[a-z]*\.cpp$'
 files=$(if [ $# -gt 0 ]; then printf '%s\n' "$@"; else cmake/list_sources.sh | grep '\.cpp$'; fi |
   grep -Ev "$not_built" || true)
 # Unity units hide the files that they include: a file that is not found must not pass as checked.

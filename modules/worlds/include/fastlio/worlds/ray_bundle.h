@@ -18,14 +18,11 @@ struct RayBundle
 {
   static constexpr std::size_t kMost = 6;
 
-  explicit RayBundle(const Ray& first) : origin(first.origin), count(1)
-  {
-    directions[0] = first.direction;
-  }
+  explicit RayBundle(const Ray& first) : origin(first.origin) { directions[0] = first.direction; }
 
   Vec3 origin;
   std::array<Vec3, kMost> directions;  //!< of unit length; the first count are used
-  std::size_t count;
+  std::size_t count = 1;
 
   [[nodiscard]] Ray ray(std::size_t i) const { return {origin, directions[i]}; }
 
