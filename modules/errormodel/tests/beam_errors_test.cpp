@@ -35,7 +35,7 @@ class RandomRoom
   void scan(BeamErrors& beams, double noise, const OffsetOf& offsetOf)
   {
     DeskewedScan scan;
-    scan.surfaces.resize(kLines * kColumns);
+    scan.surfaces.resize(std::size_t{kLines} * kColumns);
     std::vector<PlaneMatch> matches(scan.surfaces.size());
     for (int i = 0; i < kLines * kColumns; ++i)
     {

@@ -51,7 +51,7 @@ Pose CorrectedTrajectory::poseAt(const Place& place, const Pose& T_world_imu) co
 {
   const auto movedWith = [&T_world_imu](const Node& node)
   { return node.corrected * (node.odometry.T_world_body.inverse() * T_world_imu); };
-  const Pose a = movedWith(*place.before);
+  Pose a = movedWith(*place.before);
   if (place.after == nullptr) return a;
   const Pose b = movedWith(*place.after);
   return {
