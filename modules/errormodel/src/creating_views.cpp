@@ -4,8 +4,6 @@
 #include "insertion_weights.h"
 #include <fastlio/errormodel/creating_views.h>
 
-#include <algorithm>
-
 namespace fastlio
 {
 void CreatingViews::record(std::uint32_t insertion, const Pose& T_world_lidar)
@@ -16,10 +14,8 @@ void CreatingViews::record(std::uint32_t insertion, const Pose& T_world_lidar)
 
 const Pose* CreatingViews::T_lidar_world(std::uint32_t insertion) const
 {
-  const auto next = std::upper_bound(
-      views_.begin(), views_.end(), insertion,
-      [](std::uint32_t number, const View& view) { return number < view.insertion; });
-  return next == views_.begin() ? nullptr : &std::prev(next)->T_lidar_world;
+  const std::size_t index = indexOfInsertion(views_, insertion);
+  return index < views_.size() ? &views_[index].T_lidar_world : nullptr;
 }
 
 }  // namespace fastlio

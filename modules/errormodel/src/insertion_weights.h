@@ -25,6 +25,18 @@ void keepEverySecond(std::vector<Insertion>& insertions)
   insertions.resize((insertions.size() + 1) / 2);
 }
 
+/** Index of the insertion with that number, or of the one that stands for it since it was dropped;
+ * their number where it is not known. \param insertions ascending by scan */
+template <typename Insertion>
+std::size_t indexOfInsertion(const std::vector<Insertion>& insertions, std::uint32_t number)
+{
+  const auto next = std::upper_bound(
+      insertions.begin(), insertions.end(), number,
+      [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
+  return next == insertions.begin() ? insertions.size()
+                                    : static_cast<std::size_t>(next - insertions.begin()) - 1;
+}
+
 /** Finds the insertion that created the planes of each group of points. \param insertions ascending
  * by scan; older ones may have been dropped \param found receives an index for each group, or the
  * number of insertions where it is not known */
@@ -43,11 +55,7 @@ void findInsertions(
     if (group.created_insertion != looked_up || found.empty())
     {
       looked_up = group.created_insertion;
-      const auto next = std::upper_bound(
-          insertions.begin(), insertions.end(), looked_up,
-          [](std::uint32_t scan, const Insertion& insertion) { return scan < insertion.scan; });
-      index = next == insertions.begin() ? insertions.size()
-                                         : static_cast<std::size_t>(next - insertions.begin()) - 1;
+      index = indexOfInsertion(insertions, looked_up);
     }
     found.push_back(index);
   }

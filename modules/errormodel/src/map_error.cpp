@@ -138,7 +138,7 @@ struct MapErrorModel::CreatingErrors
       : own(squareRoot(covariance)), by_beams(with_beams)
   {
     if (with_beams.isZero(0.0)) return;
-    AlignedMatrix6 explained = own.triangularView<Eigen::Lower>().solve(with_beams);
+    const AlignedMatrix6 explained = own.triangularView<Eigen::Lower>().solve(with_beams);
     // Rounding and bounds of A must not let the beams explain more than there is.
     const AlignedMatrix6 square = productByTransposed(explained, explained);
     const Eigen::SelfAdjointEigenSolver<AlignedMatrix6> share(square, Eigen::EigenvaluesOnly);

@@ -8,8 +8,8 @@
 #include <fastlio/worlds/height_field.h>
 #include <fastlio/worlds/ray_bundle.h>
 
+#include <array>
 #include <cstdint>
-#include <limits>
 
 namespace fastlio
 {

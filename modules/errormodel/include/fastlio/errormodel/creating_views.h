@@ -26,7 +26,7 @@ class CreatingViews
  private:
   struct View
   {
-    std::uint32_t insertion = 0;
+    std::uint32_t scan = 0;  // number of the insertion
     Pose T_lidar_world;
   };
   std::vector<View> views_;  // ascending
