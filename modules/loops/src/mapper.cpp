@@ -31,6 +31,8 @@ constexpr double kNearest = 1.0;         // surfaces that determine the attitude
 constexpr double kDriftRotation = 1e-4;     // [rad/m]
 constexpr double kDriftTranslation = 2e-4;  // [m/m]
 constexpr double kUsualBias = 0.02;         // of the accelerometer, over gravity
+// Over a longer way, the graph knows more than the odometry's drift leaves over.
+constexpr std::size_t kLongestWay = 1000;  // [submaps]
 
 /** What the filter does not know of the error of a motion between two scans.
  * \param range to the surfaces [m] */
@@ -204,17 +206,42 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   return closure;
 }
 
-/** Where b is as seen from a, and how well that is known. The covariance of b holds that of a, as
- * far as they have a way in common; their sum is an upper bound. */
+/** Where b is as seen from a, and how well that is known: by the graph or by the odometry alone,
+ * whichever knows it better. In the graph, the covariance of b holds that of a, as far as they have
+ * a way in common; their sum is an upper bound. */
 RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 {
   const double factor2 = limits_.odometry_std_factor * limits_.odometry_std_factor;
   Matrix6 turn = Matrix6::Identity();
   turn.bottomRightCorner<3, 3>() = poses_[a].R.transpose();
-  RelativePose motion;
-  motion.T_a_b = poses_[a].inverse() * poses_[b];
-  motion.covariance =
-      withFloor(turn * (factor2 * (covariances_[a] + covariances_[b])) * turn.transpose());
+  RelativePose motion{
+      poses_[a].inverse() * poses_[b],
+      turn * (covariances_[a] + covariances_[b]) * turn.transpose()};
+  const std::optional<RelativePose> alone = odometryMotion(a, b);
+  if (alone && largestPositionStd(alone->covariance) < largestPositionStd(motion.covariance))
+    motion = *alone;
+  motion.covariance = withFloor(factor2 * motion.covariance);
+  return motion;
+}
+
+/** Where the odometry has b as seen from a. Where it loses a direction and finds it again in an
+ * older part of its map, it knows both poses well. The graph does not see that: it adds up what
+ * each motion in between has lost and found. */
+std::optional<RelativePose> Mapper::odometryMotion(std::size_t a, std::size_t b) const
+{
+  const std::vector<Submap>& submaps = result_.submaps;
+  if (submaps[a].session != submaps[b].session || b - a > kLongestWay) return std::nullopt;
+  OdometryChain drift(Pose{}, Matrix6::Zero(), Vector6::Zero(), usualErrors().drift_covariance);
+  for (std::size_t i = a; i < b; ++i)
+  {
+    const Submap &from = submaps[i], &to = submaps[i + 1];
+    drift.advance(
+        {from.reference.T_world_body.inverse() * to.reference.T_world_body,
+         ofBeams(std::min(from.range, to.range))},
+        to.travel - from.travel);
+  }
+  RelativePose motion = relativePose(submaps[a].reference, submaps[b].reference);
+  motion.covariance += drift.covariance();
   return motion;
 }
 

@@ -3,12 +3,13 @@
 
 #include "simulated_submaps.h"
 #include <fastlio/loops/mapper.h>
+#include <fastlio/math/time.h>
 #include <fastlio/scenarios/settings_table.h>
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <optional>
-#include <utility>
 
 namespace fastlio
 {
@@ -26,26 +27,36 @@ Submap roomsAround()
   return testing::submapsOf(Simulation(settings), {kLong}).at(0);
 }
 
-/** The closure between a submap and one later on that looks the same.
- * \param height of the latter by the odometry [m] \param height_std how well it knows [m] */
-Closure closureAtHeight(double height, double height_std)
+/** A submap of these rooms after so much travel.
+ * \param height by the odometry [m] \param height_std how well it knows, by its map [m] */
+Submap roomsAt(double height, double height_std, double travel)
 {
   static const Submap rooms = roomsAround();
-  Submap first = rooms, second = rooms;
-  first.reference.covariance = 1e-8 * Matrix6::Identity();
-  first.reference.map_covariance.setZero();
-  second.reference = first.reference;
-  second.reference.stamp_ns += 60'000'000'000;
-  second.reference.T_world_body.p.z() += height;
-  second.reference.covariance(5, 5) += height_std * height_std;
-  second.travel += 60.0;
-  // The accelerometer does not tell heights.
-  first.gravity = second.gravity = std::nullopt;
+  Submap submap = rooms;
+  submap.reference.T_world_body.p.z() += height;
+  submap.reference.stamp_ns += toNanoseconds(travel);  // at 1 m/s
+  submap.reference.map_covariance.setZero();
+  submap.reference.map_covariance(5, 5) = height_std * height_std;
+  submap.reference.covariance = submap.reference.map_covariance + 1e-8 * Matrix6::Identity();
+  submap.travel += travel;
+  submap.gravity = std::nullopt;  // the accelerometer does not tell heights
+  return submap;
+}
+
+/** The one closure of these submaps. */
+Closure closureOf(std::initializer_list<Submap> submaps)
+{
   Mapper mapper;
-  mapper.add(std::move(first));
-  mapper.add(std::move(second));
+  for (const Submap& submap : submaps)
+    mapper.add(submap);
   EXPECT_EQ(mapper.closures().size(), 1U);
   return mapper.closures().empty() ? Closure{} : mapper.closures().front();
+}
+
+/** The closure between a submap and one later on that looks the same. */
+Closure closureAtHeight(double height, double height_std)
+{
+  return closureOf({roomsAt(0.0, 0.0, 0.0), roomsAt(height, height_std, 60.0)});
 }
 }  // namespace
 
@@ -64,6 +75,16 @@ TEST(ClosureJudgement, AnErrorThatTheOdometryKnowsOfIsNone)
   const Closure closure = closureAtHeight(0.8, 0.4);
   EXPECT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
   EXPECT_NEAR(closure.registration.motion.T_a_b.p.norm(), 0.0, 0.01);
+}
+
+/** On the way, the odometry has lost the height and has found it again where it knew it before.
+ * What it was unsure of in between says nothing about where it is now. */
+TEST(ClosureJudgement, AFloorIsOutOfReachAfterTheHeightWasLostAndFound)
+{
+  Submap lost = roomsAt(0.0, 4.0, 30.0);
+  lost.reference.T_world_body.p.x() += 100.0;
+  const Closure closure = closureOf({roomsAt(0.0, 0.0, 0.0), lost, roomsAt(kFloor, 0.53, 60.0)});
+  EXPECT_EQ(closure.verdict, ClosureVerdict::OutOfReach) << closure.reason;
 }
 
 }  // namespace fastlio

@@ -158,6 +158,7 @@ class Mapper
   void beginSession(const Submap& first, std::size_t b);
   [[nodiscard]] std::vector<std::size_t> candidatesOf(std::size_t b) const;
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;
+  [[nodiscard]] std::optional<RelativePose> odometryMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
   void judge(Closure& closure) const;
   [[nodiscard]] ClosureLimits limitsFor(const RelativePose& predicted) const;
