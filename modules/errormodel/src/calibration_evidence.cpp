@@ -33,6 +33,17 @@ bool isPositive(const Eigen::LDLT<Square6>& ldlt)
 {
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 0.0;
 }
+
+/** By how much y^T W y is smaller when the covariance of y has the positive part M of \a mismatch,
+ * too: (W^-1 + M)^-1 = W - W M (1 + W M)^-1 W. \param Wy W y */
+double explainedByMap(const Square6& W, const Vec6& Wy, const Matrix6& mismatch)
+{
+  const Eigensystem6 system = symmetricEigensystem(mismatch);
+  const Square6 V = system.vectors;
+  const Square6 M = V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
+  const Vec6 corrected = Square6(Square6::Identity() + W * M).partialPivLu().solve(Wy);
+  return Wy.dot(M * corrected);
+}
 }  // namespace
 
 CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
@@ -54,7 +65,7 @@ CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
 
 void CalibrationEvidence::add(
     const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
-    const FilterState& predicted, const UpdateResult& update)
+    const FilterState& predicted, const UpdateResult& update, const Matrix6& map_mismatch)
 {
   const Eigen::Matrix<double, 6, kStateDim> B = by_state;
   const Square6 P = productByTransposed(product(B, predicted.P), B);
@@ -71,10 +82,12 @@ void CalibrationEvidence::add(
       innovation.transpose() * weighted;
   const double squares = Wy.dot(information_ldlt.solve(Wy) + P * Wy);
   const Vec6 by_error = innovation * estimate_.mean;
+  const double elements = 6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum();
+  const double unexplained = squares + by_error.dot(2.0 * Wy + W * by_error);
+  const Vec6 W_unexplained = Wy + W * by_error;  // W y of what is left of y
   watch_.add(
-      (squares + by_error.dot(2.0 * Wy + W * by_error)) /
-          (6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum()),
-      normalizedInnovation(update));
+      unexplained / elements, normalizedInnovation(update),
+      (unexplained - explainedByMap(W, W_unexplained, map_mismatch)) / elements);
   sums_.information += information_of_error;
   sums_.weighted -= innovation.transpose() * Wy;
   sums_.squares += squares;

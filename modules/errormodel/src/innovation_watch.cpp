@@ -22,7 +22,7 @@ constexpr double kStep = 45.0, kLeastOfEach = kStep / 3.0;
 constexpr int kScansAfterDegeneracy = 10;
 }  // namespace
 
-void InnovationWatch::add(double square, double residuals)
+void InnovationWatch::add(double square, double residuals, double beyond_map)
 {
   ++scans_;
   recent_ += (square - recent_) / std::min(scans_, kRecentScans);
@@ -31,7 +31,7 @@ void InnovationWatch::add(double square, double residuals)
   if (pause_ > 0)
     --pause_;
   else
-    last_ = {square / std::max(residuals_, 1.0), last_[0], last_[1]};
+    last_ = {beyond_map / std::max(residuals_, 1.0), last_[0], last_[1]};
 }
 
 void InnovationWatch::interrupt()

@@ -99,34 +99,6 @@ AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 }
 }  // namespace
 
-Matrix6 twistJacobian(const Pose& T_world_scan)
-{
-  Matrix6 L = Matrix6::Identity();
-  L.topLeftCorner<3, 3>() = T_world_scan.R;
-  L.bottomLeftCorner<3, 3>() = skew(T_world_scan.p) * T_world_scan.R;
-  return L;
-}
-
-Matrix6 twistJacobianInverse(const Pose& T_world_scan)
-{
-  Matrix6 L = Matrix6::Identity();
-  L.topLeftCorner<3, 3>() = T_world_scan.R.transpose();
-  L.bottomLeftCorner<3, 3>() = -skew(T_world_scan.p);
-  return L;
-}
-
-TwistCovariance twistCovariance(const Matrix6& pose_covariance, const Pose& T_world_imu)
-{
-  const AlignedMatrix6 L = twistJacobian(T_world_imu);
-  return L * pose_covariance * L.transpose();
-}
-
-Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_imu)
-{
-  const AlignedMatrix6 L = twistJacobianInverse(T_world_imu);
-  return L * covariance * L.transpose();
-}
-
 /** The error of the poses that created the planes in view: own eta_a + by_beams eta_b, of unit
  * vectors eta_a, and eta_b of the beams. */
 struct MapErrorModel::CreatingErrors
@@ -227,16 +199,33 @@ void MapErrorModel::correct(const StateMatrix& kept)
   Y_poses_ = product(kept, Y_poses_);
 }
 
-void MapErrorModel::update(
+/** Of B e - L^-1 a, with a the error of the creating poses. Where these are those of the scans just
+ * before, both have the same error, and little is left of the difference. */
+Matrix6 MapErrorModel::mismatch(
+    const LinearizedUpdate& update, const CreatingErrors& creating) const
+{
+  const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  const Aligned6ByState B = update.by_state;
+  const AlignedMatrix6 own = L_inverse * creating.own, by_beams = L_inverse * creating.by_beams;
+  const AlignedMatrix6 common =
+      productByTransposed(product(B, AlignedStateBy6(Y_poses_)), own) +
+      productByTransposed(product(B, AlignedStateBy6(Y_beams_)), by_beams);
+  return productByTransposed(product(B, AlignedStateMatrix(addition_)), B) - common -
+         common.transpose() + productByTransposed(own, own) +
+         productByTransposed(by_beams, by_beams);
+}
+
+Matrix6 MapErrorModel::update(
     const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
 {
-  if (scan.groups.empty()) return;
+  if (scan.groups.empty()) return Matrix6::Zero();
   const AlignedMatrix6 L = twistJacobian(update.T_world_scan);
   const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
   const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
   const AlignedMatrix6 C_planes =
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
   const CreatingErrors creating = creatingErrors(update, scan.groups);
+  const Matrix6 of_innovation = mismatch(update, creating);
 
   const AlignedStateBy6 gain = gainOf(update);
   const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
@@ -250,6 +239,7 @@ void MapErrorModel::update(
       addShared(Y_poses_, keep.times(Y_poses_), G * (M * creating.own)) -
       productByTransposed(AlignedStateBy6(0.5 * gain * scan.shared_noise), gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
+  return of_innovation;
 }
 
 void MapErrorModel::forgetMap()

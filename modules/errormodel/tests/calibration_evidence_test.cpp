@@ -20,9 +20,11 @@ class RandomScans
  public:
   explicit RandomScans(unsigned seed) : random_(seed) {}
 
-  /** \param noise standard deviations of the innovations over what the covariance says */
+  /** \param noise standard deviations of the innovations over what the covariance says
+   * \param map_mismatch standard deviation that the evidence is told of the map's own errors */
   void feed(
-      CalibrationEvidence& evidence, const CalibrationErrorVector& theta, int scans, double noise)
+      CalibrationEvidence& evidence, const CalibrationErrorVector& theta, int scans, double noise,
+      double map_mismatch = 0.0)
   {
     for (int i = 0; i < scans; ++i)
     {
@@ -40,7 +42,9 @@ class RandomScans
       StateVector correction = StateVector::Zero();
       correction.head<6>() = P * W_inverse.llt().solve(Eigen::Matrix<double, 6, 1>(y));
       update.posterior.x = boxplus(predicted.x, correction);
-      evidence.add(C, bodyPoseJacobian(), predicted, update);
+      evidence.add(
+          C, bodyPoseJacobian(), predicted, update,
+          map_mismatch * map_mismatch * Matrix6::Identity());
     }
   }
 
@@ -107,6 +111,18 @@ TEST(CalibrationEvidence, IsLessSureWhenTheInnovationsAreLargerThanTheirCovarian
   RandomScans(4).feed(evidence, theta, 200, 3.0);
   EXPECT_NEAR(evidence.estimate().innovation_scale, 9.0, 1.5);
   EXPECT_LT(deviations(evidence.estimate(), theta), 2.2);
+}
+
+// Innovations of 100 standard deviations are a step of the inertial sensor, unless the map explains
+// them: where it goes back to an old place, the prediction has drifted.
+TEST(CalibrationEvidence, TakesNoReturnToAnOldPlaceForAStepOfTheSensor)
+{
+  const CalibrationErrorVector none = CalibrationErrorVector::Zero();
+  CalibrationEvidence ahead(CalibrationOptions{}), back(CalibrationOptions{});
+  RandomScans(1).feed(ahead, none, 3, 100.0);
+  RandomScans(1).feed(back, none, 3, 100.0, 100.0 * 1.5e-3);
+  EXPECT_TRUE(ahead.takeStep());
+  EXPECT_FALSE(back.takeStep());
 }
 
 TEST(CalibrationEvidence, HasNoneForWhatIsKnownExactly)

@@ -77,6 +77,23 @@ TEST(MapError, AlongAWeakDirectionItIsThatOfThePlanesThatShowIt)
   EXPECT_LT(std::abs(poseAddition(model)(3, 5)), 1e-9);
 }
 
+// The odometry has drifted by 0.3 m since it began. Planes of late have the same error as the pose;
+// the first ones have none, and the prediction lies beside them by all that it has drifted.
+TEST(MapError, IsInTheInnovationWhereAnOldPlaceIsSeenAgain)
+{
+  constexpr double kDrift2 = 0.09;  // [m^2]
+  MapErrorModel model;
+  InsertionError drifted;
+  drifted.inherited = kDrift2 * Matrix6::Identity();
+  model.recordInsertion(1, InsertionError{}, {});
+  model.recordInsertion(2, drifted, {});
+  model.update(fullTrust(), scanOn({2}));
+  const Matrix6 ahead = model.update(fullTrust(), scanOn({2}));
+  EXPECT_LT(ahead.norm(), 1e-9);
+  const Matrix6 back = model.update(fullTrust(), scanOn({1}));
+  EXPECT_LT((back - kDrift2 * Matrix6::Identity()).norm(), 1e-9);
+}
+
 TEST(MapError, StaysBoundedOverMoreInsertionsThanAreKept)
 {
   MapErrorModel model;

@@ -77,7 +77,7 @@ void LocalMap::correctError(const StateMatrix& kept)
   calibration_.correct(kept);
 }
 
-UpdateByCalibration LocalMap::considerUpdate(
+ConsideredUpdate LocalMap::considerUpdate(
     const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
     BeamErrors& beams)
 {
@@ -86,11 +86,15 @@ UpdateByCalibration LocalMap::considerUpdate(
   workers_->alongside(
       [&] { beams.add(update.T_world_scan, scan, measured, *match.matches); },
       [&] { grouped = &groups_.group(*workers_, measured, *match.matches); });
-  UpdateByCalibration by_calibration;
+  ConsideredUpdate considered;
   workers_->alongside(
-      [&] { by_calibration = calibration_.update(update, *grouped); },
-      [&] { error_.update(update, *grouped, beams.covariance(update.T_world_scan.R)); });
-  return by_calibration;
+      [&] { considered.by_calibration = calibration_.update(update, *grouped); },
+      [&]
+      {
+        const Matrix6 beam_errors = beams.covariance(update.T_world_scan.R);
+        considered.map_mismatch = error_.update(update, *grouped, beam_errors);
+      });
+  return considered;
 }
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const

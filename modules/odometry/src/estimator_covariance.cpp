@@ -61,12 +61,12 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
-  const UpdateByCalibration by_calibration =
-      map_.considerUpdate(work.deskewed, match, update, beams_);
-  work.explained = calibration_.byPrior(by_calibration.correction);
+  const ConsideredUpdate considered = map_.considerUpdate(work.deskewed, match, update, beams_);
+  work.explained = calibration_.byPrior(considered.by_calibration.correction);
   if (match.update.updated && match.constraints.unconstrained == 0)
     calibration_.add(
-        by_calibration.innovation, update.by_state, work.predicted.state, match.update);
+        considered.by_calibration.innovation, update.by_state, work.predicted.state, match.update,
+        considered.map_mismatch);
   else if (match.constraints.unconstrained > 0)
     calibration_.addDegenerateScan();
   // A start in motion does not know its biases yet, and a given map has errors of its own.

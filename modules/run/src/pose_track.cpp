@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/errormodel/map_error.h>
+#include <fastlio/errormodel/twist.h>
 #include <fastlio/math/time.h>
 #include <fastlio/run/pose_track.h>
 

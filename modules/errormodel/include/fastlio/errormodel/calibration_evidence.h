@@ -25,10 +25,12 @@ class CalibrationEvidence
 
   /** A scan corrected a prediction, and no direction was degenerate.
    * \param innovation C of CalibrationErrorModel::update()
-   * \param by_state B of the scan pose */
+   * \param by_state B of the scan pose
+   * \param map_mismatch of MapErrorModel::update() */
   void add(
       const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
-      const FilterState& predicted, const UpdateResult& update);
+      const FilterState& predicted, const UpdateResult& update,
+      const Matrix6& map_mismatch = Matrix6::Zero());
 
   /** Covariance of a pose that depends on theta, by the prior of the extrinsic. */
   [[nodiscard]] Matrix6 byPrior(const PoseByCalibration& pose) const;

@@ -15,8 +15,11 @@ class InnovationWatch
   /** Takes the next scan. \param square mean over the elements of its innovation; about 1 when the
    * noise is what the filter takes it for \param residuals mean z^2/r of its points at the end.
    * Where scans do not fit the map, among trees, they are less certain of their poses, and
-   * contradict the inertial data without a step of theirs */
-  void add(double square, double residuals);
+   * contradict the inertial data without a step of theirs
+   * \param beyond_map the square, less where the map's own errors explain it: a place that is seen
+   * again after a while lies elsewhere than the prediction, which has drifted */
+  void add(double square, double residuals, double beyond_map);
+  void add(double square, double residuals) { add(square, residuals, square); }
 
   /** The scan had a degenerate direction. When the next ones show that direction again, they
    * contradict a prediction that drifted along it: that is no step of the inertial sensor. */

@@ -31,6 +31,7 @@
  * points is taken off. See docs/covariance.md. */
 #pragma once
 
+#include <fastlio/errormodel/twist.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/filter/update.h>
 #include <fastlio/interface/scan_constraints.h>
@@ -42,19 +43,6 @@
 
 namespace fastlio
 {
-/** Covariance of a rigid motion (phi, rho) of the map: p -> p + rho + phi x p, world frame. */
-using TwistCovariance = Matrix6;
-
-/** L = d(phi, rho) / d(dtheta, dp): phi = R dtheta, rho = dp + [p]x phi; and its inverse. */
-[[nodiscard]] Matrix6 twistJacobian(const Pose& T_world_scan);
-[[nodiscard]] Matrix6 twistJacobianInverse(const Pose& T_world_scan);
-
-/** The twist covariance that a pose covariance (attitude in the body frame, position in the world
- * frame) means at that pose, and back. */
-[[nodiscard]] TwistCovariance twistCovariance(
-    const Matrix6& pose_covariance, const Pose& T_world_imu);
-[[nodiscard]] Matrix6 poseCovariance(const TwistCovariance& covariance, const Pose& T_world_imu);
-
 /** The last update of the filter, linearised. */
 struct LinearizedUpdate
 {
@@ -82,8 +70,10 @@ class MapErrorModel
 
   /** Takes in an update of the filter with the measurements \a scan.
    * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the
-   * scan pose's coordinates; they belong to the sensor and stay when the planes change */
-  void update(
+   * scan pose's coordinates; they belong to the sensor and stay when the planes change
+   * \return covariance of the innovation by the errors of the map, as a change of the scan pose: how
+   * far the prediction may lie beside the planes in view because it goes back to others */
+  Matrix6 update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan,
       const Matrix6& beam_errors = Matrix6::Zero());
 
@@ -126,6 +116,8 @@ class MapErrorModel
   /** A, of insertions whose weights are set; it changes these. */
   [[nodiscard]] TwistCovariance insertionCovariance(
       const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] Matrix6 mismatch(
+      const LinearizedUpdate& update, const CreatingErrors& creating) const;
   [[nodiscard]] TwistCovariance meanOfInsertions() const;
   [[nodiscard]] Matrix6 meanWithBeams() const;
 

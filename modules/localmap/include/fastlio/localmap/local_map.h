@@ -33,6 +33,13 @@ struct InsertionCandidate
   double resting_time = 0.0;  //!< how long the platform has been known to rest [s]
 };
 
+/** What an update did with errors that no scan corrects. */
+struct ConsideredUpdate
+{
+  UpdateByCalibration by_calibration;
+  Matrix6 map_mismatch = Matrix6::Zero();  //!< of MapErrorModel::update()
+};
+
 /** The map that scans are matched with. A new one takes its place when the old one is given up. */
 class LocalMap
 {
@@ -70,9 +77,8 @@ class LocalMap
   /** The same through an update without a scan. \param kept I - K H */
   void correctError(const StateMatrix& kept);
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
-   * \param beams learn from the scan's residuals
-   * \return how the update depends on the error of the calibration */
-  UpdateByCalibration considerUpdate(
+   * \param beams learn from the scan's residuals */
+  ConsideredUpdate considerUpdate(
       const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
       BeamErrors& beams);
 
