@@ -115,7 +115,7 @@ inline void measure(
   {
     const double h[6] = {m.h[0][l], m.h[1][l], m.h[2][l], m.h[3][l], m.h[4][l], m.h[5][l]};
     counts[l] = l < filled && withinGate(m.z[l], m.variance[l], h, model);
-    block.weight[l] = counts[l] ? 1.0 / m.variance[l] : 0.0;
+    block.weight[l] = counts[l] ? model.weight / m.variance[l] : 0.0;
     block.z[l] = counts[l] ? m.z[l] : 0.0;
     block.index[l] = static_cast<std::uint32_t>(lanes.index[l]);
   }

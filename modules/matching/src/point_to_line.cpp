@@ -52,7 +52,7 @@ InformationSums accumulateLines(
     if (!areConsistent(rows, model)) continue;
     for (const PlaneMeasurement& row : rows)
     {
-      const double weight = 1.0 / row.variance;
+      const double weight = model.weight / row.variance;
       sums.HtRinvH += weight * row.h * row.h.transpose();
       sums.HtRinvz += weight * row.z * row.h;
       sums.weighted_squares += weight * row.z * row.z;
@@ -76,7 +76,7 @@ void stackLines(
     {
       stacked.h.push_back(row.h);
       stacked.z.push_back(row.z);
-      stacked.variance.push_back(row.variance);
+      stacked.variance.push_back(row.variance / model.weight);
     }
   }
 }

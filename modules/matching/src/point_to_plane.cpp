@@ -68,7 +68,7 @@ StackedMeasurements stack(
     if (!isConsistent(m, model)) continue;
     stacked.h.push_back(m.h);
     stacked.z.push_back(m.z);
-    stacked.variance.push_back(m.variance);
+    stacked.variance.push_back(m.variance / model.weight);
   }
   return stacked;
 }

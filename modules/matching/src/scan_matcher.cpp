@@ -161,6 +161,8 @@ MatchResult ScanMatcher::match(
   MatchResult result;
   result.model =
       residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));
+  const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
+  result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;
   result.measured = &measured_;
   const Call call{scan, maps, options, result};

@@ -21,8 +21,10 @@ void describeMatch(const MatchResult& match, ScanStatistics& statistics)
   if (sums.count == 0) return;
   const auto n = static_cast<double>(sums.count);
   statistics.residual_rms = std::sqrt(sums.squares / n);
-  statistics.normalized_innovation = sums.weighted_squares / n;
-  statistics.information_eigenvalues = symmetricEigenvalues(sums.HtRinvH);
+  // What the points say, however much the filter believes a scan that may be distorted.
+  const double weight = match.model.weight;
+  statistics.normalized_innovation = sums.weighted_squares / weight / n;
+  statistics.information_eigenvalues = symmetricEigenvalues(sums.HtRinvH) / weight;
 }
 
 LinearizedUpdate linearized(

@@ -7,6 +7,8 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace fastlio
@@ -16,6 +18,21 @@ namespace
 // Of measurement.min_signal_to_noise. Found by trial: with 0.1, 0.3 or 0.6 a start in an open area
 // or in fast rotation fails.
 constexpr double kStartSignalToNoise = 0.2;
+
+/** How far missing inertial samples leave the points of a scan from where they belong, all of them
+ * together [m]: the rotation in a gap grows towards the scan's begin, so its mean square is a
+ * third. */
+double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
+{
+  const BodyPoints& points = scan.surfaces;
+  if (predicted.gap_rotation_std == 0.0 || points.size() == 0) return 0.0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    squares += static_cast<double>(
+        points.x[i] * points.x[i] + points.y[i] * points.y[i] + points.z[i] * points.z[i]);
+  const double lever = std::sqrt(squares / static_cast<double>(points.size()));
+  return predicted.gap_rotation_std / std::sqrt(3.0) * lever;
+}
 }  // namespace
 
 MapSearchResult Estimator::matchWithMap(
@@ -64,6 +81,7 @@ MapSearchResult Estimator::trackOrSearch(
     // Only these scans can tell the velocity of a start in motion: no direction is left out
     // lightly.
     if (tracking.run.motion_window) how.measurement.min_signal_to_noise *= kStartSignalToNoise;
+    how.deskew_std = deskewStd(scan, predicted);
     MatchResult match = matcher_.match(scan, predicted.state, map_.matched(), how);
     const bool good = !match.update.updated || isConvincing(match, scan, map_);
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};

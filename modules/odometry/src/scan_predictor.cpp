@@ -5,8 +5,29 @@
 
 #include <fastlio/math/time.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 namespace fastlio
 {
+namespace
+{
+double rotationStdInGaps(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
+{
+  double std = 0.0;
+  for (const NoiseInflation& inflation : inflations)
+  {
+    if (inflation.fault != InertialFault::Gap) continue;
+    const std::int64_t common_ns =
+        std::min(inflation.end_ns, end_ns) - std::max(inflation.begin_ns, begin_ns);
+    if (common_ns > 0) std += inflation.gyro_std * toSeconds(common_ns);
+  }
+  return std;
+}
+}  // namespace
+
 ScanPrediction ScanPredictor::predict(
     const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
     const SystematicCovariance& systematic, bool trusted)
@@ -26,6 +47,7 @@ ScanPrediction ScanPredictor::predict(
       });
   ScanPrediction result;
   result.imu_gap_s = toSeconds(imu.longestGap(from.stamp_ns, end_ns));
+  result.gap_rotation_std = rotationStdInGaps(imu.inflations(), from.stamp_ns, end_ns);
   // Absurd but finite inertial samples may overflow; such a number never enters the state.
   result.finite = isFinite(propagated.state.x) && propagated.state.P.allFinite();
   result.state = result.finite ? propagated.state : from.filter;

@@ -26,6 +26,7 @@ struct ScanPrediction
   ErrorTransition transition;
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it
   double imu_gap_s = 0.0;  //!< longest one on the way
+  double gap_rotation_std = 0.0;  //!< of the rotation on the way, by missing samples [rad]
 };
 
 /** A state and its instant. */

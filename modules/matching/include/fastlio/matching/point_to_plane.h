@@ -35,6 +35,9 @@ struct ResidualModel
   /** How far the prediction's position may be off, world frame [m^2]. */
   Mat3 prior_position_covariance = Mat3::Zero();
   double prior_attitude_variance = 0.0;  //!< of the prediction, summed over the axes [rad^2]
+  /** Of each point, over the inverse of its variance: less than 1 where all points of a scan share
+   * an error, so that their number does not average it out. */
+  double weight = 1.0;
 };
 
 /** Eq. 14 for point i of the scan at the attitude and position of an iterate. The variance is that

@@ -27,6 +27,9 @@ struct MatchOptions
   int association_iterations = 2;  //!< so many iterations search the map anew; more move no match
   IterationLimits limits;          //!< of the iterated update
   GainForm gain = GainForm::Information;
+  /** How far deskewing may have moved the points beside the sensor's noise, all of them together
+   * [m]. */
+  double deskew_std = 0.0;
 };
 
 /** As the options say: for a prediction that is near. */
