@@ -225,7 +225,7 @@ Matrix6 MapErrorModel::update(
   const AlignedMatrix6 C_planes =
       squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
   const CreatingErrors creating = creatingErrors(update, scan.groups);
-  const Matrix6 of_innovation = mismatch(update, creating);
+  Matrix6 of_innovation = mismatch(update, creating);
 
   const AlignedStateBy6 gain = gainOf(update);
   const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
