@@ -38,9 +38,7 @@ bool isPositive(const Eigen::LDLT<Square6>& ldlt)
  * too: (W^-1 + M)^-1 = W - W M (1 + W M)^-1 W. \param Wy W y */
 double explainedByMap(const Square6& W, const Vec6& Wy, const Matrix6& mismatch)
 {
-  const Eigensystem6 system = symmetricEigensystem(mismatch);
-  const Square6 V = system.vectors;
-  const Square6 M = V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
+  const Square6 M = positivePart(mismatch);
   const Vec6 corrected = Square6(Square6::Identity() + W * M).partialPivLu().solve(Wy);
   return Wy.dot(M * corrected);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/imu/noise_inflation.h>
+#include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,16 @@ ImuNoise noiseBetween(
   grown.gyro_noise_density = std::hypot(noise.gyro_noise_density, std::sqrt(gyro_variance * dt));
   grown.accel_noise_density = std::hypot(noise.accel_noise_density, std::sqrt(accel_variance * dt));
   return grown;
+}
+
+double rotationStdInGaps(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
+{
+  double std = 0.0;
+  for (const NoiseInflation& inflation : inflations)
+    if (inflation.fault == InertialFault::Gap)
+      std += inflation.gyro_std * toSeconds(overlap(inflation, begin_ns, end_ns));
+  return std;
 }
 
 double inflatedRatio(

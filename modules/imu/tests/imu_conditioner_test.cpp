@@ -287,6 +287,7 @@ TEST(NoiseInflation, GrowsTheNoiseByItsShareOfTheInput)
       std::pow(noise.accel_noise_density, 2) + 0.5 * 4.0 * dt, 1e-12);
   EXPECT_DOUBLE_EQ(inflatedRatio(one, kStart, kStart + 2 * kPeriod), 0.5);
   EXPECT_DOUBLE_EQ(inflatedRatio(none, kStart, kStart + 2 * kPeriod), 0.0);
+  EXPECT_DOUBLE_EQ(rotationStdInGaps(one, kStart, kStart + 2 * kPeriod), 0.25 * dt);
 }
 
 }  // namespace fastlio

@@ -20,6 +20,8 @@ constexpr int kRatiosAveraged = 50;  // scans
 constexpr double kMaxRestingTime = 3.0;  // [s]
 // A scan without matches joins below this position error: half of the finest voxels.
 constexpr double kMaxInsertionStd = 0.2;  // [m]
+// A scan that may be distorted by more than 2 cm at 10 m does not join.
+constexpr double kMostDistortion = 0.002;  // [rad]
 
 EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
 {
@@ -116,6 +118,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   if (candidate.resting_time > kMaxRestingTime) return false;
   if (empty() && candidate.status != ScanStatus::FirstScan && !succeeds_) return false;
   if (!candidate.consistent) return false;  // a scan that is lost must not spoil the map
+  if (candidate.distortion_std > kMostDistortion) return false;
   if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
     return true;
   if (candidate.status == ScanStatus::Diverged) return false;

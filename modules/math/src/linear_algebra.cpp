@@ -34,6 +34,14 @@ Vector6 symmetricEigenvalues(const Matrix6& m)
   return Solver6(Aligned6(m), Eigen::EigenvaluesOnly).eigenvalues();
 }
 
+Matrix6 positivePart(const Matrix6& m)
+{
+  const Matrix6 symmetric = 0.5 * (m + m.transpose());
+  const Eigensystem6 system = symmetricEigensystem(symmetric);
+  const Aligned6 V = system.vectors;
+  return V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
+}
+
 Vector6 solveSymmetric(const Matrix6& m, const Vector6& b)
 {
   return m.ldlt().solve(b);

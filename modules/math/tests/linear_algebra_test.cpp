@@ -46,6 +46,15 @@ TEST(LinearAlgebra, EigensystemsTakeTheMatrixApart)
   EXPECT_LE(three.values[1], three.values[2]);
 }
 
+TEST(LinearAlgebra, ThePositivePartLeavesOutWhatIsNegative)
+{
+  const Matrix6 m = symmetricMatrix();
+  const Matrix6 positive = positivePart(m), negative = positivePart(-m);
+  EXPECT_TRUE((positive - negative).isApprox(m, 1e-12));
+  EXPECT_GE(symmetricEigenvalues(positive).minCoeff(), -1e-12);
+  EXPECT_LT((positive * negative).norm(), 1e-9);
+}
+
 TEST(LinearAlgebra, SolvesSymmetricSystems)
 {
   const Matrix6 m = symmetricMatrix();

@@ -18,9 +18,6 @@ namespace
 {
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
-// A scan that is distorted by more than that, as samples are missing, does not join the map: 2 cm
-// at 10 m.
-constexpr double kMostDistortion = 0.002;  // [rad]
 
 ScanOutcome::Place placeOf(const Mode& mode)
 {
@@ -223,10 +220,10 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   const FilterState& filter = state_.filter;
   const CompensatedWith& compensation = work.deskewed.compensation;
   const FilterRun& run = this->run();
-  const InsertionCandidate candidate{
-      work.deskewed, filter, result.status, run.consistent, rest_.restingTime()};
-  const bool distorted = work.predicted.gap_rotation_std > kMostDistortion;
-  if (distorted || !map_.accepts(candidate))
+  const InsertionCandidate candidate{work.deskewed,       filter,
+                                     result.status,       run.consistent,
+                                     rest_.restingTime(), work.predicted.gap_rotation_std};
+  if (!map_.accepts(candidate))
   {
     registered_.clear();
     return;

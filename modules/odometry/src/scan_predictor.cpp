@@ -5,29 +5,8 @@
 
 #include <fastlio/math/time.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <vector>
-
 namespace fastlio
 {
-namespace
-{
-double rotationStdInGaps(
-    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
-{
-  double std = 0.0;
-  for (const NoiseInflation& inflation : inflations)
-  {
-    if (inflation.fault != InertialFault::Gap) continue;
-    const std::int64_t common_ns =
-        std::min(inflation.end_ns, end_ns) - std::max(inflation.begin_ns, begin_ns);
-    if (common_ns > 0) std += inflation.gyro_std * toSeconds(common_ns);
-  }
-  return std;
-}
-}  // namespace
-
 ScanPrediction ScanPredictor::predict(
     const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
     const SystematicCovariance& systematic, bool trusted)

@@ -17,16 +17,6 @@ double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
   return toSeconds(to_ns - from_ns);
 }
 
-/** The nearest matrix that is a covariance. */
-Matrix6 positivePart(const Matrix6& m)
-{
-  using Aligned = Eigen::Matrix<double, 6, 6>;
-  const Matrix6 symmetric = 0.5 * (m + m.transpose());
-  const Eigensystem6 system = symmetricEigensystem(symmetric);
-  const Aligned V = system.vectors;
-  return V * system.values.cwiseMax(0.0).asDiagonal() * V.transpose();
-}
-
 /** Derivatives of the relative pose by the errors of a and b. */
 Matrix6 byFormer(const Pose& a, const Pose& T_a_b)
 {

@@ -39,6 +39,10 @@ struct NoiseInflation
     const ImuNoise& noise, const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns,
     std::int64_t end_ns);
 
+/** Standard deviation of the rotation from begin_ns to end_ns by samples that are missing [rad]. */
+[[nodiscard]] double rotationStdInGaps(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
+
 /** Fraction of [begin_ns, end_ns] that is in inflation, 0 to 1. */
 [[nodiscard]] double inflatedRatio(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);

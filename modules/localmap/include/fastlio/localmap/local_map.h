@@ -29,8 +29,9 @@ struct InsertionCandidate
   const DeskewedScan& scan;
   const FilterState& filter;  //!< posterior
   ScanStatus status = ScanStatus::Initializing;
-  bool consistent = true;     //!< matches as scans usually match this map
-  double resting_time = 0.0;  //!< how long the platform has been known to rest [s]
+  bool consistent = true;       //!< matches as scans usually match this map
+  double resting_time = 0.0;    //!< how long the platform has been known to rest [s]
+  double distortion_std = 0.0;  //!< of the rotation in it, by missing inertial samples [rad]
 };
 
 /** What an update did with errors that no scan corrects. */

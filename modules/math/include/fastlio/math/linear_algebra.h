@@ -31,6 +31,9 @@ struct Eigensystem6
 [[nodiscard]] Eigensystem6 symmetricEigensystem(const Matrix6& m);
 [[nodiscard]] Vector6 symmetricEigenvalues(const Matrix6& m);
 
+/** The nearest matrix that is a covariance: the symmetric part of m without what is negative. */
+[[nodiscard]] Matrix6 positivePart(const Matrix6& m);
+
 /** x with m x = b for a symmetric positive semi-definite m. */
 [[nodiscard]] Vector6 solveSymmetric(const Matrix6& m, const Vector6& b);
 
