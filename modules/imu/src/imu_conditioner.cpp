@@ -27,9 +27,11 @@ constexpr double kSaturationStd = 0.5;  // fraction of the full scale
 constexpr double kGapPeriods = 4.0;  // of the sampling period
 // Jitter does not double an interval.
 constexpr double kMissingPeriods = 1.8;
-// How far the motion in a gap of imu.max_gap departs from the samples around it.
-constexpr double kGapGyroStd = 0.5235987755982988;  // [rad/s]; 30 deg/s
-constexpr double kGapAccelStd = 2.0;                // [m/s^2]
+// How far the motion in a gap of imu.max_gap departs from the samples around it, where the samples
+// before it do not show that.
+constexpr InterpolationError kUnknownMotion{0.5235987755982988, 2.0};  // 30 deg/s
+// The samples before a gap know nothing of a jolt in it: at least this part of the above.
+constexpr double kLeastOfUnknown = 0.1;
 // No platform changes its motion by so much for the time of one sample.
 constexpr double kSpikeGyro = 10.471975511965978;  // [rad/s]; 600 deg/s
 constexpr double kSpikeAccel = 100.0;              // [m/s^2]
@@ -158,12 +160,13 @@ void ImuConditioner::emit(const TimedSample& timed)
   ConditionedSample next;
   next.sample = timed.sample;
   next.after_break = timed.after_break;
-  const bool in_order = !last_ns_ || timed.sample.stamp_ns > *last_ns_;
-  if (in_order)
+  const auto last_ns = recent_.newestStamp();
+  if (!last_ns || timed.sample.stamp_ns > *last_ns)
   {
     next.inflation = inflationBefore(timed);
     next.rescale_gyro = considerGyroUnit(next);
-    last_ns_ = timed.sample.stamp_ns;
+    if (next.rescale_gyro != 1.0) recent_ = RecentMotion();
+    recent_.add(next.sample, next.inflation && next.inflation->fault == InertialFault::Gap);
   }
   if (units_.matrices)  // last: clipping shows in the axes of the sensor
   {
@@ -192,12 +195,13 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
 {
   const ImuSample& sample = timed.sample;
   auto inflation = clippingInflation(sample);
-  if (!last_ns_) return std::nullopt;
-  const double interval = toSeconds(sample.stamp_ns - *last_ns_);
+  const auto last_ns = recent_.newestStamp();
+  if (!last_ns) return std::nullopt;
+  const double interval = toSeconds(sample.stamp_ns - *last_ns);
   const double period = period_.median();
   if (!timed.after_break) period_.add(interval, kGapPeriods);
   const bool gap = timed.after_break || (period > 0.0 && interval > kGapPeriods * period);
-  const bool spike = spike_gate_.latestSpike() > *last_ns_;
+  const bool spike = spike_gate_.latestSpike() > *last_ns;
   if (!timed.after_break && period > 0.0 && interval > kMissingPeriods * period)
     report_.missing += static_cast<std::size_t>(std::lround(interval / period)) - 1;
   if (gap)
@@ -206,11 +210,25 @@ std::optional<NoiseInflation> ImuConditioner::inflationBefore(const TimedSample&
     report_.longest_gap = std::max(report_.longest_gap, interval);
   }
   if (!gap && !spike) return inflation;
-  // The effect of the motion in between grows with the time.
-  const double fraction = std::min(1.0, interval / parameters_.max_gap);
+  const InterpolationError error = interpolationError(timed);
   return NoiseInflation{
-      *last_ns_, sample.stamp_ns, fraction * kGapGyroStd, fraction * kGapAccelStd,
+      *last_ns, sample.stamp_ns, error.gyro_std, error.accel_std,
       gap ? InertialFault::Gap : InertialFault::Spike};
+}
+
+InterpolationError ImuConditioner::interpolationError(const TimedSample& timed) const
+{
+  // The effect of the motion in between grows with the time.
+  const double interval = toSeconds(timed.sample.stamp_ns - *recent_.newestStamp());
+  const double fraction = std::min(1.0, interval / parameters_.max_gap);
+  const InterpolationError unknown{
+      fraction * kUnknownMotion.gyro_std, fraction * kUnknownMotion.accel_std};
+  const auto measured = recent_.errorUntil(timed.sample);
+  if (!measured) return unknown;
+  const double least = timed.after_break ? 1.0 : kLeastOfUnknown;
+  return {
+      std::max(measured->gyro_std, least * unknown.gyro_std),
+      std::max(measured->accel_std, least * unknown.accel_std)};
 }
 
 /** The noise of an input between two samples is inflated when that of one of them is. */
@@ -220,9 +238,10 @@ std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample&
   const double gyro_between = std::max(gyro, gyro_clipping_.before());
   const double accel_between = std::max(accel, accel_clipping_.before());
   if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
-  if (!last_ns_ || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
+  const auto last_ns = recent_.newestStamp();
+  if (!last_ns || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
   return NoiseInflation{
-      *last_ns_, sample.stamp_ns, kSaturationStd * gyro_between, kSaturationStd * accel_between,
+      *last_ns, sample.stamp_ns, kSaturationStd * gyro_between, kSaturationStd * accel_between,
       InertialFault::Saturation};
 }
 

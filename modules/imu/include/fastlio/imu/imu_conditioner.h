@@ -11,6 +11,7 @@
 #include <fastlio/imu/imu_spike_gate.h>
 #include <fastlio/imu/imu_time_gate.h>
 #include <fastlio/imu/noise_inflation.h>
+#include <fastlio/imu/recent_motion.h>
 #include <fastlio/imu/sampling_period.h>
 #include <fastlio/math/time.h>
 
@@ -65,6 +66,7 @@ class ImuConditioner
   void reportClockStep();
   [[nodiscard]] double considerGyroUnit(ConditionedSample& next);
   [[nodiscard]] std::optional<NoiseInflation> inflationBefore(const TimedSample& timed);
+  [[nodiscard]] InterpolationError interpolationError(const TimedSample& timed) const;
   [[nodiscard]] std::optional<NoiseInflation> clippingInflation(const ImuSample& sample);
 
   ImuOptions parameters_;
@@ -77,7 +79,7 @@ class ImuConditioner
   SamplingPeriod period_;
   ClippingDetector gyro_clipping_, accel_clipping_;
   GyroUnitTest gyro_unit_test_;
-  std::optional<std::int64_t> last_ns_;
+  RecentMotion recent_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<TimedSample> timed_, gated_;
   std::vector<ConditionedSample> ready_;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file inertial_inflation.h Spans of time in which inertial data are worse than their noise says:
+/** \file noise_inflation.h Spans of time in which inertial data are worse than their noise says:
  * gaps, clipped samples, gated samples. */
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace fastlio
 {
-/** Why inertial data are in inflation. */
+/** Why inertial data are worse than their noise says. */
 enum class InertialFault
 {
   Gap,         //!< no samples
@@ -43,7 +43,7 @@ struct NoiseInflation
 [[nodiscard]] double rotationStdInGaps(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
 
-/** Fraction of [begin_ns, end_ns] that is in inflation, 0 to 1. */
+/** Fraction of [begin_ns, end_ns] with inflated noise, 0 to 1. */
 [[nodiscard]] double inflatedRatio(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
 
