@@ -85,15 +85,21 @@ ConsideredUpdate LocalMap::considerUpdate(
 {
   const MeasuredScan& measured = *match.measured;
   const GroupedMeasurements* grouped = nullptr;
+  // A scan that may be distorted shows nothing of its beams, whose errors move it as little as its
+  // points do. The sampled scans have the weight 1.
+  const double weight = match.model.weight;
   workers_->alongside(
-      [&] { beams.add(update.T_world_scan, scan, measured, *match.matches); },
+      [&]
+      {
+        if (weight == 1.0) beams.add(update.T_world_scan, scan, measured, *match.matches);
+      },
       [&] { grouped = &groups_.group(*workers_, measured, *match.matches); });
   ConsideredUpdate considered;
   workers_->alongside(
       [&] { considered.by_calibration = calibration_.update(update, *grouped); },
       [&]
       {
-        const Matrix6 beam_errors = beams.covariance(update.T_world_scan.R);
+        const Matrix6 beam_errors = weight * weight * beams.covariance(update.T_world_scan.R);
         considered.map_mismatch = error_.update(update, *grouped, beam_errors);
       });
   return considered;
