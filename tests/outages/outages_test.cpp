@@ -45,20 +45,6 @@ PointColumns firstOf(const PointColumns& points, std::size_t count)
   return first;
 }
 
-/** A walk, cast once for all its faults. */
-struct CastWalk
-{
-  explicit CastWalk(const std::string& scenario) : CastWalk(walk(scenario)) {}
-  explicit CastWalk(const SimulationSettings& settings) : simulation(settings)
-  {
-    for (std::size_t i = 0; i < simulation.scanCount(); ++i)
-      scans.push_back(simulation.scan(i));
-  }
-
-  Simulation simulation;
-  std::vector<LidarScan> scans;
-};
-
 SimulatedRun runWithOutage(const CastWalk& walk, const Outage& outage, Missing missing)
 {
   OdometryOptions options = matchingParameters(walk.simulation.settings());
@@ -184,20 +170,6 @@ TEST_P(AnyFault, EndsRightOrIsReported)
 }
 
 INSTANTIATE_TEST_SUITE_P(Sample, AnyFault, ::testing::Values("office", "campus"));
-
-// Scans that the gap has distorted said that the platform sank by 0.3 m/s. From then on the ground
-// was no part of the map that the scans fitted: 2 m off, with a standard deviation of 0.1 m.
-TEST(GapOfTheImu, DoesNotMakeADistortedScanTellTheVelocity)
-{
-  const CastWalk walk("campus");
-  OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 1;
-  const std::int64_t begin_ns = walk.simulation.settings().start_ns + toNanoseconds(16.0);
-  AlteredInputs inputs = altered({"NoInertialData", 0.2}, begin_ns);
-  inputs.cast = &walk.scans;
-  const SimulatedRun run = runOdometryWith(inputs, walk.simulation, options);
-  EXPECT_LT(positionError(run, run.scans.back()), 0.05);
-}
 
 TEST(OutageOfTheLidar, OfASecondIsForgottenAfterwards)
 {

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace fastlio::testing
 {
@@ -19,6 +20,20 @@ inline SimulationSettings walk(const std::string& scenario)
   settings.duration = 24.0;
   return settings;
 }
+
+/** A walk, cast once for all its faults. */
+struct CastWalk
+{
+  explicit CastWalk(const std::string& scenario) : CastWalk(walk(scenario)) {}
+  explicit CastWalk(const SimulationSettings& settings) : simulation(settings)
+  {
+    for (std::size_t i = 0; i < simulation.scanCount(); ++i)
+      scans.push_back(simulation.scan(i));
+  }
+
+  Simulation simulation;
+  std::vector<LidarScan> scans;
+};
 
 inline double positionError(const SimulatedRun& run, const JudgedScan& scan)
 {

@@ -99,8 +99,8 @@ TEST_P(OutageOfARecording, EndsRightOrNotWithZero)
   const std::vector<Outage> sample{{true, false, 5.0}, {false, true, 0.2}, {true, true, 5.0}};
   const std::vector<Outage> all{{true, false, 1.0},  {true, false, 2.0},  {true, false, 5.0},
                                 {true, false, 10.0}, {true, false, 20.0}, {true, false, 30.0},
-                                {false, true, 0.2},  {false, true, 1.0},  {false, true, 5.0},
-                                {true, true, 1.0},   {true, true, 5.0}};
+                                {false, true, 0.2},  {false, true, 0.4},  {false, true, 1.0},
+                                {false, true, 5.0},  {true, true, 1.0},   {true, true, 5.0}};
   const ScratchFolder scratch(GetParam() + "-outages");
   const fs::path folder = MRPT_FASTLIO_RECORDINGS_DIR;
   const std::string truth = (folder / (GetParam() + ".gt.tum")).string();

@@ -231,13 +231,13 @@ double normalizedInnovation(const UpdateResult& update)
 }
 
 UpdateResult iteratedUpdate(
-    const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
-    GainForm gain)
+    const FilterState& prior, const NavState& start, const MeasurementModel& model,
+    const IterationLimits& limits, GainForm gain)
 {
   requireIterations(limits);
   UpdateResult result;
   result.posterior = prior;
-  NavState iterate = prior.x;
+  NavState iterate = start;
   UpdateStep step;
   while (!result.converged && result.iterations < limits.max_iterations)
   {

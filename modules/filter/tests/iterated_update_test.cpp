@@ -71,6 +71,22 @@ TEST(IteratedUpdate, BothGainsEndAtTheSamePosterior)
   }
 }
 
+// The start decides how soon the update converges, not what it says: the prior counts once.
+TEST(IteratedUpdate, EndsAtTheSamePosteriorFromAnyStart)
+{
+  Random random(47);
+  const Problem p = problemOff(random, 0.2);
+  const auto model =
+      testing::planeModel(testing::planesSeenFrom(random, p.truth.pose(), 60, kSigma), kSigma);
+  const UpdateResult a = iteratedUpdate(p.prior, model, tightLimits(), GainForm::Information);
+  const UpdateResult b =
+      iteratedUpdate(p.prior, p.truth, model, tightLimits(), GainForm::Information);
+  ASSERT_TRUE(a.converged && b.converged);
+  EXPECT_LT(b.iterations, a.iterations);
+  EXPECT_LT(boxminus(a.posterior.x, b.posterior.x).norm(), 1e-9);
+  EXPECT_LT((a.posterior.P - b.posterior.P).norm(), 1e-9 * a.posterior.P.norm());
+}
+
 /** Eq. 17: |x [-] x_hat|^2 weighted by P_hat^-1 plus the sum of z^2 / r. */
 double mapCost(
     const FilterState& prior, const NavState& x, const std::vector<testing::PlaneMatch>& m)

@@ -32,6 +32,12 @@ constexpr std::size_t kMostCarriedCandidates = 12000;
 // that is set too small make a few times the noise: trouble, but a match.
 constexpr double kWrongPoseInnovation = 10.0;
 
+double inlierRatio(const UpdateResult& update, const DeskewedScan& scan)
+{
+  return static_cast<double>(update.last.count) /
+         static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
+}
+
 /** Standard deviation of the attitude about gravity [rad]. */
 double headingStd(const FilterState& s)
 {
@@ -72,16 +78,18 @@ MapSearchResult notFound(
 bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
   if (match.constraints.unconstrained > 0) return true;
-  const double ratio = static_cast<double>(match.update.last.count) /
-                       static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
   return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
-         ratio >= kMinUsualFraction * map.usualInlierRatio();
+         inlierRatio(match.update, scan) >= kMinUsualFraction * map.usualInlierRatio();
+}
+
+bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
+{
+  return inlierRatio(match.update, scan) >= kUsualPart * map.usualInlierRatio();
 }
 
 double MapSearch::ratioOf(const UpdateResult& update) const
 {
-  return static_cast<double>(update.last.count) /
-         static_cast<double>(std::max<std::size_t>(scan_.surfaces.size(), 1));
+  return inlierRatio(update, scan_);
 }
 
 MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const

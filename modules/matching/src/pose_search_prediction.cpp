@@ -6,6 +6,7 @@
 #include <fastlio/matching/pose_search.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <limits>
 
@@ -23,6 +24,7 @@ constexpr double kShortTime = 0.5;  // [s]
 constexpr double kUnknownAngleStd = 3.0, kUnknownPositionStd = 1000.0;  // [rad], [m]
 // A start farther off than this may end in a wrong minimum.
 constexpr double kPullInStd = 0.05;  // [m]
+constexpr double kFarPoints = 10.0;  // [m]
 // How well a search knows the pose that the scan is then matched from.
 constexpr double kFoundAngleStd = 0.01, kFoundPositionStd = 0.03;  // [rad], [m]
 
@@ -76,6 +78,17 @@ bool needsPoseSearch(const FilterState& predicted, double blind_s)
 {
   return isOutage(blind_s) &&
          predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
+}
+
+bool needsPullIn(const FilterState& predicted)
+{
+  const auto secondVariance = [&](int block)
+  {
+    const Mat3 P = predicted.P.block<3, 3>(block, block);
+    return Eigen::SelfAdjointEigenSolver<Mat3>(P, Eigen::EigenvaluesOnly).eigenvalues()[1];
+  };
+  const double turned = kFarPoints * kFarPoints * secondVariance(kAttitude);
+  return secondVariance(kPosition) + turned > kPullInStd * kPullInStd;
 }
 
 FilterState correctedByPose(

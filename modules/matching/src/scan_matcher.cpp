@@ -159,8 +159,8 @@ MatchResult ScanMatcher::match(
   makeRoom(chunk_noise_, Workers::chunks(points));
   strongest_planes_.reserve(points);
   MatchResult result;
-  result.model =
-      residualModelOf(options.measurement, scanPoseCovariance(predicted, scan.compensation));
+  const FilterState& start = options.start ? *options.start : predicted;
+  result.model = residualModelOf(options.measurement, scanPoseCovariance(start, scan.compensation));
   const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
   result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;
@@ -176,7 +176,7 @@ MatchResult ScanMatcher::match(
   };
   result.update =
       // By reference: a copy of the captures would go to the heap.
-      iteratedUpdate(predicted, std::cref(measurements), options.limits, options.gain);
+      iteratedUpdate(predicted, start.x, std::cref(measurements), options.limits, options.gain);
   result.update.last.count = effective;
   return result;
 }

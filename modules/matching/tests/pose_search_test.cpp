@@ -205,6 +205,21 @@ TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
   EXPECT_GE(solver.eigenvalues().minCoeff(), 0.0);
 }
 
+TEST(NeedsPullIn, WherePositionOrAttitudeAreUncertainInMoreThanOneDirection)
+{
+  FilterState s;
+  s.P = 1e-6 * StateMatrix::Identity();
+  EXPECT_FALSE(needsPullIn(s));
+  s.P(kPosition, kPosition) = 100.0;
+  EXPECT_FALSE(needsPullIn(s)) << "along a tunnel";
+  s.P(kPosition + 2, kPosition + 2) = 0.06 * 0.06;
+  EXPECT_TRUE(needsPullIn(s));
+  FilterState tilted;
+  tilted.P = 1e-6 * StateMatrix::Identity();
+  tilted.P.block<2, 2>(kAttitude, kAttitude) = 0.006 * 0.006 * Eigen::Matrix2d::Identity();
+  EXPECT_TRUE(needsPullIn(tilted)) << "6 cm at points that are 10 m away";
+}
+
 // Scans with hardly a point do not end an outage.
 TEST(UnmodelledAcceleration, IsTheSameInStepsAsAtOnce)
 {

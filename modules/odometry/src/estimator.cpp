@@ -71,11 +71,11 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   workers_->alongside(
       [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
-  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted);             // eq. 9-10
-  const MapSearchResult matched = matchWithMap(deskewed, predicted, span.end_ns);  // eq. 12-20
+  const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted.state.x);  // eq. 9-10
+  Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
+  const MapSearchResult matched = matchWithMap(work, span.end_ns);  // eq. 12-20
   const MatchResult& match = matched.match;
 
-  Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
   work.outcome.search = matched.poses;
   if (matched.poses) ambiguity_.add(*matched.poses);
   work.outcome.after_outage = matched.after_outage;
@@ -137,13 +137,13 @@ void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
   timings_.downsample = watch.milliseconds();
 }
 
+/** \param motion the state at the scan's end */
 const DeskewedScan& Estimator::deskew(
-    const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted)
+    const LidarScan& scan, std::int64_t end_ns, const NavState& motion)
 {
   const Stopwatch watch;
-  const DeskewedScan& deskewed =
-      preparation_.deskew(scan, end_ns, predicted.state.x, predictor_.inputs());
-  timings_.deskew = watch.milliseconds();
+  const DeskewedScan& deskewed = preparation_.deskew(scan, end_ns, motion, predictor_.inputs());
+  timings_.deskew += watch.milliseconds();
   return deskewed;
 }
 

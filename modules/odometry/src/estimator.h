@@ -115,12 +115,11 @@ class Estimator
   [[nodiscard]] FilterRun& run();
   [[nodiscard]] ScanPrediction predict(std::int64_t end_ns, const ImuBuffer& imu);
   void downsample(const LidarScan& scan, std::int64_t end_ns);
-  [[nodiscard]] const DeskewedScan& deskew(
-      const LidarScan& scan, std::int64_t end_ns, const ScanPrediction& predicted);
-  [[nodiscard]] MapSearchResult matchWithMap(
-      const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns);
-  [[nodiscard]] MapSearchResult trackOrSearch(
-      const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns);
+  const DeskewedScan& deskew(const LidarScan& scan, std::int64_t end_ns, const NavState& motion);
+  [[nodiscard]] MapSearchResult matchWithMap(const Work& work, std::int64_t end_ns);
+  [[nodiscard]] MapSearchResult trackOrSearch(const Work& work, std::int64_t end_ns);
+  [[nodiscard]] MatchResult matchPrediction(const Work& work);
+  [[nodiscard]] MatchResult pullIn(const Work& work, std::int64_t end_ns);
   [[nodiscard]] MapSearchResult searchAfterOutage(
       const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
   [[nodiscard]] FilterState beginNewMap(const DeskewedScan& scan, const FilterState& predicted);

@@ -35,10 +35,11 @@ double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
 }
 }  // namespace
 
-MapSearchResult Estimator::matchWithMap(
-    const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns)
+MapSearchResult Estimator::matchWithMap(const Work& work, std::int64_t end_ns)
 {
   const Stopwatch watch;
+  const DeskewedScan& scan = work.deskewed;
+  const FilterState& predicted = work.predicted.state;
   const auto timed = [&](MapSearchResult result)
   {
     timings_.associate = result.match.association_ms;
@@ -47,50 +48,80 @@ MapSearchResult Estimator::matchWithMap(
   };
   if (auto* entering = std::get_if<EnteringMap>(&mode_))
   {
-    MapSearchResult search =
-        MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted.state);
+    MapSearchResult search = MapSearch(options_, matcher_, scan, map_).aroundGivenPose(predicted);
     if (search.found) mode_ = Tracking{std::move(entering->run), false, nullptr};
     return timed(std::move(search));
   }
   if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
   {
     const FilterState from =
-        end_ns > relocalizing->give_up_ns ? beginNewMap(scan, predicted.state) : predicted.state;
+        end_ns > relocalizing->give_up_ns ? beginNewMap(scan, predicted) : predicted;
     return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(from));
   }
-  return timed(trackOrSearch(scan, predicted, end_ns));
+  return timed(trackOrSearch(work, end_ns));
 }
 
 /** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
  * wrong pose would agree with it ever after, so a match that does not convince is no match. */
-MapSearchResult Estimator::trackOrSearch(
-    const DeskewedScan& scan, const ScanPrediction& predicted, std::int64_t end_ns)
+MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
 {
   auto& tracking = std::get<Tracking>(mode_);
+  const DeskewedScan& scan = work.deskewed;
+  const FilterState& predicted = work.predicted.state;
   const bool map_is_informative = options_.recovery.enabled && !map_.isSparse();
   const bool seen_again = hasEnoughPoints(scan);
-  if (map_is_informative && seen_again && needsPoseSearch(predicted.state, predicted.unseen_s))
+  if (map_is_informative && seen_again && needsPoseSearch(predicted, work.predicted.unseen_s))
   {
     tracking.searching = true;
-    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted.state, end_ns);
+    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, end_ns);
   }
   if (!tracking.searching)
   {
-    const bool pull_in = tracking.run.motion_window && tracking.run.motion_window->pull_in;
-    MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
-    // Only these scans can tell the velocity of a start in motion: no direction is left out
-    // lightly.
-    if (tracking.run.motion_window) how.measurement.min_signal_to_noise *= kStartSignalToNoise;
-    how.deskew_std = deskewStd(scan, predicted);
-    MatchResult match = matcher_.match(scan, predicted.state, map_.matched(), how);
-    const bool good = !match.update.updated || isConvincing(match, scan, map_);
+    const bool uncertain = !tracking.run.motion_window && needsPullIn(predicted);
+    MatchResult match = uncertain ? pullIn(work, end_ns) : matchPrediction(work);
+    // A scan that a gap has distorted matches worse, and hardly moves the state.
+    const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
+    const bool good = !match.update.updated || (found && isConvincing(match, scan, map_));
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
+    if (uncertain) deskew(work.scan, end_ns, predicted.x);
   }
-  if (tracking.outage) return searchAfterOutage(scan, predicted.state, end_ns);
-  MapSearchResult search =
-      MapSearch(options_, matcher_, scan, map_).aroundPrediction(predicted.state);
+  if (tracking.outage) return searchAfterOutage(scan, predicted, end_ns);
+  const MapSearch map_search(options_, matcher_, scan, map_);
+  MapSearchResult search = map_search.aroundPrediction(predicted);
+  if (search.found)  // once more, deskewed with the motion that it found
+  {
+    deskew(work.scan, end_ns, search.match.update.posterior.x);
+    search = map_search.aroundPrediction(predicted);
+  }
   tracking.searching = !search.found;
   return search;
+}
+
+MatchResult Estimator::matchPrediction(const Work& work)
+{
+  const std::optional<MotionWindow>& window = run().motion_window;
+  const bool pull_in = window && window->pull_in;
+  MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
+  // Only these scans can tell the velocity of a start in motion: no direction is left out lightly.
+  if (window) how.measurement.min_signal_to_noise *= kStartSignalToNoise;
+  how.deskew_std = deskewStd(work.deskewed, work.predicted);
+  return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how);
+}
+
+/** Where the prediction is uncertain, so is the motion that the points were deskewed with. They are
+ * deskewed again with the motion that a first match finds: otherwise a wrong velocity shears the
+ * scan, the sheared scan confirms the velocity, and the map drifts along with both. */
+MatchResult Estimator::pullIn(const Work& work, std::int64_t end_ns)
+{
+  MatchOptions first = pullInMatching(options_), second = ordinaryMatching(options_);
+  first.measurement.min_signal_to_noise = 0.0;  // it may be wrong along what it does not see
+  first.deskew_std = second.deskew_std = deskewStd(work.deskewed, work.predicted);
+  const FilterState& predicted = work.predicted.state;
+  const MatchResult near = matcher_.match(work.deskewed, predicted, map_.matched(), first);
+  if (!near.update.updated) return near;
+  second.start = near.update.posterior;
+  deskew(work.scan, end_ns, second.start->x);
+  return matcher_.match(work.deskewed, predicted, map_.matched(), second);
 }
 
 /** The inertial data were well, so nothing is re-initialised: where the map does not show the

@@ -128,10 +128,18 @@ struct UpdateStep
 
 /** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. The
  * posterior's covariance is symmetric and refers to the posterior's own tangent space.
+ * \param start of the iterations: the prior's mean, or what an earlier update has found
  * \throw std::invalid_argument when max_iterations < 1, or when the standard gain is chosen and the
  * model does not stack as many measurements as it counts */
 [[nodiscard]] UpdateResult iteratedUpdate(
+    const FilterState& prior, const NavState& start, const MeasurementModel& model,
+    const IterationLimits& limits, GainForm gain);
+/** The same from the prior's mean. */
+[[nodiscard]] inline UpdateResult iteratedUpdate(
     const FilterState& prior, const MeasurementModel& model, const IterationLimits& limits,
-    GainForm gain);
+    GainForm gain)
+{
+  return iteratedUpdate(prior, prior.x, model, limits, gain);
+}
 
 }  // namespace fastlio

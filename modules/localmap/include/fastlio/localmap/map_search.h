@@ -32,6 +32,11 @@ struct MapSearchResult
 [[nodiscard]] bool isConvincing(
     const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
 
+/** As many points match as a searched pose has to show. A match from an uncertain prediction needs
+ * that: its gate is narrow, so that whatever matches has small residuals. */
+[[nodiscard]] bool matchesAsFound(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
+
 /** Searches for one scan in one map. */
 class MapSearch
 {

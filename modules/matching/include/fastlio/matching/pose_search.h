@@ -30,6 +30,11 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
  * \param blind_s time without a scan [s] */
 [[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
 
+/** The prediction may be farther off than the matching of ordinary scans pulls in, by its position
+ * or by its attitude at points that are 10 m away. One direction may be uncertain, as along a
+ * tunnel. */
+[[nodiscard]] bool needsPullIn(const FilterState& predicted);
+
 /** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
 [[nodiscard]] Vec3 positionStd(const FilterState& state);
 

@@ -16,6 +16,7 @@
 #include <fastlio/parallel/workers.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace fastlio
@@ -27,6 +28,8 @@ struct MatchOptions
   int association_iterations = 2;  //!< so many iterations search the map anew; more move no match
   IterationLimits limits;          //!< of the iterated update
   GainForm gain = GainForm::Information;
+  /** Where the iterations start, and how near that is; the prediction if there is none. */
+  std::optional<FilterState> start;
   /** How far deskewing may have moved the points beside the sensor's noise, all of them together
    * [m]. */
   double deskew_std = 0.0;
