@@ -4,6 +4,7 @@
 #include "velodyne_block.h"
 #include "velodyne_models.h"
 #include "velodyne_packet.h"
+#include "velodyne_packet_times.h"
 #include <fastlio/sensors/velodyne_decoder.h>
 
 #include <algorithm>
@@ -30,8 +31,6 @@ constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
 constexpr std::size_t kMostBanks = 2;
 constexpr int kFullCircle = Scan::ROTATION_MAX_UNITS;  // azimuth unit: 0.01 deg
 constexpr double kRadiansPerUnit = 1e-4 * 1.7453292519943295;
-constexpr std::int64_t kMicrosecondsPerHour = 3'600'000'000;
-constexpr std::int64_t kMaxSweepMicroseconds = 2'000'000;
 
 // Values that are the same for all packets of a sweep.
 struct Sensor
@@ -122,35 +121,6 @@ double packetDuration(const PacketLayout& layout, const FiringTiming& timing)
   return static_cast<double>(groups) * timing.block_us;
 }
 
-// Packets carry microseconds past the hour. A stamp that does not follow the first packet's within
-// two seconds, or repeats the one before, is replaced by the time at which the packet was due.
-class PacketClock
-{
- public:
-  explicit PacketClock(std::uint32_t first_us) : first_us_(first_us) {}
-
-  // Offset to the first packet [us]; counts a stamp that cannot be.
-  double offsetOf(std::uint32_t stamp_us, double duration_us, std::size_t& bad)
-  {
-    std::int64_t elapsed = static_cast<std::int64_t>(stamp_us) - first_us_;
-    if (elapsed < 0) elapsed += kMicrosecondsPerHour;
-    const bool repeats = started_ && stamp_us == previous_us_;
-    const bool good = elapsed >= 0 && elapsed < kMaxSweepMicroseconds && !repeats;
-    if (!good) ++bad;
-    const double offset = good ? static_cast<double>(elapsed) : due_us_;
-    due_us_ = std::min(offset + duration_us, static_cast<double>(kMaxSweepMicroseconds));
-    previous_us_ = stamp_us;
-    started_ = true;
-    return offset;
-  }
-
- private:
-  std::int64_t first_us_;
-  std::uint32_t previous_us_ = 0;
-  double due_us_ = 0;
-  bool started_ = false;
-};
-
 // The block of the same lasers that a dual return packet holds for the first of both returns.
 const Block* firstReturnOf(const Packet& packet, const PacketLayout& layout, std::size_t index)
 {
@@ -215,13 +185,20 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   const Sensor sensor = sensorOf(scan);
   AnglesBySpeed angles(sensor);
   const RangeLimits limits{scan.minRange, scan.maxRange};
-  PacketClock clock(timeOf(scan.scan_packets.front()));
-  sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturnsPerBlock);
+  std::vector<PacketLayout> layouts;
+  std::vector<PacketTime> times;
   for (const Packet& packet : scan.scan_packets)
   {
-    PacketLayout layout = layoutOf(packet, sensor, angles);
-    layout.offset_us = clock.offsetOf(
-        timeOf(packet), packetDuration(layout, sensor.timing), sweep.counts.bad_packet_times);
+    layouts.push_back(layoutOf(packet, sensor, angles));
+    times.push_back({timeOf(packet), packetDuration(layouts.back(), sensor.timing)});
+  }
+  const std::vector<double> offsets = packetOffsets(times, sweep.counts.bad_packet_times);
+  sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturnsPerBlock);
+  for (std::size_t number = 0; number < layouts.size(); ++number)
+  {
+    const Packet& packet = scan.scan_packets[number];
+    PacketLayout& layout = layouts[number];
+    layout.offset_us = offsets[number];
     PacketPoints points(limits);
     for (std::size_t i = 0; i < kBlocks; ++i)
     {
