@@ -80,15 +80,16 @@ bool needsPoseSearch(const FilterState& predicted, double blind_s)
          predicted.P.diagonal().segment<3>(kPosition).maxCoeff() > kPullInStd * kPullInStd;
 }
 
-bool needsPullIn(const FilterState& predicted)
+bool needsPullIn(const FilterState& predicted, bool degenerate)
 {
-  const auto secondVariance = [&](int block)
+  const auto variance = [&](int block)
   {
     const Mat3 P = predicted.P.block<3, 3>(block, block);
-    return Eigen::SelfAdjointEigenSolver<Mat3>(P, Eigen::EigenvaluesOnly).eigenvalues()[1];
+    const Eigen::SelfAdjointEigenSolver<Mat3> solver(P, Eigen::EigenvaluesOnly);
+    return solver.eigenvalues()[degenerate ? 1 : 2];
   };
-  const double turned = kFarPoints * kFarPoints * secondVariance(kAttitude);
-  return secondVariance(kPosition) + turned > kPullInStd * kPullInStd;
+  const double turned = kFarPoints * kFarPoints * variance(kAttitude);
+  return variance(kPosition) + turned > kPullInStd * kPullInStd;
 }
 
 FilterState correctedByPose(

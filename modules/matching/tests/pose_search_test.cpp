@@ -205,19 +205,20 @@ TEST(UnmodelledAcceleration, GrowsWithTheTimeAndKeepsTheCovariancePositive)
   EXPECT_GE(solver.eigenvalues().minCoeff(), 0.0);
 }
 
-TEST(NeedsPullIn, WherePositionOrAttitudeAreUncertainInMoreThanOneDirection)
+TEST(NeedsPullIn, WhereTheScanSeesWhatThePredictionDoesNotKnow)
 {
   FilterState s;
   s.P = 1e-6 * StateMatrix::Identity();
-  EXPECT_FALSE(needsPullIn(s));
+  EXPECT_FALSE(needsPullIn(s, false));
   s.P(kPosition, kPosition) = 100.0;
-  EXPECT_FALSE(needsPullIn(s)) << "along a tunnel";
+  EXPECT_FALSE(needsPullIn(s, true)) << "along a tunnel";
+  EXPECT_TRUE(needsPullIn(s, false)) << "at its end";
   s.P(kPosition + 2, kPosition + 2) = 0.06 * 0.06;
-  EXPECT_TRUE(needsPullIn(s));
+  EXPECT_TRUE(needsPullIn(s, true));
   FilterState tilted;
   tilted.P = 1e-6 * StateMatrix::Identity();
-  tilted.P.block<2, 2>(kAttitude, kAttitude) = 0.006 * 0.006 * Eigen::Matrix2d::Identity();
-  EXPECT_TRUE(needsPullIn(tilted)) << "6 cm at points that are 10 m away";
+  tilted.P(kAttitude, kAttitude) = 0.006 * 0.006;
+  EXPECT_TRUE(needsPullIn(tilted, false)) << "6 cm at points that are 10 m away";
 }
 
 // Scans with hardly a point do not end an outage.

@@ -77,8 +77,10 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
   }
   if (!tracking.searching)
   {
-    const bool uncertain = !tracking.run.motion_window && needsPullIn(predicted);
-    MatchResult match = uncertain ? pullIn(work, end_ns) : matchPrediction(work);
+    MatchResult match = matchPrediction(work);
+    const bool uncertain =
+        !tracking.run.motion_window && needsPullIn(predicted, match.constraints.unconstrained > 0);
+    if (uncertain) match = pullIn(work, end_ns);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
     const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
     const bool good = !match.update.updated || (found && isConvincing(match, scan, map_));

@@ -31,9 +31,9 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
 [[nodiscard]] bool needsPoseSearch(const FilterState& predicted, double blind_s);
 
 /** The prediction may be farther off than the matching of ordinary scans pulls in, by its position
- * or by its attitude at points that are 10 m away. One direction may be uncertain, as along a
- * tunnel. */
-[[nodiscard]] bool needsPullIn(const FilterState& predicted);
+ * or by its attitude at points that are 10 m away.
+ * \param degenerate the scan leaves a direction open: the most uncertain one does not count */
+[[nodiscard]] bool needsPullIn(const FilterState& predicted, bool degenerate);
 
 /** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
 [[nodiscard]] Vec3 positionStd(const FilterState& state);
