@@ -15,27 +15,29 @@ namespace
 constexpr std::int64_t kRemembered = 5'000'000'000;  // [ns]
 // Windows have to begin at places that are so far apart altogether: a step or a turn.
 constexpr std::int64_t kLeastCovered = 1'000'000'000;  // [ns]
+// The worst of the windows is so many standard deviations: with the root mean square of all of them
+// instead, steps and jolts are up to ten off, with this up to three.
+constexpr double kSigmasOfWorst = 1.4142135623730951;
 // Moving the tail to the front every so many forgotten samples keeps the storage bounded.
 constexpr std::size_t kMostForgotten = 1024;
 
-/** Squares of one sensor, an axis each, over all windows. */
-struct Squares
+/** What interpolation does to one sensor, over all windows. */
+struct Interpolation
 {
-  Vec3 error = Vec3::Zero();       // of the mean by interpolation
-  Vec3 difference = Vec3::Zero();  // of the samples at both ends
+  Vec3 worst = Vec3::Zero();  // square of the mean's error, an axis each
+  double difference = 0.0;    // sum of the squares, of the samples at both ends
 
   void add(const Vec3& mean, const Vec3& first, const Vec3& last)
   {
-    error += (mean - 0.5 * (first + last)).cwiseAbs2();
-    difference += (last - first).cwiseAbs2();
+    worst = worst.cwiseMax((mean - 0.5 * (first + last)).cwiseAbs2());
+    difference += (last - first).squaredNorm();
   }
 
   [[nodiscard]] double std(double windows, const Vec3& first, const Vec3& last) const
   {
-    const double now = (last - first).squaredNorm();
-    const double usual = difference.sum() / windows;
+    const double now = (last - first).squaredNorm(), usual = difference / windows;
     const double growth = usual > 0.0 ? std::max(1.0, now / usual) : 1.0;
-    return std::sqrt(growth * error.maxCoeff() / windows);
+    return std::sqrt(growth * worst.maxCoeff()) / kSigmasOfWorst;
   }
 };
 }  // namespace
@@ -65,7 +67,7 @@ std::optional<InterpolationError> RecentMotion::errorUntil(const ImuSample& next
   if (entries_.empty()) return std::nullopt;
   const Entry& newest = entries_.back();
   const std::int64_t length_ns = next.stamp_ns - newest.sample.stamp_ns;
-  Squares gyro, accel;
+  Interpolation gyro, accel;
   double windows = 0.0;
   std::int64_t covered_ns = 0;
   std::size_t first = oldest_;

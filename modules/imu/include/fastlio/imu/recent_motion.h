@@ -36,9 +36,9 @@ class RecentMotion
 
   /** The error of interpolating from the latest sample to \a next.
    *
-   * With the error e of the mean over windows of this length and the difference d of the samples at
-   * their ends, the variance is E[e^2], times d^2 / E[d^2] where the difference across this gap is
-   * larger than usual: then the motion has changed in it.
+   * With the errors e of the mean over windows of this length and the differences d of the samples
+   * at their ends, the variance is max(e^2) / 2, times d^2 / E[d^2] where the difference across
+   * this gap is larger than usual: then the motion has changed in it.
    * \return nothing when the samples cover too little time to tell */
   [[nodiscard]] std::optional<InterpolationError> errorUntil(const ImuSample& next) const;
 
