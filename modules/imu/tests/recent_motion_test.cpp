@@ -94,7 +94,8 @@ TEST(RecentMotion, CoversTheErrorInVibration)
   std::vector<double> noise(4000);
   for (double& value : noise)
     value = normal(random);
-  const Signal vibration = [&](double t) { return noise[std::lround(t / toSeconds(kSpacing))]; };
+  const Signal vibration = [&](double t)
+  { return noise[static_cast<std::size_t>(std::lround(t / toSeconds(kSpacing)))]; };
   for (const int gap : {10, 40})
   {
     const NormalizedError normalized = normalizedError(vibration, gap);
@@ -134,7 +135,10 @@ TEST(RecentMotion, LooksAcrossNoEarlierGap)
   // The rate jumps in each gap, and stands still between them.
   RecentMotion motion;
   for (int i = 0; i < kHistory; ++i)
-    motion.add({i * kSpacing, Vec3(i / 100, 0.0, 0.0), Vec3::Zero()}, i % 100 == 0);
+  {
+    const int turn = i / 100;
+    motion.add({i * kSpacing, Vec3(turn, 0.0, 0.0), Vec3::Zero()}, i % 100 == 0);
+  }
   const auto error = motion.errorUntil({(kHistory + 19) * kSpacing, Vec3(9.0, 0.0, 0.0), {}});
   ASSERT_TRUE(error);
   EXPECT_LT(error->gyro_std, 1e-9);

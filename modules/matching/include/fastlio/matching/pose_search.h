@@ -36,7 +36,7 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
 [[nodiscard]] bool needsPullIn(const FilterState& predicted, bool degenerate);
 
 /** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
-[[nodiscard]] Vec3 positionStd(const FilterState& state);
+[[nodiscard]] Vec3 positionStd(const FilterState& predicted);
 
 /** Places within this standard deviation are distinguished by any map: nothing that a sensor sees
  * repeats within a metre [m]. Farther off, a place that looks alike may be taken for the right one,
