@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace fastlio
 {
@@ -18,8 +20,6 @@ constexpr std::int64_t kLeastCovered = 1'000'000'000;  // [ns]
 // The worst of the windows is so many standard deviations: with the root mean square of all of them
 // instead, steps and jolts are up to ten off, with this up to three.
 constexpr double kSigmasOfWorst = 1.4142135623730951;
-// Moving the tail to the front every so many forgotten samples keeps the storage bounded.
-constexpr std::size_t kMostForgotten = 1024;
 
 /** What interpolation does to one sensor, over all windows. */
 struct Interpolation
@@ -40,67 +40,72 @@ struct Interpolation
     return std::sqrt(growth * worst.maxCoeff()) / kSigmasOfWorst;
   }
 };
+
+/** Up to one of the samples, by the trapezoidal rule. */
+struct Integral
+{
+  Vec3 rotation = Vec3::Zero(), velocity = Vec3::Zero();
+};
+
+std::vector<Integral> integralsOf(const std::vector<ImuSample>& samples)
+{
+  std::vector<Integral> integrals(samples.size());
+  for (std::size_t i = 1; i < samples.size(); ++i)
+  {
+    const ImuSample &a = samples[i - 1], &b = samples[i];
+    const double half_dt = 0.5 * toSeconds(b.stamp_ns - a.stamp_ns);
+    integrals[i].rotation = integrals[i - 1].rotation + half_dt * (a.gyro + b.gyro);
+    integrals[i].velocity = integrals[i - 1].velocity + half_dt * (a.accel + b.accel);
+  }
+  return integrals;
+}
 }  // namespace
 
 void RecentMotion::add(const ImuSample& sample, bool after_gap)
 {
-  Entry entry{sample, Vec3::Zero(), Vec3::Zero(), after_gap};
-  if (!entries_.empty())
-  {
-    const Entry& before = entries_.back();
-    const double half_dt = 0.5 * toSeconds(sample.stamp_ns - before.sample.stamp_ns);
-    entry.rotation = before.rotation + half_dt * (before.sample.gyro + sample.gyro);
-    entry.velocity = before.velocity + half_dt * (before.sample.accel + sample.accel);
-  }
-  entries_.push_back(entry);
-  forgetOld();
+  if (after_gap && !samples_.empty())
+    samples_.addInflation({samples_.newestStamp(), sample.stamp_ns});
+  samples_.add(sample);
+  samples_.forgetSamplesBefore(sample.stamp_ns - kRemembered);
 }
 
 std::optional<std::int64_t> RecentMotion::newestStamp() const
 {
-  if (entries_.empty()) return std::nullopt;
-  return entries_.back().sample.stamp_ns;
+  if (samples_.empty()) return std::nullopt;
+  return samples_.newestStamp();
 }
 
 std::optional<InterpolationError> RecentMotion::errorUntil(const ImuSample& next) const
 {
-  if (entries_.empty()) return std::nullopt;
-  const Entry& newest = entries_.back();
-  const std::int64_t length_ns = next.stamp_ns - newest.sample.stamp_ns;
+  if (samples_.empty()) return std::nullopt;
+  const auto samples = samples_.samplesBetween(samples_.oldestStamp(), samples_.newestStamp());
+  const std::vector<Integral> integrals = integralsOf(samples);
+  const std::int64_t length_ns = next.stamp_ns - samples.back().stamp_ns;
   Interpolation gyro, accel;
   double windows = 0.0;
   std::int64_t covered_ns = 0;
-  std::size_t first = oldest_;
-  for (std::size_t last = oldest_ + 1; last < entries_.size(); ++last)
+  std::size_t first = 0;
+  auto gap = samples_.inflations().begin();
+  for (std::size_t last = 1; last < samples.size(); ++last)
   {
-    const Entry& end = entries_[last];
-    if (end.after_gap) first = last;
-    const auto span = [&](std::size_t begin)
-    { return end.sample.stamp_ns - entries_[begin].sample.stamp_ns; };
+    const ImuSample& end = samples[last];
+    for (; gap != samples_.inflations().end() && gap->end_ns <= end.stamp_ns; ++gap)
+      first = last;  // no window across it
+    const auto span = [&](std::size_t begin) { return end.stamp_ns - samples[begin].stamp_ns; };
     if (span(first) < length_ns) continue;
     while (span(first + 1) >= length_ns)
       ++first;
-    const Entry& begin = entries_[first];
+    const ImuSample& begin = samples[first];
     const double dt = toSeconds(span(first));
-    gyro.add((end.rotation - begin.rotation) / dt, begin.sample.gyro, end.sample.gyro);
-    accel.add((end.velocity - begin.velocity) / dt, begin.sample.accel, end.sample.accel);
+    gyro.add((integrals[last].rotation - integrals[first].rotation) / dt, begin.gyro, end.gyro);
+    accel.add((integrals[last].velocity - integrals[first].velocity) / dt, begin.accel, end.accel);
     windows += 1.0;
-    covered_ns += end.sample.stamp_ns - entries_[last - 1].sample.stamp_ns;
+    covered_ns += end.stamp_ns - samples[last - 1].stamp_ns;
   }
   if (covered_ns < kLeastCovered) return std::nullopt;
   return InterpolationError{
-      gyro.std(windows, newest.sample.gyro, next.gyro),
-      accel.std(windows, newest.sample.accel, next.accel)};
-}
-
-void RecentMotion::forgetOld()
-{
-  const std::int64_t from_ns = entries_.back().sample.stamp_ns - kRemembered;
-  while (entries_[oldest_].sample.stamp_ns < from_ns)
-    ++oldest_;
-  if (oldest_ < kMostForgotten) return;
-  entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(oldest_));
-  oldest_ = 0;
+      gyro.std(windows, samples.back().gyro, next.gyro),
+      accel.std(windows, samples.back().accel, next.accel)};
 }
 
 }  // namespace fastlio

@@ -165,4 +165,21 @@ TEST(RecentMotion, ForgetsWhatIsLongAgo)
   EXPECT_LT(error->gyro_std, 0.001);
 }
 
+TEST(RecentMotion, AbsurdSamplesLeaveNothingBehind)
+{
+  const RecentMotion calm = historyOf(steps, 10, 3000);
+  RecentMotion absurd;
+  for (int i = 0; i < 3000; ++i)
+  {
+    ImuSample sample = sampleOf(steps, i);
+    if (i < 10) sample.gyro.setConstant(1e200), sample.accel.setConstant(1e200);
+    absurd.add(sample, false);
+  }
+  const auto expected = calm.errorUntil(sampleOf(steps, 3019));
+  const auto error = absurd.errorUntil(sampleOf(steps, 3019));
+  ASSERT_TRUE(expected && error);
+  EXPECT_EQ(error->gyro_std, expected->gyro_std);
+  EXPECT_EQ(error->accel_std, expected->accel_std);
+}
+
 }  // namespace fastlio

@@ -5,12 +5,10 @@
  * a gap in the inertial data costs. */
 #pragma once
 
-#include <fastlio/filter/imu.h>
+#include <fastlio/imu/imu_buffer.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace fastlio
 {
@@ -43,17 +41,7 @@ class RecentMotion
   [[nodiscard]] std::optional<InterpolationError> errorUntil(const ImuSample& next) const;
 
  private:
-  struct Entry
-  {
-    ImuSample sample;
-    Vec3 rotation = Vec3::Zero(), velocity = Vec3::Zero();  // integrals, by the trapezoidal rule
-    bool after_gap = false;
-  };
-
-  void forgetOld();
-
-  std::vector<Entry> entries_;  // those before oldest_ are forgotten
-  std::size_t oldest_ = 0;
+  ImuBuffer samples_;  // with the gaps between them
 };
 
 }  // namespace fastlio
