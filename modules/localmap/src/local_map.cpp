@@ -113,9 +113,7 @@ bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points
 void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
 {
   ratios_ = std::min(ratios_ + 1, kRatiosAveraged);
-  const double ratio =
-      static_cast<double>(inliers) / static_cast<double>(std::max<std::size_t>(points, 1));
-  usual_inlier_ratio_ += (ratio - usual_inlier_ratio_) / ratios_;
+  usual_inlier_ratio_ += (inlierRatio(inliers, points) - usual_inlier_ratio_) / ratios_;
 }
 
 bool LocalMap::accepts(const InsertionCandidate& candidate) const

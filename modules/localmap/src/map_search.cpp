@@ -32,12 +32,6 @@ constexpr std::size_t kMostCarriedCandidates = 12000;
 // that is set too small make a few times the noise: trouble, but a match.
 constexpr double kWrongPoseInnovation = 10.0;
 
-double inlierRatio(const UpdateResult& update, const DeskewedScan& scan)
-{
-  return static_cast<double>(update.last.count) /
-         static_cast<double>(std::max<std::size_t>(scan.surfaces.size(), 1));
-}
-
 /** Standard deviation of the attitude about gravity [rad]. */
 double headingStd(const FilterState& s)
 {
@@ -79,17 +73,19 @@ bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const Loca
 {
   if (match.constraints.unconstrained > 0) return true;
   return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
-         inlierRatio(match.update, scan) >= kMinUsualFraction * map.usualInlierRatio();
+         inlierRatio(match.update.last.count, scan.surfaces.size()) >=
+             kMinUsualFraction * map.usualInlierRatio();
 }
 
 bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
-  return inlierRatio(match.update, scan) >= kUsualPart * map.usualInlierRatio();
+  return inlierRatio(match.update.last.count, scan.surfaces.size()) >=
+         kUsualPart * map.usualInlierRatio();
 }
 
 double MapSearch::ratioOf(const UpdateResult& update) const
 {
-  return inlierRatio(update, scan_);
+  return inlierRatio(update.last.count, scan_.surfaces.size());
 }
 
 MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const

@@ -31,8 +31,7 @@ constexpr int kIterations = 5;
 
 bool matchesWell(const MatchResult& match, std::size_t points)
 {
-  const double ratio = static_cast<double>(match.update.last.count) / static_cast<double>(points);
-  return match.update.updated && ratio >= kFewestInliers &&
+  return match.update.updated && inlierRatio(match.update.last.count, points) >= kFewestInliers &&
          normalizedInnovation(match.update) <= kMaxInnovation;
 }
 }  // namespace

@@ -5,9 +5,14 @@
 
 namespace fastlio
 {
+double inlierRatio(std::size_t inliers, std::size_t points)
+{
+  return points > 0 ? static_cast<double>(inliers) / static_cast<double>(points) : 0.0;
+}
+
 double inlierRatio(const ScanStatistics& s, std::size_t points)
 {
-  return points > 0 ? static_cast<double>(s.points_effective) / static_cast<double>(points) : 0.0;
+  return inlierRatio(s.points_effective, points);
 }
 
 bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points)

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/matching/match_evidence.h>
 #include <fastlio/matching/pose_search.h>
 
 #include <Eigen/Cholesky>
@@ -37,7 +38,7 @@ PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
   PoseCandidate candidate;
   candidate.T_world_imu = update.posterior.x.pose();
   candidate.innovation = normalizedInnovation(update);
-  candidate.inlier_ratio = static_cast<double>(update.last.count) / static_cast<double>(points);
+  candidate.inlier_ratio = inlierRatio(update.last.count, points);
   candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
   return candidate;
 }

@@ -3,8 +3,11 @@
 
 #include "velodyne_packet_times.h"
 
+#include <fastlio/math/statistics.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fastlio
 {
@@ -21,13 +24,6 @@ struct Stamps
   std::vector<double> elapsed, delay;  // [us]
   std::vector<bool> fits;
 };
-
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Stamps stampsOf(const std::vector<PacketTime>& packets)
 {
@@ -52,7 +48,7 @@ double findFitting(const std::vector<PacketTime>& packets, Stamps& stamps)
     stamps.fits.push_back(i == 0 || packets[i].stamp_us != packets[i - 1].stamp_us);
     if (stamps.fits.back()) delays.push_back(stamps.delay[i]);
   }
-  const double usual = median(delays);
+  const double usual = median(std::move(delays));
   for (std::size_t i = 0; i < packets.size(); ++i)
     if (std::abs(stamps.delay[i] - usual) > kMostDelayed) stamps.fits[i] = false;
   for (std::size_t i = 0; i + 1 < packets.size(); ++i)

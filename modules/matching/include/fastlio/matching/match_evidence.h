@@ -16,7 +16,8 @@ inline constexpr double kMinUsualFraction = 0.2;
  */
 inline constexpr double kMaxInnovation = 3.0;
 
-/** Points that matched a plane, of all that could have. */
+/** Points that matched a plane, of all that could have; 0 of none. */
+[[nodiscard]] double inlierRatio(std::size_t inliers, std::size_t points);
 [[nodiscard]] double inlierRatio(const ScanStatistics& statistics, std::size_t points);
 
 /** The scan matches as those before it did: its inlier ratio is at least kMinUsualFraction of the
