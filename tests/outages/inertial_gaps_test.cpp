@@ -5,12 +5,12 @@
 // are distorted, and the prediction behind the gap is uncertain.
 
 #include "walks.h"
-#include <fastlio/math/time.h>
 #include <fastlio/scenarios/realistic.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace fastlio::testing
 {
@@ -18,16 +18,13 @@ namespace
 {
 SimulatedRun runWithGap(const CastWalk& walk, double begin_s, double length_s)
 {
-  OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 1;
   AlteredInputs inputs;
-  inputs.cast = &walk.scans;
   inputs.imu = [&](ImuSample& sample)
   {
-    const double t = toSeconds(sample.stamp_ns - walk.simulation.settings().start_ns);
+    const double t = walk.secondsAt(sample.stamp_ns);
     return t < begin_s || t >= begin_s + length_s;
   };
-  return runOdometryWith(inputs, walk.simulation, options);
+  return walk.runWith(std::move(inputs));
 }
 
 /** The largest standard deviation of the position in a run [m]. */

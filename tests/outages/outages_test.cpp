@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace fastlio::testing
@@ -47,18 +48,15 @@ PointColumns firstOf(const PointColumns& points, std::size_t count)
 
 SimulatedRun runWithOutage(const CastWalk& walk, const Outage& outage, Missing missing)
 {
-  OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 1;
   AlteredInputs inputs;
-  inputs.cast = &walk.scans;
   inputs.scan = [&](LidarScan& scan)
   {
-    const double t = toSeconds(scan.stamp_ns - walk.simulation.settings().start_ns);
+    const double t = walk.secondsAt(scan.stamp_ns);
     if (t < outage.begin_s || t >= outage.begin_s + outage.length_s) return true;
     if (missing == Missing::Points) scan.points = firstOf(scan.points, 5);
     return missing == Missing::Points;
   };
-  return runOdometryWith(inputs, walk.simulation, options);
+  return walk.runWith(std::move(inputs));
 }
 
 class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<std::string, double>>
@@ -149,8 +147,6 @@ class AnyFault : public ::testing::TestWithParam<std::string>
 TEST_P(AnyFault, EndsRightOrIsReported)
 {
   const CastWalk walk(GetParam());
-  OdometryOptions options = matchingParameters(walk.simulation.settings());
-  options.threads = 1;
   // All faults at every second in the full grid; here one half of them on each walk.
   const bool every = everything();
   const double step = every ? 1.0 : 16.0;
@@ -160,9 +156,7 @@ TEST_P(AnyFault, EndsRightOrIsReported)
     {
       const Fault& fault = kFaults[i];
       const std::int64_t begin_ns = walk.simulation.settings().start_ns + toNanoseconds(begin);
-      AlteredInputs inputs = altered(fault, begin_ns);
-      inputs.cast = &walk.scans;
-      const SimulatedRun run = runOdometryWith(inputs, walk.simulation, options);
+      const SimulatedRun run = walk.runWith(altered(fault, begin_ns));
       if (!endsOk(run)) continue;
       EXPECT_EQ(confidentlyWrong(run), 0)
           << fault.name << " for " << fault.length_s << " s, from " << begin << " s on";

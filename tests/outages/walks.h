@@ -5,10 +5,12 @@
 #pragma once
 
 #include "simulated_run.h"
+#include <fastlio/math/time.h>
 #include <fastlio/run/run_health.h>
 #include <fastlio/scenarios/scenario.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,20 @@ struct CastWalk
   {
     for (std::size_t i = 0; i < simulation.scanCount(); ++i)
       scans.push_back(simulation.scan(i));
+  }
+
+  /** With the options that match it, and one thread: tests run side by side. */
+  [[nodiscard]] SimulatedRun runWith(AlteredInputs inputs) const
+  {
+    OdometryOptions options = matchingParameters(simulation.settings());
+    options.threads = 1;
+    inputs.cast = &scans;
+    return runOdometryWith(inputs, simulation, options);
+  }
+  /** Of a stamp, since the walk's begin [s]. */
+  [[nodiscard]] double secondsAt(std::int64_t stamp_ns) const
+  {
+    return toSeconds(stamp_ns - simulation.settings().start_ns);
   }
 
   Simulation simulation;
