@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace fastlio
 {
@@ -15,6 +17,8 @@ constexpr double kStartSpacing = 1.5;     // between starts [m]
 constexpr double kHeadingSpacing = 0.12;  // between starts [rad]
 constexpr double kStartReach = 3.0;       // starts lie within so many standard deviations
 constexpr int kMostSteps = 8;             // of starts in a direction
+// Each costs about a millisecond: where all directions are lost, a pair must not take minutes.
+constexpr std::size_t kMostStarts = 3000;
 
 /** A direction in which the prediction is uncertain. */
 struct SearchAxis
@@ -23,6 +27,31 @@ struct SearchAxis
   double std = 0.0;
   int steps = 0;  //!< to either side
 };
+
+struct Start
+{
+  Pose pose;
+  double squared = 0.0;  //!< distance from the prediction, in standard deviations
+};
+
+/** The likeliest ones, in the order that they have. */
+std::vector<Pose> likeliest(const std::vector<Start>& starts)
+{
+  double farthest = std::numeric_limits<double>::infinity();
+  if (starts.size() > kMostStarts)
+  {
+    std::vector<double> squared;
+    for (const Start& start : starts)
+      squared.push_back(start.squared);
+    const auto last = squared.begin() + static_cast<std::ptrdiff_t>(kMostStarts);
+    std::nth_element(squared.begin(), last, squared.end());
+    farthest = *last;
+  }
+  std::vector<Pose> poses;
+  for (const Start& start : starts)
+    if (start.squared < farthest) poses.push_back(start.pose);
+  return poses;
+}
 
 int stepsFor(double std, double spacing)
 {
@@ -44,9 +73,9 @@ std::vector<Pose> startsAround(const RelativePose& predicted, const Vec3& up)
   }
   const Vec3 up_in_source = predicted.T_a_b.R.transpose() * up;
   const Mat3 attitude = predicted.covariance.topLeftCorner<3, 3>();
-  const int headings = stepsFor(
-      std::sqrt(std::max(0.0, up_in_source.dot(attitude * up_in_source))), kHeadingSpacing);
-  std::vector<Pose> starts{predicted.T_a_b};
+  const double heading_std = std::sqrt(std::max(0.0, up_in_source.dot(attitude * up_in_source)));
+  const int headings = stepsFor(heading_std, kHeadingSpacing);
+  std::vector<Start> starts{{predicted.T_a_b}};
   for (int h = -headings; h <= headings; ++h)
     for (int i = -axes[0].steps; i <= axes[0].steps; ++i)
       for (int j = -axes[1].steps; j <= axes[1].steps; ++j)
@@ -65,10 +94,12 @@ std::vector<Pose> startsAround(const RelativePose& predicted, const Vec3& up)
                 std::pow(std::max(0.0, std::abs(way) - 0.5 * kStartSpacing) / axes.at(axis).std, 2);
           }
           if (squared > kStartReach * kStartReach) continue;
-          starts.push_back(
-              {expSO3(h * kHeadingSpacing * up) * predicted.T_a_b.R, predicted.T_a_b.p + moved});
+          const Pose pose{
+              expSO3(h * kHeadingSpacing * up) * predicted.T_a_b.R, predicted.T_a_b.p + moved};
+          if (h != 0) squared += std::pow(kHeadingSpacing * h / heading_std, 2);
+          starts.push_back({pose, squared});
         }
-  return starts;
+  return likeliest(starts);
 }
 
 }  // namespace fastlio

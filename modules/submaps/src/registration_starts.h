@@ -10,8 +10,9 @@
 
 namespace fastlio
 {
-/** Starts all over the prediction to three standard deviations, its mean first. \param up against
- * gravity in the target's frame: headings turn about it */
+/** Starts all over the prediction to three standard deviations, its mean first; the likeliest ones
+ * where there are thousands. \param up against gravity in the target's frame: headings turn about
+ * it */
 [[nodiscard]] std::vector<Pose> startsAround(const RelativePose& predicted, const Vec3& up);
 
 }  // namespace fastlio

@@ -106,6 +106,22 @@ TEST(SubmapRegistration, DoesNotDependOnTheThreads)
   EXPECT_EQ(one.evidence.margin, three.evidence.margin);
 }
 
+/** Who is lost in all directions shall not wait for minutes. What is likely is searched
+ * nevertheless. */
+TEST(SubmapRegistration, TriesNoMoreThanSomeThousandPlaces)
+{
+  const SubmapRegistration target(yard({}, 1));
+  const auto source = yard(kTruth.inverse(), 2);
+  Pose guess = kTruth;
+  guess.p += Vec3(3.0, -2.5, 0.8);
+  guess.R = guess.R * expSO3({0.0, 0.0, 0.15});
+  const Registration found = target.search(source, predictedAt(guess, 20.0, 0.5), Vec3::UnitZ());
+  EXPECT_GT(found.evidence.starts, 2000U);
+  EXPECT_LE(found.evidence.starts, 3000U);
+  ASSERT_TRUE(found.converged);
+  EXPECT_LT((found.motion.T_a_b.p - kTruth.p).norm(), 0.01);
+}
+
 TEST(SubmapRegistration, KeepsItsPlanesWhenThoseGivenChange)
 {
   auto planes = yard({}, 1);

@@ -63,7 +63,8 @@ class SubmapRegistration
   SubmapRegistration(const SubmapRegistration&) = delete;
   SubmapRegistration& operator=(const SubmapRegistration&) = delete;
 
-  /** Tries starts all over the places that the prediction allows, to 3 standard deviations.
+  /** Tries starts all over the places that the prediction allows, to 3 standard deviations, 3000
+   * at most: the likeliest.
    * \param predicted T_target_source and its covariance: it also gives the likelihood of a place
    * \param up the direction against gravity in the target's frame: headings turn about it */
   [[nodiscard]] Registration search(
