@@ -182,15 +182,22 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
 
 void considerInertialData(double inflated, const NavState& x, ScanHealth& health)
 {
-  consider(
-      health, below(inflated, kMaxInflatedRatio), HealthCause::InertialData,
-      [&]
-      {
-        return mrpt::format(
-            "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
-            "more than %.0f %%",
-            100.0 * inflated, 100.0 * kMaxInflatedRatio);
-      });
+  const auto missing = [&]
+  {
+    return mrpt::format(
+        "%.0f %% of the inertial data since the scan before are missing, clipped or absurd, "
+        "more than %.0f %%",
+        100.0 * inflated, 100.0 * kMaxInflatedRatio);
+  };
+  consider(health, below(inflated, kMaxInflatedRatio), HealthCause::InertialData, missing);
+  // They distort the scan, and a distorted scan matches badly: that is no second cause.
+  const bool matches_badly =
+      health.cause == HealthCause::FewMatches || health.cause == HealthCause::LargeResidual;
+  if (inflated > kMaxInflatedRatio && matches_badly)
+  {
+    health.cause = HealthCause::InertialData;
+    health.reason = missing();
+  }
   consider(
       health, below(x.gyro_bias.norm(), kMaxGyroBias), HealthCause::Bias,
       [&]

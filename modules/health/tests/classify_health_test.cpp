@@ -75,6 +75,17 @@ TEST(Classify, InflatedInertialDataAreTheirPartOfTheScan)
   EXPECT_NE(health.reason.find("50 %"), std::string::npos) << health.reason;
 }
 
+/** Who reads "wrong extrinsic?" would look in the wrong place. */
+TEST(Classify, ADistortedScanThatMatchesBadlyLacksInertialData)
+{
+  const auto bad = [](ScanResult& r) { r.statistics.normalized_innovation = 100.0; };
+  const ScanHealth distorted = healthAfter(bad, 0.8);
+  EXPECT_EQ(distorted.cause, HealthCause::InertialData);
+  EXPECT_EQ(distorted.value, 0.0);
+  EXPECT_NE(distorted.reason.find("80 %"), std::string::npos) << distorted.reason;
+  EXPECT_EQ(healthAfter(bad, 0.1).cause, HealthCause::LargeResidual);
+}
+
 TEST(Classify, ADirectionThatIsKnownToBeDegenerateIsNoTrouble)
 {
   const ScanHealth health = healthAfter(
