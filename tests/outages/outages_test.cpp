@@ -206,7 +206,7 @@ TEST(OutageOfTheLidar, APlaceThatLooksTheSameIsInTheCovariance)
   settings.lidar.stride = 4;
   settings.duration = 20.0;
   const CastWalk stairs(realistic(settings));
-  const SimulatedRun run = runWithOutage(stairs, {8.0, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(stairs, {10.0, 5.0}, Missing::Scans);
   EXPECT_GT(positionError(run, run.scans.back()), 1.0) << "the right floor was found";
   EXPECT_FALSE(endsOk(run));
   EXPECT_EQ(confidentlyWrong(run), 0);

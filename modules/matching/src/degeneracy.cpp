@@ -20,10 +20,12 @@ using Square6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kClearlyConstrained = 0.05;
 // Planes that may be wrong at once: in a simulated tunnel one or two of some 600 were.
 constexpr std::size_t kDistrustedPlanes = 3;
-// Without them, this part of the signal-to-noise ratio has to be left. Of realistic sensors in
-// tunnels and stairwells spurious planes leave up to a half, a floor that only near points see
-// more.
-constexpr double kSupportedPart = 0.6;
+// A plane with more than this part of the points is no accident at an edge: the landing of a
+// staircase is all that shows the height.
+constexpr double kLargePlane = 0.03;
+// Without them, this part of the signal-to-noise ratio has to be left. In corridors, spurious
+// planes of realistic sensors leave up to two thirds, a floor that only near points see more.
+constexpr double kSupportedPart = 0.8;
 
 /** Lever arm that makes rotations and translations equally strong on the whole [m]. */
 double leverArmOf(const Matrix6& information)
@@ -40,6 +42,22 @@ Square6 inLengths(const Matrix6& information, double lever_arm)
   m.topRows<3>() /= lever_arm;
   m.leftCols<3>() /= lever_arm;
   return m;
+}
+
+/** Eigenvectors of \a m; the translations come before all others and stay out of these. */
+Square6 directionsOf(const Square6& m, const TranslationAxes& translations)
+{
+  Square6 others = Square6::Identity();
+  others.bottomRightCorner<3, 3>() -= translations * translations.transpose();
+  Square6 separated = others * m * others;
+  const double below_all = -m.trace();
+  for (Eigen::Index i = 0; i < translations.cols(); ++i)
+  {
+    const Vec3 axis = translations.col(i);
+    const auto rank = static_cast<double>(translations.cols() - i);
+    separated.bottomRightCorner<3, 3>() += rank * below_all * axis * axis.transpose();
+  }
+  return symmetricEigensystem(Matrix6(separated)).vectors;
 }
 }  // namespace
 
@@ -95,17 +113,25 @@ bool isWeak(const ScanConstraints& constraints, int direction)
   return constraints.information[direction] < kClearlyConstrained * constraints.information[5];
 }
 
-ScanConstraints informationByDirection(const Matrix6& information, const Matrix6& noise_information)
+ScanConstraints informationByDirection(
+    const Matrix6& information, const Matrix6& noise_information,
+    const TranslationAxes& translations)
 {
   ScanConstraints c;
   c.lever_arm = leverArmOf(information);
   const Matrix6 scaled = inLengths(information, c.lever_arm);
-  const Eigensystem6 system = symmetricEigensystem(scaled);
   const Square6 noise = inLengths(noise_information, c.lever_arm);
-  const Square6 V = system.vectors;
-  c.directions = V;
+  const Eigensystem6 system = symmetricEigensystem(scaled);
+  Square6 V = system.vectors;
   c.information = system.values;
-  c.supported_information = system.values;
+  if (translations.cols() > 0)
+  {
+    V = directionsOf(scaled, translations);
+    for (int i = 0; i < 6; ++i)
+      c.information[i] = V.col(i).dot(Square6(scaled) * V.col(i));
+  }
+  c.directions = V;
+  c.supported_information = c.information;
   for (int i = 0; i < 6; ++i)
     c.noise_information[i] = V.col(i).dot(noise * V.col(i));
   return c;
@@ -115,22 +141,56 @@ void StrongestPlanes::reserve(std::size_t points)
 {
   planes_.reserve(points);
   makeRoom(of_plane_, points);
+  makeRoom(points_of_plane_, points);
 }
 
-void StrongestPlanes::takeFromSupport(
-    const MeasuredScan& scan, const std::vector<PlaneMatch>& matches, ScanConstraints& constraints)
+void StrongestPlanes::look(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
 {
-  if (!isWeak(constraints, 0)) return;
   planes_.assign(scan, matches);
+  points_of_plane_.assign(planes_.count(), 0);
+  scan.forEachBlock(
+      [&](const MeasurementBlock& block, std::size_t number)
+      {
+        for (std::size_t l = 0; l < kLanes; ++l)
+          if (block.weight[l] > 0.0) ++points_of_plane_[planes_.of(number, l)];
+      });
+}
+
+TranslationAxes StrongestPlanes::unsupportedTranslations(
+    const MeasuredScan& scan, const Matrix6& information, const Matrix6& noise_information,
+    double min_signal_to_noise)
+{
+  const Eigensystem3 system = symmetricEigensystem(Mat3(information.bottomRightCorner<3, 3>()));
+  const Mat3 noise = noise_information.bottomRightCorner<3, 3>();
+  TranslationAxes axes(3, 0);
+  for (int i = 0; i < 3 && system.values[i] < kClearlyConstrained * system.values[2]; ++i)
+  {
+    Vector6 direction = Vector6::Zero();
+    const Vec3 axis = system.vectors.col(i);
+    direction.tail<3>() = axis;
+    const double of_few =
+        informationAlong(scan, direction, kLargePlane * static_cast<double>(scan.sums().count));
+    const double needed = min_signal_to_noise * axis.dot(noise * axis);
+    if (system.values[i] - of_few > kSupportedPart * needed) break;
+    axes.conservativeResize(3, i + 1);
+    axes.col(i) = axis;
+  }
+  return axes;
+}
+
+void StrongestPlanes::takeFromSupport(const MeasuredScan& scan, ScanConstraints& constraints)
+{
   for (int i = 0; i < 6 && isWeak(constraints, i); ++i)
   {
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
-    constraints.supported_information[i] -= informationAlong(scan, direction);
+    constraints.supported_information[i] -=
+        informationAlong(scan, direction, static_cast<double>(scan.sums().count));
   }
 }
 
-double StrongestPlanes::informationAlong(const MeasuredScan& scan, const Vector6& direction)
+double StrongestPlanes::informationAlong(
+    const MeasuredScan& scan, const Vector6& direction, double most_points)
 {
   of_plane_.assign(planes_.count(), 0.0);
   scan.forEachBlock(
@@ -148,9 +208,13 @@ double StrongestPlanes::informationAlong(const MeasuredScan& scan, const Vector6
           of_plane_[planes_.of(number, l)] += information[l];
       });
   std::array<double, kDistrustedPlanes> most{};  // descending
-  for (double information : of_plane_)
+  for (std::size_t plane = 0; plane < of_plane_.size(); ++plane)
+  {
+    if (points_of_plane_[plane] > most_points) continue;
+    double information = of_plane_[plane];
     for (double& kept : most)
       if (information > kept) std::swap(information, kept);
+  }
   return std::accumulate(most.begin(), most.end(), 0.0);
 }
 

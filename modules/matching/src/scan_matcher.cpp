@@ -111,8 +111,11 @@ void ScanMatcher::findConstraints(
   for (const Matrix6& part : chunk_noise_)
     noise += part;
   ScanConstraints& constraints = call.result.constraints;
-  constraints = informationByDirection(sums.HtRinvH, noise);
-  strongest_planes_.takeFromSupport(measured_, matches_, constraints);
+  strongest_planes_.look(measured_, matches_);
+  const TranslationAxes translations = strongest_planes_.unsupportedTranslations(
+      measured_, sums.HtRinvH, noise, min_signal_to_noise);
+  constraints = informationByDirection(sums.HtRinvH, noise, translations);
+  strongest_planes_.takeFromSupport(measured_, constraints);
   leaveOutUnconstrained(min_signal_to_noise, constraints);
 }
 

@@ -89,8 +89,13 @@ Analysis analyse(const MatchedScan& scan, double min_signal_to_noise = 10.0)
   Analysis a;
   const MeasuredScan measured_scan = measured(pose, scan.body, scan.matches, model);
   a.sums = measured_scan.sums();
-  a.constraints = informationByDirection(a.sums.HtRinvH, noiseOf(scan, pose, measured_scan));
-  StrongestPlanes().takeFromSupport(measured_scan, scan.matches, a.constraints);
+  const Matrix6 noise = noiseOf(scan, pose, measured_scan);
+  StrongestPlanes strongest;
+  strongest.look(measured_scan, scan.matches);
+  a.constraints = informationByDirection(
+      a.sums.HtRinvH, noise,
+      strongest.unsupportedTranslations(measured_scan, a.sums.HtRinvH, noise, min_signal_to_noise));
+  strongest.takeFromSupport(measured_scan, a.constraints);
   leaveOutUnconstrained(min_signal_to_noise, a.constraints);
   return a;
 }
@@ -159,6 +164,32 @@ TEST(Degeneracy, FewPlanesAcrossTheTunnelDoNotConstrainIt)
   for (std::size_t i = scan.matches.size() - 30; i < scan.matches.size(); ++i)
     scan.matches[i].plane = 10000U + static_cast<std::uint32_t>(i % 6);
   EXPECT_EQ(analyse(scan).constraints.unconstrained, 0) << "six planes agree";
+}
+
+// A short piece of a tunnel and one plane across it, beside the sensor. Turns about that plane are
+// what the scan knows least, and the plane is not needed for these.
+TEST(Degeneracy, OnePlaneAcrossDoesNotConstrainATunnelOfWhichLittleIsSeen)
+{
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> along(-0.3, 0.3), across(-2.0, 2.0);
+  MatchedScan scan;
+  for (int i = 0; i < 500; ++i)
+  {
+    addPoint(scan, {along(random), i % 2 == 0 ? 2.0 : -2.0, across(random)}, Vec3::UnitY(), 0.005);
+    addPoint(scan, {along(random), across(random), i % 2 == 0 ? 2.0 : -2.0}, Vec3::UnitZ(), 0.005);
+  }
+  for (int i = 0; i < 5; ++i)
+  {
+    addPoint(scan, {0.3, 1.9, across(random)}, Vec3::UnitX(), 0.005);
+    scan.matches.back().plane = 10000;
+  }
+  const Analysis a = analyse(scan);
+  ASSERT_EQ(a.constraints.unconstrained, 1);
+  EXPECT_GT(std::abs(unconstrainedMotions(a.constraints)[0].axis.x()), 0.99);
+  EXPECT_LT(a.constraints.directions.col(0).head<3>().norm(), 1e-9) << "no turn";
+  // The other directions are known as before.
+  EXPECT_NEAR(
+      constrainedSums(a.sums, a.constraints).HtRinvH(4, 4) / a.sums.HtRinvH(4, 4), 1.0, 0.01);
 }
 
 TEST(Degeneracy, AWallAtTheEndConstrainsTheTunnel)

@@ -11,6 +11,7 @@
 #include <fastlio/matching/point_to_plane.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace fastlio
@@ -27,10 +28,15 @@ inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
     const Mat3& R_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const MeasuredScan& scan, std::size_t chunk);
 
+/** Axes in the world, a column each; three at most, on the stack. */
+using TranslationAxes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::DontAlign, 3, 3>;
+
 /** The information of a scan by direction, of which none is left out yet. \param information the
- * sum of w h h^T \param noise_information from normalNoiseInformation() */
+ * sum of w h h^T \param noise_information from normalNoiseInformation() \param translations
+ * orthogonal axes whose translations are directions of their own, the first ones */
 [[nodiscard]] ScanConstraints informationByDirection(
-    const Matrix6& information, const Matrix6& noise_information);
+    const Matrix6& information, const Matrix6& noise_information,
+    const TranslationAxes& translations = TranslationAxes(3, 0));
 
 /** The planes that say most about a direction. A plane that a voxel at an edge has fitted to points
  * of two walls may stand across a tunnel. It is certain of a position that nothing else confirms,
@@ -40,22 +46,29 @@ class StrongestPlanes
  public:
   /** Makes room for a scan of so many points. */
   void reserve(std::size_t points);
+  /** Looks at a scan, which the next calls are about. */
+  void look(const MeasuredScan& scan, const std::vector<PlaneMatch>& matches);
+  /** The axes along which the scan says nothing but for small planes and for noise. The direction
+   * with the least information may be a turn about such a plane, in which it does not show. */
+  [[nodiscard]] TranslationAxes unsupportedTranslations(
+      const MeasuredScan& scan, const Matrix6& information, const Matrix6& noise_information,
+      double min_signal_to_noise);
   /** Takes them from the supported information of the weak directions. */
-  void takeFromSupport(
-      const MeasuredScan& scan, const std::vector<PlaneMatch>& matches,
-      ScanConstraints& constraints);
+  void takeFromSupport(const MeasuredScan& scan, ScanConstraints& constraints);
 
  private:
   /** Information along a direction of the three planes that say most about it [1/m^2].
-   * \param direction of a step of the scan pose */
-  [[nodiscard]] double informationAlong(const MeasuredScan& scan, const Vector6& direction);
+   * \param direction of a step of the scan pose \param most_points planes with more are left out */
+  [[nodiscard]] double informationAlong(
+      const MeasuredScan& scan, const Vector6& direction, double most_points);
 
   PlaneNumbers planes_;
-  std::vector<double> of_plane_;  // information by number of the plane
+  std::vector<double> of_plane_;                // information by number of the plane
+  std::vector<std::uint32_t> points_of_plane_;  // likewise
 };
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
- * that of the noise, or where its supported information is not more than six tenths of that; and
+ * that of the noise, or where its supported information is not more than eight tenths of that; and
  * so are all weaker ones. */
 void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
 
