@@ -4,11 +4,13 @@
 #include <fastlio/health/classify.h>
 #include <fastlio/localmap/map_search.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -17,6 +19,8 @@ namespace fastlio
 namespace
 {
 constexpr int kSparseMapScans = 20;
+// A scan among others that leave a direction open may be wrong about it [ns].
+constexpr std::int64_t kWellConstrained = 1'000'000'000;
 
 std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s)
 {
@@ -163,6 +167,10 @@ void ScanClassifier::classify(
   context.since_ns = previous_ns_ == 0 ? result.begin_ns : previous_ns_;
   context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
   context.map_is_sparse = scans_until_dense_ > 0;
+  const Mat3 position = result.filter.P.block<3, 3>(kPosition, kPosition);
+  context.lost_std = lost_.add(
+      result.stamp_ns, result.statistics.constraints.unconstrained == 0,
+      std::sqrt(std::max(0.0, symmetricEigensystem(position).values[2])));
   context.max_mounting_error = maxMountingError(options_.calibration);
   context.max_gyro_scale_error = maxGyroScaleError(options_.calibration);
   result.health = healthOf(result, context);
@@ -171,6 +179,13 @@ void ScanClassifier::classify(
     scans_until_dense_ = kSparseMapScans;
   else if (result.status == ScanStatus::Tracking)
     scans_until_dense_ = std::max(0, scans_until_dense_ - 1);
+}
+
+double LostPosition::add(std::int64_t stamp_ns, bool constrained, double std)
+{
+  if (!constrained) open_ns_ = stamp_ns;
+  if (stamp_ns - open_ns_ >= kWellConstrained) known_std_ = std;
+  return std::sqrt(std::max(0.0, std * std - known_std_ * known_std_));
 }
 
 ScanResult classifyUnprocessed(const QueuedScan& queued, const std::string& why, bool started)

@@ -93,14 +93,33 @@ void considerMatches(const ScanStatistics& s, ScanHealth& health)
       });
 }
 
+/** Scans have left directions open in turns, and this one does not. */
+void considerLostPosition(double lost_std, ScanHealth& health)
+{
+  consider(
+      health, below(lost_std, kMaxDegenerateStd), HealthCause::DegenerateDirection,
+      [&]
+      {
+        return mrpt::format(
+            "scans left a direction open until less than a second ago: the position has become "
+            "uncertain by %.2f m meanwhile, more than %g m",
+            lost_std, kMaxDegenerateStd);
+      });
+}
+
 /** A direction that is left to the inertial data is fine as long as they know it well enough.
  * \return false where they do not */
-bool considerDegenerateDirections(const ScanResult& result, ScanHealth& health)
+bool considerDegenerateDirections(const ScanResult& result, double lost_std, ScanHealth& health)
 {
   const ScanConstraints& constraints = result.statistics.constraints;
-  if (constraints.unconstrained == 0) return true;
+  if (constraints.unconstrained == 0)
+  {
+    considerLostPosition(lost_std, health);
+    return lost_std <= kMaxDegenerateStd;
+  }
   const Matrix6 own = result.filter.P.topLeftCorner<6, 6>() - result.map_covariance;
-  const double std = std::sqrt(own.bottomRightCorner<3, 3>().diagonal().maxCoeff());
+  const double std =
+      std::max(lost_std, std::sqrt(own.bottomRightCorner<3, 3>().diagonal().maxCoeff()));
   consider(
       health, std::min(kKnownDegeneracy, below(std, kMaxDegenerateStd)),
       HealthCause::DegenerateDirection,
@@ -245,7 +264,8 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, health);
     // A position that is off along a degenerate direction leaves residuals wherever something
     // stands across it: they are no second cause.
-    if (considerDegenerateDirections(result, health)) considerMatches(result.statistics, health);
+    if (considerDegenerateDirections(result, context.lost_std, health))
+      considerMatches(result.statistics, health);
     considerMotion(result.statistics, context, health);
     considerSearch(result.statistics, health);
   }

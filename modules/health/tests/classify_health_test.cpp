@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -113,4 +114,54 @@ TEST(Classify, ADegenerateDirectionIsTroubleOnceThePositionIsUncertain)
   EXPECT_NE(health.reason.find("motion along (1.00, 0.00, 0.00)"), std::string::npos)
       << health.reason;
   EXPECT_NE(health.reason.find("0.60 m"), std::string::npos) << health.reason;
+}
+
+/** The map has drifted with the platform: the filter is certain of it, its position is lost. */
+TEST(Classify, APositionThatWasLostAlongAnOpenDirectionIsTrouble)
+{
+  ScanResult r = goodScan();
+  HealthContext context;
+  context.since_ns = r.begin_ns;
+  context.lost_std = 0.8;
+  for (const int unconstrained : {0, 1})
+  {
+    r.statistics.constraints.unconstrained = unconstrained;
+    const ScanHealth health = healthOf(r, context);
+    EXPECT_EQ(health.cause, HealthCause::DegenerateDirection);
+    EXPECT_LT(health.value, 0.5);
+    EXPECT_NE(health.reason.find("0.80 m"), std::string::npos) << health.reason;
+  }
+}
+
+namespace
+{
+/** \return what is lost after scans of 0.1 s, each of which leaves a direction open or not */
+double lostAfter(const std::vector<bool>& constrained)
+{
+  LostPosition lost;
+  double std = 0.1, result = 0.0;
+  std::int64_t stamp_ns = kStamp;
+  for (int i = 0; i < 20; ++i)
+    result = lost.add(stamp_ns += kScan, true, std);
+  for (const bool all : constrained)
+    result = lost.add(stamp_ns += kScan, all, std += 0.1);
+  return result;
+}
+}  // namespace
+
+TEST(LostPosition, IsWhatTheStandardDeviationGrowsByWhileADirectionIsOpen)
+{
+  EXPECT_EQ(lostAfter({true, true, true}), 0.0);
+  EXPECT_NEAR(lostAfter({false, false, false}), std::sqrt(0.16 - 0.01), 1e-12);
+  // Single scans that seem to see the direction do not make it known.
+  EXPECT_NEAR(lostAfter({false, true, true, false, true}), std::sqrt(0.36 - 0.01), 1e-12);
+}
+
+TEST(LostPosition, EndsWhenAllDirectionsWereSeenForASecond)
+{
+  std::vector<bool> seen(12, true);
+  seen.front() = false;
+  EXPECT_EQ(lostAfter(seen), 0.0);
+  seen.resize(9);
+  EXPECT_GT(lostAfter(seen), 0.9);
 }

@@ -63,12 +63,30 @@ struct HealthContext
   std::int64_t since_ns = 0;    //!< end of the scan before
   double inflated_ratio = 0.0;  //!< of the time since then, in intervals of noise inflation
   bool map_is_sparse = false;   //!< few points match it yet
+  /** What the standard deviation of the position has grown by since scans constrained every
+   * direction for a second, squares subtracted [m]. */
+  double lost_std = 0.0;
   double max_mounting_error = maxMountingError({});  //!< [rad]
   double max_gyro_scale_error = maxGyroScaleError({});
 };
 
 /** Health of a scan: the smallest of its measures, each 1/2 at its limit. */
 [[nodiscard]] ScanHealth healthOf(const ScanResult& result, const HealthContext& context);
+
+/** How much of the position was lost along directions that scans left open, one after the other or
+ * every now and then. What the filter itself is uncertain about does not show it: a scan that sees
+ * the map of the last seconds again makes the filter certain of it, but the map has drifted. */
+class LostPosition
+{
+ public:
+  /** \param constrained the scan left no direction open \param std of the position along its
+   * worst axis [m] \return HealthContext::lost_std */
+  double add(std::int64_t stamp_ns, bool constrained, double std);
+
+ private:
+  std::int64_t open_ns_ = 0;  // the last scan that left a direction open
+  double known_std_ = 0.0;    // when all had been constrained for a while
+};
 
 /** Classifies scan after scan. */
 class ScanClassifier
@@ -85,6 +103,7 @@ class ScanClassifier
  private:
   const OdometryOptions options_;
   std::int64_t previous_ns_ = 0;
+  LostPosition lost_;
   int scans_until_dense_ = 0;  // of a map that does not match much yet
 };
 
