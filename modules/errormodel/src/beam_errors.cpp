@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/errormodel/beam_errors.h>
+#include <fastlio/math/columns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +20,6 @@ constexpr double kSharedNoise = 4.0;
 // Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
 // what the beams meet, which hardly changes in so short a time, seen from the sensor.
 constexpr std::size_t kScansPerSample = 4;
-
-Vec3 positionOf(const BodyPoints& points, std::size_t i)
-{
-  return {
-      static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-      static_cast<double>(points.z[i])};
-}
 }  // namespace
 
 /** The axes of the sensor. */
@@ -104,7 +98,7 @@ void BeamErrors::add(
           sample(beams, l, point, match.plane);
           if (const Pose* view = views_.T_lidar_world(match.created_insertion))
             sampleCreation(
-                *view, T_world_scan * positionOf(scan.surfaces, block.index[l]),
+                *view, T_world_scan * pointAt(scan.surfaces, block.index[l]),
                 {block.h[3][l], block.h[4][l], block.h[5][l]}, point.weighted_h);
         }
       });

@@ -3,6 +3,7 @@
 
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/scan_in_world.h>
 #include <fastlio/sensors/conversions.h>
@@ -58,9 +59,7 @@ mrpt::obs::CObservation2DRangeScan::Ptr pseudo2dScan(
   const OutputPoints world = scanInWorld(scan, track);
   for (std::size_t i = 0; i < world.size(); ++i)
   {
-    const Vec3 point(
-        static_cast<double>(world.x[i]), static_cast<double>(world.y[i]),
-        static_cast<double>(world.z[i]));
+    const Vec3 point = pointAt(world, i);
     const Vec3 ray = R_level_world * (point - origin);
     if (std::abs(ray.z() - options.height) <= 0.5 * options.thickness)
       addRay(*planar, ray.x(), ray.y(), options);

@@ -5,6 +5,7 @@
 #include "ray_walk.h"
 #include "vote_blocks.h"
 #include <fastlio/freespace/free_space.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/math/time.h>
 
 #include <Eigen/Geometry>
@@ -21,13 +22,6 @@ namespace
 constexpr double kMostSlanted = 0.01;  // sine of the angle between ray and surface
 constexpr double kKeptOfMost = 0.75;   // of the voxels, when there are too many
 constexpr std::size_t kRaysOfChunk = 256;
-
-Vec3 pointOf(const WorldPoints& points, std::size_t i)
-{
-  return {
-      static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-      static_cast<double>(points.z[i])};
-}
 
 void countUp(std::uint16_t& count)
 {
@@ -93,7 +87,7 @@ class FreeSpaceVotes::Impl
     ++latest_;
     for (std::size_t i = 0; i < ends.size(); ++i)
     {
-      const Vec3 p = pointOf(ends, i);
+      const Vec3 p = pointAt(ends, i);
       const CellIndex index = blocks_.indexOf(p);
       VotedCell& cell = blocks_.hit(index, latest_);
       if (cell.last_hit != latest_) countUp(cell.hits);
@@ -111,7 +105,7 @@ class FreeSpaceVotes::Impl
     waiting_points_ -= n;
     ++voting_;
     for (std::size_t i = 0; i < n; ++i)
-      if (VotedCell* own = blocks_.find(blocks_.indexOf(pointOf(rays.ends, i))))
+      if (VotedCell* own = blocks_.find(blocks_.indexOf(pointAt(rays.ends, i))))
         own->own_scan = voting_;
     // The cells stay where they are; each chunk lists what it passes.
     std::vector<std::vector<VotedCell*>> passed(Workers::chunks(n, kRaysOfChunk));
@@ -133,7 +127,7 @@ class FreeSpaceVotes::Impl
 
   void listPassed(const ScanRays& rays, std::size_t i, std::vector<VotedCell*>& passed)
   {
-    const Vec3 end = pointOf(rays.ends, i);
+    const Vec3 end = pointAt(rays.ends, i);
     const double fraction = static_cast<double>(rays.fraction[i]);
     const Vec3 origin = rays.first_origin + fraction * (rays.last_origin - rays.first_origin);
     const double range = (end - origin).norm();

@@ -3,6 +3,7 @@
 
 #include <fastlio/lidar/feature_lines.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/columns.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ constexpr double kCosSameBeam = 0.999962;
 
 Vec3 beamOf(const PointColumns& points, std::uint32_t i)
 {
-  return Vec3(points.x[i], points.y[i], points.z[i]).normalized();
+  return pointAt(points, i).normalized();
 }
 
 /** Sorts a range of indices by time, then by index; most sensors deliver them so. */

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/columns.h>
 #include <fastlio/run/scan_in_world.h>
 
 #include <algorithm>
@@ -55,10 +56,7 @@ OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track)
     const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
     const auto& T_world_lidar = path.at(stamp_ns);
     if (!T_world_lidar) continue;
-    const Vec3 p =
-        *T_world_lidar * Vec3(
-                             static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-                             static_cast<double>(points.z[i]));
+    const Vec3 p = *T_world_lidar * pointAt(points, i);
     world.x.push_back(static_cast<float>(p.x()));
     world.y.push_back(static_cast<float>(p.y()));
     world.z.push_back(static_cast<float>(p.z()));

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/columns.h>
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
@@ -130,7 +131,7 @@ void dropNear(LidarScan& scan, double min_range)
   scan.points = {};
   scan.points.reserve(all.size());
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (Vec3(all.x[i], all.y[i], all.z[i]).norm() >= min_range)
+    if (pointAt(all, i).norm() >= min_range)
       scan.points.push_back(
           all.x[i], all.y[i], all.z[i], all.intensity[i], all.time_offset_ns[i], all.ring[i]);
 }

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/columns.h>
 #include <fastlio/sensors/scan_merger.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ constexpr std::size_t kMostWaiting = 200;
 
 void append(PointColumns& to, const PointColumns& from, std::size_t i, const Pose& T_to_from)
 {
-  const Vec3 p = T_to_from * Vec3(from.x[i], from.y[i], from.z[i]);
+  const Vec3 p = T_to_from * pointAt(from, i);
   to.push_back(
       static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
       from.intensity[i], from.time_offset_ns[i], from.ring[i]);

@@ -3,6 +3,7 @@
 
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/math/time.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/scan_in_world.h>
@@ -40,10 +41,7 @@ mrpt::obs::CObservationPointCloud::Ptr compensatedCloud(
   cloud->reserve(world.size());
   for (std::size_t i = 0; i < world.size(); ++i)
   {
-    const Vec3 p =
-        T_lidar_world * Vec3(
-                            static_cast<double>(world.x[i]), static_cast<double>(world.y[i]),
-                            static_cast<double>(world.z[i]));
+    const Vec3 p = T_lidar_world * pointAt(world, i);
     cloud->insertPointFast(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/submaps/submap.h>
@@ -23,11 +24,7 @@ double medianRange(const WorldPoints& points, const Vec3& sensor)
   std::vector<double> ranges;
   ranges.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
-    ranges.push_back((Vec3(
-                          static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-                          static_cast<double>(points.z[i])) -
-                      sensor)
-                         .norm());
+    ranges.push_back((pointAt(points, i) - sensor).norm());
   return median(std::move(ranges));
 }
 }  // namespace
@@ -48,10 +45,7 @@ void moved(const WorldPoints& points, const Vec3& origin, const Pose& motion, Wo
   result.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec3 p =
-        motion * (origin + Vec3(
-                               static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-                               static_cast<double>(points.z[i])));
+    const Vec3 p = motion * (origin + pointAt(points, i));
     result.x[i] = static_cast<float>(p.x());
     result.y[i] = static_cast<float>(p.y());
     result.z[i] = static_cast<float>(p.z());

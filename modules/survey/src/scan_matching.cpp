@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/filter/state.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/survey/motion_check.h>
 
 #include <Eigen/Geometry>
@@ -39,7 +40,7 @@ std::vector<Vec3> thinned(const PointColumns& points, double spacing)
   { return static_cast<std::int64_t>(std::floor(x / spacing)) + (1 << 20); };
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const Vec3 p(points.x[i], points.y[i], points.z[i]);
+    const Vec3 p = pointAt(points, i);
     const double range = p.norm();
     if (!(range > kNearest && range < kFarthest)) continue;
     const std::int64_t key = (cell(p.x()) << 42) ^ (cell(p.y()) << 21) ^ cell(p.z());

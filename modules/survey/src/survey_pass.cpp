@@ -4,6 +4,7 @@
 #include "survey_pass.h"
 
 #include <fastlio/filter/backward_propagation.h>
+#include <fastlio/math/columns.h>
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/imu_conversion.h>
@@ -107,7 +108,7 @@ PointColumns seenFromMiddle(const TimedScan& timed_scan, const MotionKnot& motio
   {
     const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
     const double dt = toSeconds(stamp_ns - timed_scan.middle_ns);
-    const Vec3 q = poseAfter(motion, dt) * Vec3(points.x[i], points.y[i], points.z[i]);
+    const Vec3 q = poseAfter(motion, dt) * pointAt(points, i);
     points.x[i] = static_cast<float>(q.x());
     points.y[i] = static_cast<float>(q.y());
     points.z[i] = static_cast<float>(q.z());
