@@ -14,14 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr float kFarthest = 1e7F;  // [m]: tiles are numbered by int
-
-bool usable(float x, float y, float z)
-{
-  // False for what is not finite, too.
-  return std::abs(x) <= kFarthest && std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
-}
-
 void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
 {
   to.x.push_back(from.x[i]);
@@ -67,7 +59,8 @@ std::map<OutputMap::Key, OutputPoints> OutputMap::byTile(const OutputPoints& poi
   std::map<Key, OutputPoints> tiles;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    if (!usable(points.x[i], points.y[i], points.z[i])) continue;
+    // Tiles are numbered by int.
+    if (!CIncrementalPointsMap::isPlace(points.x[i], points.y[i], points.z[i])) continue;
     const Key key(
         static_cast<int>(std::floor(points.x[i] / options_.tile_size)),
         static_cast<int>(std::floor(points.y[i] / options_.tile_size)));
