@@ -12,11 +12,6 @@ namespace fastlio
 {
 namespace
 {
-double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
-{
-  return toSeconds(to_ns - from_ns);
-}
-
 /** Number of samples that hold for a time before end_ns. */
 std::size_t countBefore(const std::vector<ImuSample>& samples, std::int64_t end_ns)
 {
@@ -43,7 +38,7 @@ std::size_t countBefore(const std::vector<ImuSample>& samples, std::int64_t end_
 MotionKnot stepBack(
     const MotionKnot& right, const ImuSample& sample, const NavState& end_state, const Vec3& g_k)
 {
-  const double dt = secondsBetween(sample.stamp_ns, right.stamp_ns);
+  const double dt = toSeconds(right.stamp_ns - sample.stamp_ns);
   MotionKnot left;
   left.stamp_ns = sample.stamp_ns;
   left.w = sample.gyro - end_state.gyro_bias;
@@ -92,7 +87,7 @@ Pose bodyPoseAt(const std::vector<MotionKnot>& knots, std::int64_t stamp_ns)
       knots.begin(), knots.end(), stamp_ns,
       [](std::int64_t stamp, const MotionKnot& knot) { return stamp < knot.stamp_ns; });
   const MotionKnot& left = right == knots.begin() ? knots.front() : *(right - 1);
-  return poseAfter(left, secondsBetween(left.stamp_ns, stamp_ns));
+  return poseAfter(left, toSeconds(stamp_ns - left.stamp_ns));
 }
 
 }  // namespace fastlio

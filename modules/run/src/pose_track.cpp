@@ -11,12 +11,6 @@ namespace fastlio
 {
 namespace
 {
-
-double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
-{
-  return toSeconds(to_ns - from_ns);
-}
-
 /** Derivatives of the relative pose by the errors of a and b. */
 Matrix6 byFormer(const Pose& a, const Pose& T_a_b)
 {
@@ -43,7 +37,7 @@ TwistCovariance unexplainedByBeams(const TrackedPose& pose)
 
 void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
 {
-  const double dt = secondsBetween(from.stamp_ns, to.stamp_ns);
+  const double dt = toSeconds(to.stamp_ns - from.stamp_ns);
   if (dt <= 0.0) return;
   const Pose& a = from.T_world_body;
   const Pose& b = to.T_world_body;
@@ -104,9 +98,9 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
     return pose;
   }
   const TrackedPose& before = *std::prev(next);
-  const double gap = secondsBetween(before.stamp_ns, next->stamp_ns);
+  const double gap = toSeconds(next->stamp_ns - before.stamp_ns);
   if (gap > kMaxGap) return std::nullopt;
-  const double fraction = secondsBetween(before.stamp_ns, stamp_ns) / gap;
+  const double fraction = toSeconds(stamp_ns - before.stamp_ns) / gap;
   const Pose& a = before.T_world_body;
   const Pose& b = next->T_world_body;
   TrackedPose pose;
