@@ -25,11 +25,6 @@ using mrpt::obs::CObservation;
 
 constexpr std::size_t kMostWaiting = 100;
 
-std::int64_t nanoseconds(double seconds)
-{
-  return toNanoseconds(seconds);
-}
-
 /** The scan's points as the LiDAR would have seen them from one place: where it was at the stamp.
  */
 mrpt::obs::CObservationPointCloud::Ptr compensatedCloud(
@@ -117,7 +112,7 @@ void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observati
   if (!options.enableMapUpdating) return;
   if (auto scan = odometry_.decode(*observation))
   {
-    scan->stamp_ns += nanoseconds(config_.odometry.lidar.time_offset);
+    scan->stamp_ns += toNanoseconds(config_.odometry.lidar.time_offset);
     waiting_.push_back({observation, std::move(*scan)});
     if (waiting_.size() > kMostWaiting) waiting_.pop_front();  // no pose in sight
   }
@@ -201,7 +196,7 @@ void CMetricMapBuilderLIO::rebuild(
     const CObservation::Ptr& raw = *view.frame->begin();
     auto scan = odometry_.decode(*raw);
     if (!scan) continue;
-    scan->stamp_ns += nanoseconds(config_.odometry.lidar.time_offset);
+    scan->stamp_ns += toNanoseconds(config_.odometry.lidar.time_offset);
     const auto pose = odometry_.track().at(scan->stamp_ns);
     if (!pose) continue;
     const TrackedPose in_map = fromStart(correction(*pose));
