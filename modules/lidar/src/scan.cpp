@@ -7,44 +7,38 @@
 
 namespace fastlio
 {
+namespace
+{
+template <typename Use>
+void forEachColumn(PointColumns& points, const Use& use)
+{
+  use(points.x);
+  use(points.y);
+  use(points.z);
+  use(points.intensity);
+  use(points.time_offset_ns);
+  use(points.ring);
+}
+}  // namespace
+
 void PointColumns::clear()
 {
-  x.clear();
-  y.clear();
-  z.clear();
-  intensity.clear();
-  time_offset_ns.clear();
-  ring.clear();
+  forEachColumn(*this, [](auto& column) { column.clear(); });
 }
 
 void PointColumns::reserve(std::size_t n)
 {
-  x.reserve(n);
-  y.reserve(n);
-  z.reserve(n);
-  intensity.reserve(n);
-  time_offset_ns.reserve(n);
-  ring.reserve(n);
+  forEachColumn(*this, [n](auto& column) { column.reserve(n); });
 }
 
 void PointColumns::resize(std::size_t n)
 {
-  x.resize(n);
-  y.resize(n);
-  z.resize(n);
-  intensity.resize(n);
-  time_offset_ns.resize(n);
-  ring.resize(n);
+  forEachColumn(*this, [n](auto& column) { column.resize(n); });
 }
 
 void PointColumns::copy(std::size_t from, std::size_t to)
 {
-  x[to] = x[from];
-  y[to] = y[from];
-  z[to] = z[from];
-  intensity[to] = intensity[from];
-  time_offset_ns[to] = time_offset_ns[from];
-  ring[to] = ring[from];
+  forEachColumn(*this, [from, to](auto& column) { column[to] = column[from]; });
 }
 
 void PointColumns::push_back(
