@@ -21,16 +21,6 @@ constexpr std::size_t kMostConnections = 100'000;  // more than any recorder ope
 constexpr const char* kCutOff =
     "The recording or a copy of it was cut off; everything before was read.";
 constexpr const char* kCopyAnew = "Copy the file anew, or check the medium it lies on.";
-
-/** Nothing: there are no more four bytes. */
-std::optional<std::uint32_t> readWord(ByteSource& source)
-{
-  std::uint8_t bytes[4];
-  if (source.read(bytes, sizeof bytes) < sizeof bytes) return std::nullopt;
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes, sizeof word);
-  return word;
-}
 }  // namespace
 
 bool isBag(const std::string& path)
@@ -54,7 +44,7 @@ BagFile::BagFile(const std::string& path) : path_(path), file_(path)
 void BagFile::readIndex()
 {
   file_.seek(kBagVersion.size());
-  const auto head_size = readWord(file_);
+  const auto head_size = readNumber<std::uint32_t>(file_);
   if (!head_size || *head_size > kLargestHead || !readBytes(file_, *head_size, head_)) return;
   const auto fields = BagFields::parse(head_.data(), head_.size());
   const auto place = fields ? fields->text("index_pos") : std::nullopt;
@@ -72,15 +62,6 @@ void BagFile::readIndex()
   lists_topics_ = !connections_.empty();
 }
 
-ReadProblem BagFile::problem(
-    ReadProblemKind kind, std::uint64_t offset, const std::string& what) const
-{
-  return {path_,  0,
-          offset, kind,
-          "",     path_ + ": the chunk or record at byte " + std::to_string(offset) + ": " + what,
-          1};
-}
-
 NextMessage BagFile::next(const TopicFilter& wanted)
 {
   while (!finished_)
@@ -88,8 +69,8 @@ NextMessage BagFile::next(const TopicFilter& wanted)
     if (!chunk_) record_ = file_.position();
     const Step step = readRecord(chunk_ ? static_cast<ByteSource&>(*chunk_) : file_, wanted);
     if (!refused_.empty())
-      return problem(
-          ReadProblemKind::NotSupported, record_,
+      return problemAt(
+          path_, ReadProblemKind::NotSupported, record_,
           "its compression '" + printable(std::exchange(refused_, "")) +
               "' is not known (none, bz2 and lz4 are). Its messages are left out.");
     if (step == Step::Message) return message_;
@@ -109,11 +90,12 @@ std::optional<ReadProblem> BagFile::closeChunk(Step step)
   file_.seek(chunk_end_);
   finished_ = truncated || !whole;
   if (finished_)
-    return problem(
-        ReadProblemKind::Truncated, record_, std::string("the file ends inside it. ") + kCutOff);
+    return problemAt(
+        path_, ReadProblemKind::Truncated, record_,
+        std::string("the file ends inside it. ") + kCutOff);
   if (corrupt || step == Step::Broken)
-    return problem(
-        ReadProblemKind::Corrupt, record_,
+    return problemAt(
+        path_, ReadProblemKind::Corrupt, record_,
         std::string(corrupt ? "its compressed data are damaged. " : "a record of it is damaged. ") +
             "Its messages from there on are left out. " + kCopyAnew);
   return std::nullopt;
@@ -130,25 +112,25 @@ NextMessage BagFile::endOfFile(Step step)
   finished_ = !chunk;
   file_.seek(chunk.value_or(file_.size()));
   if (chunk)
-    return problem(
-        ReadProblemKind::Corrupt, record_,
+    return problemAt(
+        path_, ReadProblemKind::Corrupt, record_,
         "it is no record of a bag; reading goes on with the chunk at byte " +
             std::to_string(file_.position()) + ". " + kCopyAnew);
-  return problem(
-      step == Step::End ? ReadProblemKind::Truncated : ReadProblemKind::Corrupt, record_,
+  return problemAt(
+      path_, step == Step::End ? ReadProblemKind::Truncated : ReadProblemKind::Corrupt, record_,
       step == Step::End ? std::string("the file ends inside it. ") + kCutOff
                         : std::string("it is no record of a bag. ") + kCopyAnew);
 }
 
 BagFile::Step BagFile::readRecord(ByteSource& source, const TopicFilter& wanted)
 {
-  const auto head_size = readWord(source);
+  const auto head_size = readNumber<std::uint32_t>(source);
   if (!head_size) return Step::End;
   if (*head_size > kLargestHead) return Step::Broken;
   if (!readBytes(source, *head_size, head_)) return Step::End;
   const auto fields = BagFields::parse(head_.data(), head_.size());
   if (!fields || !fields->op()) return Step::Broken;
-  const auto data_size = readWord(source);
+  const auto data_size = readNumber<std::uint32_t>(source);
   if (!data_size) return Step::End;
   switch (*fields->op())
   {

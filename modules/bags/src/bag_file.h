@@ -40,8 +40,6 @@ class BagFile : public RosMessageSource
   Step openChunk(const BagFields& fields, std::size_t size);
   [[nodiscard]] std::optional<ReadProblem> closeChunk(Step step);
   [[nodiscard]] NextMessage endOfFile(Step step);
-  [[nodiscard]] ReadProblem problem(
-      ReadProblemKind kind, std::uint64_t offset, const std::string& what) const;
 
   std::string path_;
   FileBytes file_;

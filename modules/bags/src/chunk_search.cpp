@@ -4,6 +4,7 @@
 #include "chunk_search.h"
 
 #include "bag_fields.h"
+#include "mcap_record.h"
 
 #include <algorithm>
 #include <cstring>
@@ -55,11 +56,10 @@ bool isBagChunk(const std::string& window, std::size_t at)
 
 bool isMcapChunk(const std::string& window, std::size_t at)
 {
-  constexpr char kOp = 0x06;
   constexpr std::size_t kNameAt = 37;  // of the compression, behind times, sizes and a checksum
   static const std::string names[] = {
       std::string("\3\0\0\0lz4", 7), std::string("\4\0\0\0zstd", 8)};
-  if (window[at] != kOp || window.size() - at < kLongestHead / 2) return false;
+  if (window[at] != kChunkOp || window.size() - at < kLongestHead / 2) return false;
   return std::any_of(
       std::begin(names), std::end(names),
       [&](const std::string& name)
@@ -81,6 +81,14 @@ std::optional<std::uint64_t> findBagChunk(FileBytes& file, std::uint64_t from)
 std::optional<std::uint64_t> findMcapChunk(FileBytes& file, std::uint64_t from)
 {
   return search(file, from, isMcapChunk);
+}
+
+ReadProblem problemAt(
+    const std::string& path, ReadProblemKind kind, std::uint64_t offset, const std::string& what)
+{
+  return {path, 0,  offset,
+          kind, "", path + ": the chunk or record at byte " + std::to_string(offset) + ": " + what,
+          1};
 }
 
 }  // namespace fastlio

@@ -4,43 +4,21 @@
 #include "mcap_file.h"
 
 #include "chunk_search.h"
+#include "mcap_record.h"
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace fastlio
 {
 namespace
 {
-/** Opcodes; the others are skipped. */
-enum McapOp : std::uint8_t
-{
-  kMcapFooter = 0x02,
-  kMcapSchema = 0x03,
-  kMcapChannel = 0x04,
-  kMcapMessage = 0x05,
-  kMcapChunk = 0x06,
-  kMcapChunkIndex = 0x08,
-  kMcapLastKnown = 0x0F,
-  kMcapDataEnd = 0x0F,
-  kMcapFirstPrivate = 0x80
-};
-
+// Opcodes above the last one that the format knows belong to nobody, or to private records.
+constexpr std::uint8_t kLastKnownOp = kDataEndOp, kFirstPrivateOp = 0x80;
 constexpr std::size_t kRecordHead = 9;      // opcode and length
 constexpr std::size_t kMessageHead = 22;    // ahead of a message's data
 constexpr std::size_t kCompressionAt = 28;  // in a chunk
-
-template <typename T>
-std::optional<T> readNumber(ByteSource& source)
-{
-  std::uint8_t bytes[sizeof(T)];
-  if (source.read(bytes, sizeof bytes) < sizeof bytes) return std::nullopt;
-  T value{};
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
 }  // namespace
 
 const std::string& mcapMagic()
@@ -70,7 +48,7 @@ void McapFile::readSummary()
   const auto op = readNumber<std::uint8_t>(file_);
   const auto size = readNumber<std::uint64_t>(file_);
   const auto begin = readNumber<std::uint64_t>(file_);
-  if (op != kMcapFooter || size != 20U || !begin || *begin == 0 || *begin >= file_.size()) return;
+  if (op != kFooterOp || size != 20U || !begin || *begin == 0 || *begin >= file_.size()) return;
   file_.seek(*begin);
   const TopicFilter nothing = [](const RosTopic&) { return false; };
   while (!chunk_.bytes && readRecord(file_, nothing) == Step::Other)
@@ -78,15 +56,6 @@ void McapFile::readSummary()
   }
   chunk_ = {};
   lists_topics_ = !definitions_.topics().empty();
-}
-
-ReadProblem McapFile::problem(
-    ReadProblemKind kind, std::uint64_t offset, const std::string& what) const
-{
-  return {path_,  0,
-          offset, kind,
-          "",     path_ + ": the chunk or record at byte " + std::to_string(offset) + ": " + what,
-          1};
 }
 
 NextMessage McapFile::next(const TopicFilter& wanted)
@@ -97,8 +66,8 @@ NextMessage McapFile::next(const TopicFilter& wanted)
     const Step step =
         readRecord(chunk_.bytes ? static_cast<ByteSource&>(*chunk_.bytes) : file_, wanted);
     if (!chunk_.refused.empty())
-      return problem(
-          ReadProblemKind::NotSupported, record_,
+      return problemAt(
+          path_, ReadProblemKind::NotSupported, record_,
           "its compression '" + printable(std::exchange(chunk_.refused, "")) +
               "' is not known (none, lz4 and zstd are). Its messages are left out.");
     if (step == Step::Message) return message_;
@@ -124,18 +93,18 @@ std::optional<ReadProblem> McapFile::closeChunk(Step step)
   chunk_ = {};
   finished_ = truncated;
   if (truncated)
-    return problem(
-        ReadProblemKind::Truncated, record_,
+    return problemAt(
+        path_, ReadProblemKind::Truncated, record_,
         "the file ends inside it. The recording or a copy of it was cut off; everything before was "
         "read.");
   if (corrupt || broken)
-    return problem(
-        ReadProblemKind::Corrupt, record_,
+    return problemAt(
+        path_, ReadProblemKind::Corrupt, record_,
         std::string(corrupt ? "its compressed data are damaged. " : "a record of it is damaged. ") +
             "Its messages from there on are left out. Copy the file anew, or check the medium.");
   if (differs)
-    return problem(
-        ReadProblemKind::Corrupt, record_,
+    return problemAt(
+        path_, ReadProblemKind::Corrupt, record_,
         "its checksum is wrong: some of its messages are damaged. Copy the file anew.");
   return std::nullopt;
 }
@@ -145,8 +114,8 @@ ReadProblem McapFile::endOfFile(Step step)
   if (step == Step::Ended)
   {
     finished_ = true;
-    return problem(
-        ReadProblemKind::Truncated, record_,
+    return problemAt(
+        path_, ReadProblemKind::Truncated, record_,
         "the file ends without the mark of its end. The recording or a copy of it was cut off; "
         "everything before was read.");
   }
@@ -154,8 +123,8 @@ ReadProblem McapFile::endOfFile(Step step)
       ++searches_ <= kMostSearches ? findMcapChunk(file_, record_ + 1) : std::nullopt;
   finished_ = !chunk;
   file_.seek(chunk.value_or(file_.size()));
-  return problem(
-      ReadProblemKind::Corrupt, record_,
+  return problemAt(
+      path_, ReadProblemKind::Corrupt, record_,
       "it is no record of MCAP; " +
           (finished_ ? std::string("nothing behind it can be read. ")
                      : "reading goes on with the chunk at byte " +
@@ -169,25 +138,25 @@ McapFile::Step McapFile::readRecord(ByteSource& source, const TopicFilter& wante
   const auto size = readNumber<std::uint64_t>(source);
   if (!op || !size) return Step::Ended;
   const bool outside = &source == &file_;
-  if (outside && *size > file_.left() && *op != kMcapChunk && *op != kMcapMessage)
-    return *op > 0 && *op <= kMcapLastKnown ? Step::Ended : Step::Broken;
+  if (outside && *size > file_.left() && *op != kChunkOp && *op != kMessageOp)
+    return *op > 0 && *op <= kLastKnownOp ? Step::Ended : Step::Broken;
   switch (*op)
   {
-    case kMcapSchema:
-    case kMcapChannel:
-    case kMcapChunkIndex:
+    case kSchemaOp:
+    case kChannelOp:
+    case kChunkIndexOp:
       return readDefinition(*op, source, *size);
-    case kMcapMessage:
+    case kMessageOp:
       return readMessage(source, *size, wanted);
-    case kMcapChunk:
+    case kChunkOp:
       return outside ? openChunk(*size, wanted) : Step::Broken;  // chunks do not hold chunks
-    case kMcapFooter:
-    case kMcapDataEnd:
+    case kFooterOp:
+    case kDataEndOp:
       return outside ? Step::Finished : Step::Broken;
     default:
       break;
   }
-  if (*op == 0 || (*op > kMcapLastKnown && *op < kMcapFirstPrivate)) return Step::Broken;
+  if (*op == 0 || (*op > kLastKnownOp && *op < kFirstPrivateOp)) return Step::Broken;
   return source.skip(*size) ? Step::Other : Step::Ended;
 }
 
@@ -211,9 +180,9 @@ McapFile::Step McapFile::readDefinition(std::uint8_t op, ByteSource& source, std
 {
   if (size > kLargestRecord) return Step::Broken;
   if (!readBytes(source, size, data_)) return Step::Ended;
-  if (op == kMcapChunkIndex) chunks_.add(data_);
-  const bool broken = (op == kMcapSchema && !definitions_.addSchema(data_)) ||
-                      (op == kMcapChannel && !definitions_.addChannel(data_));
+  if (op == kChunkIndexOp) chunks_.add(data_);
+  const bool broken = (op == kSchemaOp && !definitions_.addSchema(data_)) ||
+                      (op == kChannelOp && !definitions_.addChannel(data_));
   return broken ? Step::Broken : Step::Other;
 }
 

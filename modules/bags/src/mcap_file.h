@@ -45,8 +45,6 @@ class McapFile : public RosMessageSource
   [[nodiscard]] bool isLeftOut(const TopicFilter& wanted) const;
   [[nodiscard]] std::optional<ReadProblem> closeChunk(Step step);
   [[nodiscard]] ReadProblem endOfFile(Step step);
-  [[nodiscard]] ReadProblem problem(
-      ReadProblemKind kind, std::uint64_t offset, const std::string& what) const;
 
   /** The chunk at hand. */
   struct Chunk

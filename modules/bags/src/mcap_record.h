@@ -11,6 +11,20 @@
 
 namespace fastlio
 {
+enum McapOpcode : std::uint8_t
+{
+  kHeaderOp = 0x01,
+  kFooterOp,
+  kSchemaOp,
+  kChannelOp,
+  kMessageOp,
+  kChunkOp,
+  kMessageIndexOp,
+  kChunkIndexOp,
+  kStatisticsOp = 0x0B,
+  kDataEndOp = 0x0F
+};
+
 /** The bytes of a record: little endian, packed. */
 class McapRecord
 {
@@ -44,20 +58,6 @@ class McapRecord
 
  private:
   std::string bytes_;
-};
-
-enum McapOpcode : std::uint8_t
-{
-  kHeaderOp = 0x01,
-  kFooterOp,
-  kSchemaOp,
-  kChannelOp,
-  kMessageOp,
-  kChunkOp,
-  kMessageIndexOp,
-  kChunkIndexOp,
-  kStatisticsOp = 0x0B,
-  kDataEndOp = 0x0F
 };
 
 }  // namespace fastlio

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,17 @@ class ByteSource
 /** Reads \a size bytes in pieces, so that memory is taken for what is there only.
  * \return whether all were there; \a bytes holds what was */
 [[nodiscard]] bool readBytes(ByteSource& source, std::size_t size, Bytes& bytes);
+
+/** A little endian number; nothing: the source ends before or inside it. */
+template <typename T>
+[[nodiscard]] std::optional<T> readNumber(ByteSource& source)
+{
+  std::uint8_t bytes[sizeof(T)];
+  if (source.read(bytes, sizeof bytes) < sizeof bytes) return std::nullopt;
+  T value{};
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
 
 /** A whole file. */
 class FileBytes : public ByteSource
