@@ -101,8 +101,7 @@ std::optional<ReadProblem> BagFolder::openNext()
   }
   catch (const std::exception& e)
   {
-    return ReadProblem{
-        file, 0, 0, ReadProblemKind::Corrupt, "", file + ": the file " + e.what() + ".", 1};
+    return ReadProblem{file, ReadProblemKind::Corrupt, "", file + ": the file " + e.what() + "."};
   }
 }
 

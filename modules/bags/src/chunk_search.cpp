@@ -86,9 +86,9 @@ std::optional<std::uint64_t> findMcapChunk(FileBytes& file, std::uint64_t from)
 ReadProblem problemAt(
     const std::string& path, ReadProblemKind kind, std::uint64_t offset, const std::string& what)
 {
-  return {path, 0,  offset,
-          kind, "", path + ": the chunk or record at byte " + std::to_string(offset) + ": " + what,
-          1};
+  return {
+      path, kind, "",
+      path + ": the chunk or record at byte " + std::to_string(offset) + ": " + what};
 }
 
 }  // namespace fastlio

@@ -172,17 +172,12 @@ NextMessage Db3File::damage(const std::string& why)
   finished_ = !found;
   const bool cut = isCut();
   return ReadProblem{
-      shown_name_,
-      static_cast<std::size_t>(std::max<std::int64_t>(from, 0)),
-      0,
-      cut ? ReadProblemKind::Truncated : ReadProblemKind::Corrupt,
-      "",
+      shown_name_, cut ? ReadProblemKind::Truncated : ReadProblemKind::Corrupt, "",
       shown_name_ + ": behind row " + std::to_string(from) + " of " + std::to_string(last_row_) +
           " the database cannot be read (" + printable(why) + "). " +
           (found ? "Reading goes on behind row " + std::to_string(row_) + ". " : "") +
           (cut ? "The recording or a copy of it was cut off."
-               : "Copy the file anew, or check the medium it lies on."),
-      1};
+               : "Copy the file anew, or check the medium it lies on.")};
 }
 
 bool Db3File::isCut() const

@@ -122,14 +122,9 @@ ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string
   const std::string& known = message.topic->type;
   const std::string type = (known.empty() ? "unknown type" : known) + " on " + message.topic->name;
   return {
-      path_,
-      index_ - 1,
-      message.offset,
-      ReadProblemKind::Corrupt,
-      printable(type),
+      path_, ReadProblemKind::Corrupt, printable(type),
       path_ + ": message " + std::to_string(index_ - 1) + " (" + printable(type) + ") at byte " +
-          std::to_string(message.offset) + ": " + printable(what, 1000) + ".",
-      1};
+          std::to_string(message.offset) + ": " + printable(what, 1000) + "."};
 }
 
 void RosRecording::setPose(mrpt::obs::CObservation& observation, const std::string& frame)

@@ -49,10 +49,8 @@ NextRecorded OxtsStream::take()
   const auto values = oxtsOf(file.path);
   if (!values)
     return ReadProblem{
-        file.path, 0,
-        0,         ReadProblemKind::Corrupt,
-        "",        file.path + ": the file does not hold the 30 numbers of an OXTS sample.",
-        1};
+        file.path, ReadProblemKind::Corrupt, "",
+        file.path + ": the file does not hold the 30 numbers of an OXTS sample."};
   ++taken_;
   const auto vectorAt = [&](std::size_t at)
   { return Vec3(values->at(at), values->at(at + 1), values->at(at + 2)); };

@@ -25,9 +25,7 @@ namespace fs = std::filesystem;
 
 ReadProblem fileProblem(const std::string& path, const std::string& what)
 {
-  return {
-      path, 0, 0, ReadProblemKind::Corrupt, "", path + ": the file " + printable(what, 1000) + ".",
-      1};
+  return {path, ReadProblemKind::Corrupt, "", path + ": the file " + printable(what, 1000) + "."};
 }
 
 /** Parts between commas, or semicolons, or else blanks; without the blanks around them. */

@@ -52,7 +52,7 @@ NextRecorded PcapRecording::end()
 
 ReadProblem PcapRecording::problem(ReadProblemKind kind, const std::string& what) const
 {
-  return {path_, 0, position(), kind, "", path_ + ": " + what, 1};
+  return {path_, kind, "", path_ + ": " + what};
 }
 
 }  // namespace fastlio

@@ -71,7 +71,7 @@ ReadProblem ObjectReader::makeProblem(
                (class_name.empty() ? "" : " (" + class_name + ")") + " at byte " +
                std::to_string(object_offset_) + ": ";
   message += what + ". " + hintFor(kind);
-  return {path_, index_, object_offset_, kind, class_name, message, 1};
+  return {path_, kind, class_name, message};
 }
 
 NextObject ObjectReader::next()

@@ -41,8 +41,7 @@ class UnreadableRecording : public fastlio::RecordingReader
 {
  public:
   UnreadableRecording(std::string file, const std::string& why)
-      : problem_{file, 0, 0, fastlio::ReadProblemKind::NotSupported, "", file + ": the file " + why,
-                 1}
+      : problem_{file, fastlio::ReadProblemKind::NotSupported, "", file + ": the file " + why}
   {
   }
 
@@ -180,8 +179,8 @@ void RawlogSource::Impl::take(const mrpt::serialization::CSerializable::Ptr& obj
   {
     if (auto error = loadExternal(*observation, files_[file_]))
       add(
-          {files_[file_], progress_.objects_read - 1, 0, ReadProblemKind::ExternalFile,
-           observation->GetRuntimeClass()->className, *error, 1});
+          {files_[file_], ReadProblemKind::ExternalFile, observation->GetRuntimeClass()->className,
+           *error});
     else
       sorter_.push(std::move(observation));
   }
@@ -206,10 +205,9 @@ void RawlogSource::Impl::closeFile()
 {
   if (!rawlog_content_ && !foreign_class_.empty())
     add(
-        {files_[file_], 0, 0, ReadProblemKind::NotARawlog, foreign_class_,
+        {files_[file_], ReadProblemKind::NotARawlog, foreign_class_,
          files_[file_] + ": this is not a rawlog, it holds an object of class " + foreign_class_ +
-             ". Give a file with observations.",
-         1});
+             ". Give a file with observations."});
   bytes_of_files_read_ += recordingBytes(files_[file_]);
   reader_.reset();
   foreign_.reset();

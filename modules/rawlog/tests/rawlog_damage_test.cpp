@@ -70,7 +70,10 @@ TEST_F(RawlogDamageTest, PlainFileCutAnywhereKeepsAllWholeObjects)
     for (const ReadProblem& problem : reading.problems)
     {
       EXPECT_EQ(problem.kind, ReadProblemKind::Truncated) << length << problem.message;
-      EXPECT_EQ(problem.object_index, wholeObjects(ends, length));
+      EXPECT_NE(
+          problem.message.find(": object " + std::to_string(wholeObjects(ends, length)) + " "),
+          std::string::npos)
+          << problem.message;
     }
   }
 }
@@ -117,8 +120,11 @@ TEST_F(RawlogDamageTest, ABrokenObjectInTheMiddleCostsOnlyItself)
   EXPECT_EQ(reading.seconds.size(), 19U);
   ASSERT_EQ(reading.problems.size(), 1U);
   EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt);
-  EXPECT_EQ(reading.problems[0].object_index, 9U);
-  EXPECT_EQ(reading.problems[0].byte_offset, ends[8]);
+  EXPECT_NE(
+      reading.problems[0].message.find(
+          ": object 9 (mrpt::obs::CObservationIMU) at byte " + std::to_string(ends[8]) + ":"),
+      std::string::npos)
+      << reading.problems[0].message;
   EXPECT_EQ(reading.problems[0].class_name, "mrpt::obs::CObservationIMU");
 
   const Reading strict = readAll({fileOf(gzip(bytes))}, {0.2, false});

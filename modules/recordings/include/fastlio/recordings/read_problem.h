@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 
 namespace fastlio
@@ -27,9 +26,6 @@ enum class ReadProblemKind
 struct ReadProblem
 {
   std::string file;
-  std::size_t object_index = 0;   //!< of the object or message concerned, counted from 0
-  std::uint64_t byte_offset = 0;  //!< where it starts: in uncompressed bytes of a rawlog, in bytes
-                                  //!< of the file for others
   ReadProblemKind kind = ReadProblemKind::Corrupt;
   std::string class_name;  //!< class of the object, type of the message; empty when unknown
   std::string message;     //!< what happened, where, and what to do
