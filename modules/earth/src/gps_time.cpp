@@ -11,7 +11,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
 constexpr std::int64_t kGpsEpoch = 315'964'800;  // 1980-01-06 in seconds since 1970
 constexpr std::int64_t kAdjustment = 1'000'000'000;
 
@@ -42,15 +41,15 @@ int leapSecondsAt(std::int64_t stamp_ns)
 {
   const auto* const passed = std::upper_bound(
       kLeaps.begin(), kLeaps.end(), stamp_ns,
-      [](std::int64_t stamp, std::int64_t leap) { return stamp < leap * kNanoseconds; });
+      [](std::int64_t stamp, std::int64_t leap) { return stamp < leap * kSecondNs; });
   return static_cast<int>(passed - kLeaps.begin());
 }
 
 double adjustedGpsTime(std::int64_t stamp_ns)
 {
   // Whole seconds apart from the rest: their sum is rounded once.
-  const std::int64_t seconds = stamp_ns / kNanoseconds;
-  const std::int64_t rest = stamp_ns % kNanoseconds;
+  const std::int64_t seconds = stamp_ns / kSecondNs;
+  const std::int64_t rest = stamp_ns % kSecondNs;
   return static_cast<double>(seconds - kGpsEpoch - kAdjustment + leapSecondsAt(stamp_ns)) +
          toSeconds(rest);
 }

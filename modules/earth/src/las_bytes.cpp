@@ -16,7 +16,6 @@ constexpr std::uint8_t kPointFormat = 6;
 constexpr std::uint16_t kAdjustedStandardGpsTime = 1U << 0U, kIsWkt = 1U << 4U;
 constexpr std::uint16_t kWktRecord = 2112;
 constexpr std::size_t kLegacyCounts = 24, kReturns = 15;
-constexpr std::int64_t kNsInASecond = 1'000'000'000;
 
 struct Day
 {
@@ -25,7 +24,7 @@ struct Day
 
 Day dayOf(std::int64_t stamp_ns)
 {
-  const auto seconds = static_cast<std::time_t>(stamp_ns / kNsInASecond);
+  const auto seconds = static_cast<std::time_t>(stamp_ns / kSecondNs);
   std::tm utc = {};
   if (!isTime(stamp_ns) || gmtime_r(&seconds, &utc) == nullptr) return {};
   return {

@@ -5,6 +5,7 @@
 
 #include <fastlio/files/bounded_line.h>
 #include <fastlio/files/input_file.h>
+#include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
@@ -19,7 +20,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsPerSecondExact = 1'000'000'000;
 constexpr std::int64_t kMaxSeconds = 9'223'372'035;  // of an int64_t in nanoseconds
 constexpr std::string_view kBlanks = " \t\r";
 
@@ -56,7 +56,7 @@ std::int64_t parseScientificSeconds(std::string_view text, const TextPlace& plac
   if (error != std::errc{} || end != text.data() + text.size())
     failAt(place, "expected a time in seconds, saw " + quoted(text));
   if (std::abs(value) > static_cast<long double>(kMaxSeconds)) failTooLarge(text, place);
-  return std::llround(value * static_cast<long double>(kNsPerSecondExact));
+  return std::llround(value * static_cast<long double>(kSecondNs));
 }
 
 /** Nanoseconds of the digits behind the decimal point, rounded at the tenth. */
@@ -81,7 +81,7 @@ std::int64_t parseDecimalSeconds(std::string_view text, const TextPlace& place)
   std::int64_t seconds = 0;
   const auto parsed = std::from_chars(whole.data(), whole.data() + whole.size(), seconds);
   if (parsed.ec != std::errc{} || seconds > kMaxSeconds) failTooLarge(text, place);
-  const std::int64_t ns = seconds * kNsPerSecondExact + fractionNs(fraction);
+  const std::int64_t ns = seconds * kSecondNs + fractionNs(fraction);
   return negative ? -ns : ns;
 }
 

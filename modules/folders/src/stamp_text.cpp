@@ -15,7 +15,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsPerSec = 1'000'000'000;
 constexpr std::int64_t kLatestTextSecond = 4'500'000'000;  // 2112
 
 /** Digits behind the point as nanoseconds. */
@@ -47,14 +46,14 @@ std::optional<std::int64_t> fromDate(std::string_view text)
   const auto fraction = text.size() > kSeconds ? fractionOf(text.substr(kSeconds + 1))
                                                : std::optional<std::int64_t>(0);
   if (!fraction) return std::nullopt;
-  return std::int64_t{timegm(&date)} * kNsPerSec + *fraction;
+  return std::int64_t{timegm(&date)} * kSecondNs + *fraction;
 }
 
 std::optional<std::int64_t> fromWhole(std::int64_t number)
 {
   std::int64_t unit_ns = 1;  // the largest in which it is a time of our days
-  for (const std::int64_t unit : {kNsPerSec, std::int64_t{1'000'000}, std::int64_t{1'000}})
-    if (number <= kLatestTextSecond * (kNsPerSec / unit))
+  for (const std::int64_t unit : {kSecondNs, std::int64_t{1'000'000}, std::int64_t{1'000}})
+    if (number <= kLatestTextSecond * (kSecondNs / unit))
     {
       unit_ns = unit;
       break;
@@ -71,7 +70,7 @@ std::optional<std::int64_t> stampOf(std::string_view text)
   {
     if (point == std::string_view::npos) return fromWhole(*whole);
     const auto fraction = fractionOf(text.substr(point + 1));
-    if (fraction && *whole < kLatestTextSecond) return *whole * kNsPerSec + *fraction;
+    if (fraction && *whole < kLatestTextSecond) return *whole * kSecondNs + *fraction;
   }
   const auto seconds = parsed<double>(text);
   if (!seconds || !(*seconds >= 0.0 && *seconds < static_cast<double>(kLatestTextSecond)))

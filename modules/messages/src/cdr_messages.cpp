@@ -18,7 +18,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsInSecond = 1'000'000'000;
 constexpr double kLongestOffset = 4.0;  // that 32 bits of nanoseconds hold [s]
 
 bool areOffsets(const std::vector<double>& times)
@@ -63,8 +62,8 @@ void CdrWriter::text(std::string_view text)
 
 void CdrWriter::time(std::int64_t stamp_ns)
 {
-  number(static_cast<std::int32_t>(stamp_ns / kNsInSecond));
-  number(static_cast<std::uint32_t>(stamp_ns % kNsInSecond));
+  number(static_cast<std::int32_t>(stamp_ns / kSecondNs));
+  number(static_cast<std::uint32_t>(stamp_ns % kSecondNs));
 }
 
 void CdrWriter::header(std::int64_t stamp_ns, std::string_view frame)

@@ -19,7 +19,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kNsPerRosSecond = 1'000'000'000;
 
 template <std::size_t Count>
 std::array<double, Count> readDoubles(WireReader& in)
@@ -64,7 +63,7 @@ RosHeader readRosHeader(WireReader& in)
       in.isRos1() ? std::int64_t{in.number<std::uint32_t>()} : in.number<std::int32_t>();
   const auto nanoseconds = in.number<std::uint32_t>();
   RosHeader header;
-  header.stamp_ns = seconds * kNsPerRosSecond + nanoseconds;
+  header.stamp_ns = seconds * kSecondNs + nanoseconds;
   header.frame = in.text();
   if (!header.frame.empty() && header.frame.front() == '/') header.frame.erase(0, 1);
   return header;
@@ -108,7 +107,7 @@ RosObservation readNavSatFix(WireReader& in, const std::string& label)
   gps->sensorLabel = label;
   gps->timestamp = toMrptTime(header.stamp_ns);
   gps->originalReceivedTimestamp = gps->timestamp;
-  const auto in_a_day = toSeconds(header.stamp_ns % (86'400 * kNsPerRosSecond));
+  const auto in_a_day = toSeconds(header.stamp_ns % (86'400 * kSecondNs));
   gnss::Message_NMEA_GGA gga;
   gga.fields.UTCTime.hour = static_cast<std::uint8_t>(in_a_day / 3600);
   gga.fields.UTCTime.minute = static_cast<std::uint8_t>(std::fmod(in_a_day, 3600) / 60);

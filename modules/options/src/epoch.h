@@ -8,7 +8,6 @@
 
 namespace fastlio
 {
-constexpr std::int64_t kEpochUnitNs = 1'000'000'000;
 constexpr std::int64_t kLastEpoch = 9'000'000'000;  // [s], in the range of 64-bit nanoseconds
 
 }  // namespace fastlio

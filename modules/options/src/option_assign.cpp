@@ -3,6 +3,7 @@
 
 #include "epoch.h"
 #include "overloaded.h"
+#include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
 #include <fastlio/options/printable.h>
@@ -103,7 +104,7 @@ Problem assignEpoch(const Target& target, std::int64_t* member_ns)
   if (*seconds < 0 || *seconds > kLastEpoch)  // before it overflows in nanoseconds
     return std::string(target.text) +
            " is out of range; allowed: " + allowedText(target.value, target.unit);
-  return target.store(member_ns, *seconds * kEpochUnitNs);
+  return target.store(member_ns, *seconds * kSecondNs);
 }
 
 Problem assignChoice(const Target& target, const ChoiceValue& value)

@@ -3,6 +3,7 @@
 
 #include "epoch.h"
 #include "overloaded.h"
+#include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
@@ -63,7 +64,7 @@ std::optional<std::string> valueProblem(const OptionValue& value, std::string_vi
           [](const SeedValue&) { return Problem{}; },
           [unit](const EpochValue& v)
           {
-            const bool good = *v.member_ns >= 0 && *v.member_ns / kEpochUnitNs <= kLastEpoch;
+            const bool good = *v.member_ns >= 0 && *v.member_ns / kSecondNs <= kLastEpoch;
             return good ? Problem{} : outOfRange(v, unit);
           },
           [](const BooleanValue&) { return Problem{}; },

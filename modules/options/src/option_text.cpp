@@ -3,6 +3,7 @@
 
 #include "epoch.h"
 #include "overloaded.h"
+#include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
 
@@ -57,7 +58,7 @@ std::string valueText(const OptionValue& value)
           [](const RealValue& v) { return shortestText(*v.member, v.si_per_unit); },
           [](const IntegerValue& v) { return std::to_string(*v.member); },
           [](const SeedValue& v) { return std::to_string(*v.member); },
-          [](const EpochValue& v) { return std::to_string(*v.member_ns / kEpochUnitNs); },
+          [](const EpochValue& v) { return std::to_string(*v.member_ns / kSecondNs); },
           [](const BooleanValue& v) { return std::string(*v.member ? "true" : "false"); },
           [](const ChoiceValue& v) { return std::string(v.names.at(v.read())); },
           [](const RegexValue& v) { return singleQuoted(*v.member); },

@@ -27,8 +27,8 @@ std::int64_t secondsOf(const std::uint8_t* date, bool may_count)
 std::int64_t stampOf(const UdpPacket& packet, const HesaiLayout& layout)
 {
   const std::int64_t seconds = secondsOf(packet.data + layout.date_at, layout.may_count_seconds);
-  if (seconds < 0 || seconds > kLatestStamp / kSecond) return -1;
-  return seconds * kSecond +
+  if (seconds < 0 || seconds > kLatestStamp / kSecondNs) return -1;
+  return seconds * kSecondNs +
          std::int64_t{littleAt<std::uint32_t>(packet.data + layout.time_at)} * 1000;
 }
 

@@ -79,7 +79,7 @@ std::int64_t fromUtc(const std::uint8_t* bytes)
   date.tm_mon = bytes[1] - 1;
   date.tm_mday = bytes[2];
   date.tm_hour = bytes[3];
-  return std::int64_t{timegm(&date)} * 1'000'000'000 +
+  return std::int64_t{timegm(&date)} * kSecondNs +
          std::int64_t{littleAt<std::uint32_t>(bytes + 4)} * 1000;
 }
 

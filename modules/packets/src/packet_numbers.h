@@ -11,8 +11,7 @@
 
 namespace fastlio
 {
-inline constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
-inline constexpr int kTurn = 36'000;                    // in the unit of azimuths, 0.01 deg
+inline constexpr int kTurn = 36'000;  // in the unit of azimuths, 0.01 deg
 /** A scan that has more is no scan: it is given as it is. */
 inline constexpr std::size_t kMostPointsPerScan = 2'000'000;
 

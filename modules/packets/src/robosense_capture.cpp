@@ -26,15 +26,15 @@ constexpr std::size_t kStampAt = 20, kModeAt = 32;
 std::int64_t fromSeconds(const std::uint8_t* bytes)
 {
   const std::uint64_t seconds = bigAt(bytes, 6);
-  if (seconds > static_cast<std::uint64_t>(kLatestStamp / kSecond)) return -1;
-  return static_cast<std::int64_t>(seconds) * kSecond +
+  if (seconds > static_cast<std::uint64_t>(kLatestStamp / kSecondNs)) return -1;
+  return static_cast<std::int64_t>(seconds) * kSecondNs +
          static_cast<std::int64_t>(bigAt(bytes + 6, 4)) * 1000;
 }
 
 /** Year since 2000 to second in one byte each, then milliseconds and microseconds. */
 std::int64_t fromDate(const std::uint8_t* bytes)
 {
-  return secondsOfDate(2000 + bytes[0], bytes + 1) * kSecond +
+  return secondsOfDate(2000 + bytes[0], bytes + 1) * kSecondNs +
          std::int64_t{big16At(bytes + 6)} * 1'000'000 + std::int64_t{big16At(bytes + 8)} * 1000;
 }
 

@@ -25,7 +25,7 @@ constexpr std::uint16_t kIp4Type = 0x0800, kIp6Type = 0x86DD, kVlanType = 0x8100
                         kQinqType = 0x88A8;
 constexpr std::size_t kMostFragmented = 64;  // packets that are put together at a time
 constexpr std::size_t kLargestPacket = 65535;
-constexpr std::int64_t kLatestSecond = kLatestStamp / 1'000'000'000;
+constexpr std::int64_t kLatestSecond = kLatestStamp / kSecondNs;
 
 std::uint16_t bigEndian16(const std::uint8_t* bytes)
 {
@@ -76,7 +76,7 @@ std::optional<UdpPacket> UdpCapture::next()
     // The file counts nanoseconds where it says microseconds: libpcap was asked for them.
     const std::int64_t seconds = std::clamp<std::int64_t>(head->ts.tv_sec, 0, kLatestSecond);
     packet->stamp_ns =
-        seconds * 1'000'000'000 + std::clamp<std::int64_t>(head->ts.tv_usec, 0, 999'999'999);
+        seconds * kSecondNs + std::clamp<std::int64_t>(head->ts.tv_usec, 0, 999'999'999);
     return packet;
   }
 }

@@ -10,6 +10,7 @@
 namespace fastlio
 {
 constexpr double kNsPerSecond = 1e9;
+constexpr std::int64_t kSecondNs = 1'000'000'000;
 
 /** \param duration_ns a difference of stamps, small enough to be exact in a double [ns]
  * \return [s]
