@@ -7,6 +7,7 @@
 #include "packet_kinds.h"
 #include "packet_numbers.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 #include <fastlio/recordings/cloud_builder.h>
 #include <fastlio/recordings/sensor_imu.h>

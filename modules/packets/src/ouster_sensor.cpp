@@ -5,6 +5,7 @@
 
 #include "packet_numbers.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 #include <fastlio/packets/ouster_sensor.h>
 #include <fastlio/recordings/cloud_builder.h>

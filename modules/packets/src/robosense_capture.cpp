@@ -8,6 +8,7 @@
 #include "packet_numbers.h"
 #include "robosense_models.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 #include <fastlio/recordings/sensor_imu.h>
 

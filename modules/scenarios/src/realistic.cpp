@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/scenarios/realistic.h>
 
 #include <set>
@@ -12,7 +13,6 @@ namespace
 {
 void worsenInertial(ImuSettings& imu)
 {
-  constexpr double kStandardGravity = 9.80665;
   imu.gyro_bias_std = 0.2 * kRadPerDeg;
   imu.accel_bias_std = 0.1;
   imu.stamp_jitter = 2e-4;

@@ -3,6 +3,7 @@
 
 #include "settings_rows.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 
 namespace fastlio
 {
@@ -11,7 +12,6 @@ namespace
 using S = SimulationSettings;
 using Rows = OptionTable<SimulationSettings>;
 
-constexpr double kStandardGravity = 9.80665;
 constexpr double kRadPerMilliradian = 1e-3;
 
 Rows laserRows()

@@ -3,6 +3,7 @@
 
 #include "short_simulation.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -13,7 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kStandardGravity = 9.80665;
 
 /** The motion of shaking hands, felt by an IMU with no error but those that a test adds. */
 SimulationSettings exactShake()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/imu/imu_units.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 #include <fastlio/survey/imu_survey.h>
 
@@ -14,13 +15,12 @@ namespace fastlio
 namespace
 {
 constexpr std::int64_t kWindowNs = 250'000'000;
-constexpr std::size_t kFewestSamples = 5;     // in a window
-constexpr double kQuietAccel = 0.03;          // scatter as a fraction of the magnitude
-constexpr double kQuietGyro = 4.0;            // scatter as a multiple of the quietest tenth's
-constexpr double kStillForce = 0.02;          // change of the mean between windows, fraction
-constexpr double kLeastRest = 1.0;            // [s]
-constexpr double kStandardGravity = 9.80665;  // [m/s^2]
-constexpr double kNearGravity = 0.1;          // relative
+constexpr std::size_t kFewestSamples = 5;  // in a window
+constexpr double kQuietAccel = 0.03;       // scatter as a fraction of the magnitude
+constexpr double kQuietGyro = 4.0;         // scatter as a multiple of the quietest tenth's
+constexpr double kStillForce = 0.02;       // change of the mean between windows, fraction
+constexpr double kLeastRest = 1.0;         // [s]
+constexpr double kNearGravity = 0.1;       // relative
 
 /** Sums over a stretch of samples. */
 struct Moments

@@ -13,9 +13,6 @@
 
 namespace fastlio
 {
-/** One g of the makers' packets [m/s^2]. */
-inline constexpr double kStandardGravity = 9.80665;
-
 /** \param rate [rad/s]
  * \param acceleration [m/s^2] */
 [[nodiscard]] mrpt::obs::CObservationIMU::Ptr makeImu(
