@@ -5,6 +5,7 @@
 #include "velodyne_models.h"
 #include "velodyne_packet.h"
 #include "velodyne_packet_times.h"
+#include <fastlio/math/angles.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
 #include <algorithm>
@@ -30,7 +31,7 @@ using Block = fastlio::VelodyneBlock;
 constexpr std::size_t kBlocks = Scan::BLOCKS_PER_PACKET;
 constexpr std::size_t kMostBanks = 2;
 constexpr int kFullCircle = Scan::ROTATION_MAX_UNITS;  // azimuth unit: 0.01 deg
-constexpr double kRadiansPerUnit = 1e-4 * 1.7453292519943295;
+constexpr double kRadiansPerUnit = 0.01 * fastlio::kRadPerDeg;
 
 // Values that are the same for all packets of a sweep.
 struct Sensor

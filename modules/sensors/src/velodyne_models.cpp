@@ -3,6 +3,7 @@
 
 #include "velodyne_models.h"
 
+#include <fastlio/math/angles.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
 #include <algorithm>
@@ -14,11 +15,11 @@
 
 namespace
 {
+using fastlio::kRadPerDeg;
 using fastlio::LaserGeometry;
 using fastlio::VelodyneModel;
 using Correction = mrpt::obs::VelodyneCalibration::PerLaserCalib;
 
-constexpr double kRadiansPerDegree = 0.017453292519943295;
 constexpr std::size_t kLasersHdl64e = 64;
 
 // Elevation [deg] and vertical offset of the emitter [mm] in firing order (VLP-16 user manual,
@@ -71,8 +72,8 @@ constexpr double kHdl32eLowestDeg = -30.67, kHdl32eOddLowestDeg = -9.33, kHdl32e
 LaserGeometry laserAt(double elevation_deg, double offset_z)
 {
   LaserGeometry laser;
-  laser.sin_elevation = std::sin(elevation_deg * kRadiansPerDegree);
-  laser.cos_elevation = std::cos(elevation_deg * kRadiansPerDegree);
+  laser.sin_elevation = std::sin(elevation_deg * kRadPerDeg);
+  laser.cos_elevation = std::cos(elevation_deg * kRadPerDeg);
   laser.offset_z = offset_z;
   return laser;
 }
@@ -123,11 +124,10 @@ double radiansPerUnit(const std::vector<Correction>& corrections)
   double error_degrees = 0, error_radians = 0;
   for (const Correction& c : corrections)
   {
-    error_degrees +=
-        std::abs(std::sin(c.verticalCorrection * kRadiansPerDegree) - c.sinVertCorrection);
+    error_degrees += std::abs(std::sin(c.verticalCorrection * kRadPerDeg) - c.sinVertCorrection);
     error_radians += std::abs(std::sin(c.verticalCorrection) - c.sinVertCorrection);
   }
-  return error_degrees <= error_radians ? kRadiansPerDegree : 1.0;
+  return error_degrees <= error_radians ? kRadPerDeg : 1.0;
 }
 
 // The emitters of the HDL-64E are offset across their beams, those of the others along the rotor's

@@ -3,6 +3,7 @@
 
 #include "survey_diagnostics.h"
 #include "survey_pass.h"
+#include <fastlio/math/angles.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/survey/recording_survey.h>
@@ -53,7 +54,7 @@ double usefulness(double rate)
 ScanSpan liveliest(const std::vector<ImuSample>& samples, double gyro_max, double seconds)
 {
   // Rates that no platform has are in deg/s.
-  constexpr double kLargestRate = 40.0, kRadPerDeg = 0.017453292519943295;
+  constexpr double kLargestRate = 40.0;
   const double scale = gyro_max > kLargestRate ? kRadPerDeg : 1.0;
   const auto length_ns = toNanoseconds(seconds);
   const auto useful = [&](const ImuSample& s) { return usefulness(scale * s.gyro.norm()); };
