@@ -13,7 +13,6 @@ namespace
 constexpr std::size_t kBufferBytes = 1U << 16U;
 constexpr std::size_t kLargestStep = 1U << 30U;  // what the libraries count fits 32 bits
 constexpr std::string_view kGzipMagic = "\x1F\x8B";
-constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
 }  // namespace
 
 namespace fastlio

@@ -14,10 +14,10 @@
 namespace
 {
 using namespace fastlio::object_layouts;
+using fastlio::kEndFlag;
 using fastlio::ObjectStream;
 using fastlio::SizeVerdict;
 
-constexpr unsigned char kEndFlag = 0x88;
 constexpr std::size_t kCountBytes = 4;
 constexpr std::size_t kMostParts = 100'000;  // observations of a frame, lists of a scan
 constexpr int kDeepest = 8;                  // frames hold observations hold clouds hold parameters

@@ -15,7 +15,6 @@ namespace fastlio
 {
 namespace
 {
-const std::string kZstdFrame = "\x28\xB5\x2F\xFD";
 // Recordings of sensors shrink to a half or a third.
 constexpr std::uint64_t kMostGrowth = 50;
 constexpr std::size_t kCopyPiece = std::size_t{1} << 18U;
@@ -67,7 +66,7 @@ InflatedCopy::~InflatedCopy()
 
 std::string inflatedHeadOf(const std::string& path, std::size_t size)
 {
-  if (headOf(path, kZstdFrame.size()) != kZstdFrame) return {};
+  if (headOf(path, kZstdMagic.size()) != kZstdMagic) return {};
   try
   {
     FileBytes file(path);

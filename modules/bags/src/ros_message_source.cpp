@@ -3,8 +3,7 @@
 
 #include "ros_message_source.h"
 
-#include <algorithm>
-#include <iterator>
+#include <cstring>
 #include <stdexcept>
 
 namespace fastlio
@@ -12,12 +11,10 @@ namespace fastlio
 namespace
 {
 // Bags of ROS 2 may compress each message by itself; CDR never begins like that.
-constexpr std::uint8_t kZstdMessage[] = {0x28, 0xB5, 0x2F, 0xFD};
-
 bool isCompressed(const RosMessage& message)
 {
-  return message.topic->format == WireFormat::Cdr && message.data->size() >= sizeof kZstdMessage &&
-         std::equal(std::begin(kZstdMessage), std::end(kZstdMessage), message.data->begin());
+  return message.topic->format == WireFormat::Cdr && message.data->size() >= kZstdMagic.size() &&
+         std::memcmp(message.data->data(), kZstdMagic.data(), kZstdMagic.size()) == 0;
 }
 
 Bytes inflated(const Bytes& packed)

@@ -137,7 +137,6 @@ NextObject ObjectReader::readOne()
 // MRPT reads rotating scans of its own layout only.
 mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHeader& header)
 {
-  constexpr std::uint8_t kEndFlag = 0x88;
   auto archive = mrpt::serialization::archiveFrom(*stream_);
   if (header.class_name != kRotatingScanClass) return archive.ReadObject();
   std::vector<std::uint8_t> head(header.length + 1);  // and the version, which is 0 in all layouts
@@ -216,7 +215,6 @@ NextObject ObjectReader::fail(ReadProblem problem)
 // Behind the observations that were saved from a broken sensory frame comes its end flag.
 void ObjectReader::skipFrameEnds()
 {
-  constexpr unsigned char kEndFlag = 0x88;
   constexpr std::uint64_t kMostFrameEnds = 1000;  // MRPT does not nest frames; more is damage
   stream_->beginObject();
   const std::uint64_t begin = stream_->position();

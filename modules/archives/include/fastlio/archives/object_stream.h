@@ -22,6 +22,9 @@ struct ObjectHeader
   std::size_t length = 0;  //!< of the header [bytes]
 };
 
+/** The last byte of a serialised object. */
+inline constexpr std::uint8_t kEndFlag = 0x88;
+
 /** Of an observation or a frame [bytes]: ten times the clouds of the largest LiDARs. A damaged
  * length costs twice as much memory before it is noticed. */
 inline constexpr std::size_t kLargestObject = std::size_t{256} << 20U;

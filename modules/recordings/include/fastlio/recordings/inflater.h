@@ -7,9 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 
 namespace fastlio
 {
+/** The first bytes of a frame of Zstandard. */
+inline constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
+
 enum class InflateStatus
 {
   Going,
