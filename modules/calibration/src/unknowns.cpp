@@ -3,6 +3,8 @@
 
 #include "unknowns.h"
 
+#include <fastlio/errormodel/calibration_evidence.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -12,9 +14,6 @@ namespace fastlio
 {
 namespace
 {
-// The formal covariance takes surfaces for planes and beams for lines. Over simulated rigs with
-// realistic sensors the errors are 2.5 times as large (docs/calibration.md).
-constexpr double kSystematic = 2.5 * 2.5;
 // Errors of a laser that data sheets admit. The prior decides where beams and inertial sensor
 // explain the same: elevations that are stretched look like a gyro with another scale.
 constexpr double kRangeStd = 0.01;       // [m]
@@ -60,15 +59,8 @@ CalibrationUnknowns::CalibrationUnknowns(const CalibrationOptions& prior, const 
 
 CalibrationPrior CalibrationUnknowns::prior(const Eigen::VectorXd& x) const
 {
-  CalibrationPrior prior;
+  CalibrationPrior prior = calibrationPriorOf(prior_);
   prior.mean = -x.head<kCalibrationErrorDim>();
-  prior.std.segment<3>(kExtrinsicError).setConstant(prior_.extrinsic_rotation_std);
-  prior.std.segment<3>(kExtrinsicError + 3).setConstant(prior_.extrinsic_translation_std);
-  for (const int first : {static_cast<int>(kGyroMatrixError), static_cast<int>(kAccelMatrixError)})
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 3; ++column)
-        prior.std[first + 3 * column + row] =
-            row == column ? prior_.imu_scale_std : prior_.imu_misalignment_std;
   return prior;
 }
 

@@ -21,9 +21,6 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 constexpr int kScansSolvedEach = 20;
 constexpr int kScansPerSolution = 10;
 
-// What the model lacks is the same in many scans: their innovations contain so many times less than
-// their covariance says. The value is that of fastlio-calibrate (docs/calibration.md).
-constexpr double kSystematic = 2.5 * 2.5;
 // An error of six components that is none exceeds it once in 20 times.
 constexpr double kSignificant = 50.0;
 // A correction begins a new map, so there are few: each waits 1.5 times as long as the one before.
@@ -44,20 +41,24 @@ double explainedByMap(const Square6& W, const Vec6& Wy, const Matrix6& mismatch)
 }
 }  // namespace
 
-CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
-    : estimates_extrinsic_(options.estimate_extrinsic), next_correction_(kFirstCorrection)
+CalibrationPrior calibrationPriorOf(const CalibrationOptions& options)
 {
-  const auto matrix = [&](int first)
-  {
+  CalibrationPrior prior;
+  for (const int first : {static_cast<int>(kGyroMatrixError), static_cast<int>(kAccelMatrixError)})
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
-        prior_.std[first + 3 * column + row] =
+        prior.std[first + 3 * column + row] =
             row == column ? options.imu_scale_std : options.imu_misalignment_std;
-  };
-  matrix(kGyroMatrixError);
-  matrix(kAccelMatrixError);
-  prior_.std.segment<3>(kExtrinsicError).setConstant(options.extrinsic_rotation_std);
-  prior_.std.segment<3>(kExtrinsicError + 3).setConstant(options.extrinsic_translation_std);
+  prior.std.segment<3>(kExtrinsicError).setConstant(options.extrinsic_rotation_std);
+  prior.std.segment<3>(kExtrinsicError + 3).setConstant(options.extrinsic_translation_std);
+  return prior;
+}
+
+CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
+    : estimates_extrinsic_(options.estimate_extrinsic),
+      next_correction_(kFirstCorrection),
+      prior_(calibrationPriorOf(options))
+{
   estimate_ = solve(sums_, prior_);
 }
 
