@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/calibration/inertial_noise.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/survey/imu_survey.h>
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fastlio
 {
@@ -172,10 +174,7 @@ double medianPeriod(const std::vector<ImuSample>& samples)
   std::vector<std::int64_t> periods;
   for (std::size_t i = 1; i < samples.size(); ++i)
     periods.push_back(samples[i].stamp_ns - samples[i - 1].stamp_ns);
-  if (periods.empty()) return 0.0;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return toSeconds(*middle);
+  return toSeconds(median(std::move(periods)));
 }
 }  // namespace
 

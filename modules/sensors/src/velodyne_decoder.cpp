@@ -6,6 +6,7 @@
 #include "velodyne_packet.h"
 #include "velodyne_packet_times.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
 #include <algorithm>
@@ -106,13 +107,11 @@ double azimuthPerMicrosecond(
       steps.push_back((azimuthOf(to) - azimuthOf(from) + kFullCircle) % kFullCircle);
   }
   if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const int median = *middle;
+  const int middle = fastlio::median(steps);
   double sum = 0;
   int count = 0;
   for (const int step : steps)
-    if (std::abs(step - median) <= kOddStep) sum += step, ++count;
+    if (std::abs(step - middle) <= kOddStep) sum += step, ++count;
   return sum / count * kRadiansPerUnit / timing.block_us;
 }
 

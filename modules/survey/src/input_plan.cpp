@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
@@ -26,10 +27,7 @@ double scanPeriod(const SensorSummary& sensor)
         sensor.point_times[i].stamp_ns - sensor.point_times[i - 1].stamp_ns;
     if (period_ns > 0) periods.push_back(toSeconds(period_ns));
   }
-  if (periods.empty()) return kUsualPeriod;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return *middle;
+  return periods.empty() ? kUsualPeriod : median(std::move(periods));
 }
 
 std::string referenceText(PointTimeReference reference)

@@ -11,9 +11,10 @@
 namespace fastlio
 {
 /** The upper median; 0 of nothing. */
-[[nodiscard]] inline double median(std::vector<double> values)
+template <typename Number>
+[[nodiscard]] Number median(std::vector<Number> values)
 {
-  if (values.empty()) return 0.0;
+  if (values.empty()) return {};
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
