@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace fastlio
 {
@@ -130,13 +131,6 @@ void add(InputPlan& plan, const SensorSummary& sensor, LidarPlan lidar)
   plan.lidars.push_back(std::move(lidar));
 }
 
-/** Whether the recording says where the sensor is mounted. */
-bool hasPose(const SensorSummary& sensor)
-{
-  const Pose& T = sensor.T_vehicle_sensor;
-  return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
-}
-
 /** Where the sensors are, and who says so. */
 std::vector<SensorPlace> placesOf(
     const SensorSelection& selection, const SensorOptions& used, bool by_factory)
@@ -144,10 +138,10 @@ std::vector<SensorPlace> placesOf(
   std::vector<SensorPlace> places;
   const auto add = [&](const SensorSummary& sensor, const std::optional<Pose>& configured)
   {
-    const std::string origin = by_factory        ? "input.factory_T_imu_lidar"
-                               : configured      ? "the configuration"
-                               : hasPose(sensor) ? "the recording"
-                                                 : "none is given";
+    const std::string origin = by_factory                 ? "input.factory_T_imu_lidar"
+                               : configured               ? "the configuration"
+                               : hasKnownMounting(sensor) ? "the recording"
+                                                          : "none is given";
     places.push_back(
         {sensor.kind, sensor.label, configured.value_or(sensor.T_vehicle_sensor), origin});
   };
@@ -198,6 +192,12 @@ SensorPatterns patternsOf(const SensorOptions& sensors)
   return patterns;
 }
 
+bool hasKnownMounting(const SensorSummary& sensor)
+{
+  const Pose& T = sensor.T_vehicle_sensor;
+  return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
+}
+
 LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters)
 {
   LidarPlan plan;
@@ -236,8 +236,8 @@ LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters
 
 SensorOptions withFactoryMounting(const SensorSelection& selection, SensorOptions sensors)
 {
-  const bool given = sensors.T_vehicle_imu || sensors.T_vehicle_lidar || hasPose(selection.imu) ||
-                     hasPose(selection.lidar);
+  const bool given = sensors.T_vehicle_imu || sensors.T_vehicle_lidar ||
+                     hasKnownMounting(selection.imu) || hasKnownMounting(selection.lidar);
   if (given || !sensors.factory_T_imu_lidar) return sensors;
   sensors.T_vehicle_lidar = Pose{};
   sensors.T_vehicle_imu = sensors.factory_T_imu_lidar->inverse();

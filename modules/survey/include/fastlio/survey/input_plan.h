@@ -48,6 +48,9 @@ struct InputPlan
 /** The labels that options ask for. */
 [[nodiscard]] SensorPatterns patternsOf(const SensorOptions& sensors);
 
+/** Whether the recording says where the sensor is mounted. */
+[[nodiscard]] bool hasKnownMounting(const SensorSummary& sensor);
+
 /** Decides for one LiDAR. An Ambiguous finding leaves the points without times.
  * \param sensor with what surveySensors() saw of its times */
 [[nodiscard]] LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters);
