@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "built_map.h"
 #include "simulated_observations.h"
-#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/loops/CMetricMapBuilderLoops.h>
 #include <fastlio/run/mrpt_poses.h>

@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "built_map.h"
 #include "walk.h"
-#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>

@@ -110,14 +110,4 @@ template <typename Built, typename Map>
     return map;
 }
 
-/** The metric map that a builder has built. */
-template <typename Builder>
-[[nodiscard]] const auto& metricMapOf(const Builder& builder)
-{
-  if constexpr (std::is_pointer_v<BuiltMapOf<Builder>>)
-    return *builder.getCurrentlyBuiltMetricMap();
-  else
-    return builder.getCurrentlyBuiltMetricMap();
-}
-
 }  // namespace fastlio
