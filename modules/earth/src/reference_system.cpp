@@ -244,11 +244,6 @@ std::string ReferenceSystem::name() const
   return proj_get_name(proj_->system.get());
 }
 
-bool ReferenceSystem::hasHeights() const
-{
-  return proj_->has_heights;
-}
-
 bool ReferenceSystem::covers(const GeodeticPoint& point) const
 {
   double west = 0, south = 0, east = 0, north = 0;

@@ -64,8 +64,6 @@ class ReferenceSystem
   [[nodiscard]] const std::string& definition() const { return definition_; }
   /** "WGS 84 / UTM zone 32N". */
   [[nodiscard]] std::string name() const;
-  /** Whether heights are those of the system, instead of above the WGS84 ellipsoid. */
-  [[nodiscard]] bool hasHeights() const;
   /** Whether the authority means the system for this place; true where it does not say. Outside of
    * it coordinates are computed, but distorted: a sign of a wrong code. */
   [[nodiscard]] bool covers(const GeodeticPoint& point) const;
