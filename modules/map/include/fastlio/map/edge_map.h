@@ -66,8 +66,6 @@ class EdgeMap
   void removeOutside(const Vec3& center, double radius);
 
   [[nodiscard]] std::size_t pointCount() const { return map_.size(); }
-  [[nodiscard]] const CIncrementalPointsMap& pointsMap() const { return map_; }
-  [[nodiscard]] const EdgeMapOptions& options() const { return options_; }
 
  private:
   [[nodiscard]] LineMatch matchPoint(float x, float y, float z) const;
