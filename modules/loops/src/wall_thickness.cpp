@@ -22,9 +22,7 @@ constexpr double kUpright = 0.5;       // cosine between normal and gravity
 struct Wall
 {
   explicit Wall(const VoxelPlane& voxel)
-      : normal(Eigen::Vector3f(voxel.nx, voxel.ny, voxel.nz).cast<double>()),
-        centroid(Eigen::Vector3f(voxel.qx, voxel.qy, voxel.qz).cast<double>()),
-        plane(voxel)
+      : normal(voxel.normal()), centroid(voxel.centroid()), plane(voxel)
   {
   }
 
@@ -40,8 +38,7 @@ std::vector<VoxelPlane> wallsOf(const SubmapSurfaces& submap, const Mat3& R_worl
   for (std::size_t i = 0; i < submap.planes.size(); ++i)
   {
     VoxelPlane plane = submap.planes[i];
-    const Eigen::Vector3f n(plane.nx, plane.ny, plane.nz);
-    const bool is_upright = std::abs((R_world_submap * n.cast<double>()).z()) < kUpright;
+    const bool is_upright = std::abs((R_world_submap * plane.normal()).z()) < kUpright;
     if (!is_upright || plane.inverse_count * kFewestPoints > 1.0F) continue;
     const float spread = std::max(submap.spreads[i], kLeastSpread);
     plane.variance = spread * spread;
@@ -53,12 +50,9 @@ std::vector<VoxelPlane> wallsOf(const SubmapSurfaces& submap, const Mat3& R_worl
 /** Second moment of a wall's points about their centroid [m^2]. */
 Mat3 momentOf(const Wall& wall)
 {
-  const auto& m = wall.plane.leverage;
-  Eigen::Matrix3f inverse;
-  inverse << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
   const Mat3 across = wall.normal * wall.normal.transpose();
   // The leverage is the inverse within the plane, over the number of points.
-  const Mat3 within = inverse.cast<double>() / static_cast<double>(wall.plane.inverse_count);
+  const Mat3 within = wall.plane.leverageMatrix() / static_cast<double>(wall.plane.inverse_count);
   const Mat3 regular = within + across;
   return regular.inverse() + (static_cast<double>(wall.plane.variance) - 1.0) * across;
 }

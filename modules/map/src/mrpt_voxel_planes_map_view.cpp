@@ -25,10 +25,7 @@ const float kHalfWidthPerDeviation = std::sqrt(3.0F);
 /** The area that the points of a plane cover, by their spread along its two axes. */
 Rectangle rectangleOf(const VoxelPlane& plane)
 {
-  const auto& m = plane.leverage;
-  Eigen::Matrix3d leverage;
-  leverage << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(leverage);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(plane.leverageMatrix());
   const Eigen::Vector3f center(plane.qx, plane.qy, plane.qz);
   // The leverage's eigenvalues are 1 / (n variance), the normal's being zero.
   const auto axis = [&](int i) -> Eigen::Vector3f

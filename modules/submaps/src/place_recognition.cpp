@@ -82,9 +82,9 @@ BirdsEyeView::BirdsEyeView(
   const Mat3 R = expSO3({0.0, 0.0, heading}) * R_level_submap;
   for (const VoxelPlane& plane : planes)
   {
-    const Vec3 n = R * Eigen::Vector3f(plane.nx, plane.ny, plane.nz).cast<double>();
+    const Vec3 n = R * plane.normal();
     if (std::abs(n.z()) > static_cast<double>(kUpright)) continue;
-    const Vec3 q = R * Eigen::Vector3f(plane.qx, plane.qy, plane.qz).cast<double>();
+    const Vec3 q = R * plane.centroid();
     const double column = std::floor(q.x() / cell) + kMiddle;
     const double row = std::floor(q.y() / cell) + kMiddle;
     if (column < 0 || row < 0 || column >= kCells || row >= kCells) continue;

@@ -27,10 +27,7 @@ struct Patch
   std::vector<Patch> patches;
   patches.reserve(planes.size());
   for (const VoxelPlane& plane : planes)
-  {
-    const Eigen::Vector3f n(plane.nx, plane.ny, plane.nz), q(plane.qx, plane.qy, plane.qz);
-    patches.push_back({n.cast<double>(), q.cast<double>(), plane});
-  }
+    patches.push_back({plane.normal(), plane.centroid(), plane});
   return patches;
 }
 

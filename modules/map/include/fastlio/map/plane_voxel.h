@@ -35,6 +35,22 @@ struct VoxelPlane
   /** -n . q [m] */
   [[nodiscard]] float offset() const { return -(nx * qx + ny * qy + nz * qz); }
 
+  [[nodiscard]] Eigen::Vector3d normal() const
+  {
+    return Eigen::Vector3f(nx, ny, nz).cast<double>();
+  }
+  [[nodiscard]] Eigen::Vector3d centroid() const
+  {
+    return Eigen::Vector3f(qx, qy, qz).cast<double>();
+  }
+  [[nodiscard]] Eigen::Matrix3d leverageMatrix() const
+  {
+    const auto& m = leverage;
+    Eigen::Matrix3f matrix;
+    matrix << m[0], m[1], m[2], m[1], m[3], m[4], m[2], m[4], m[5];
+    return matrix.cast<double>();
+  }
+
   /** Variance of the normal, summed over its two free directions [rad^2]. */
   [[nodiscard]] float normalVariance() const
   {
