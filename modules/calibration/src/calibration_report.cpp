@@ -246,8 +246,7 @@ std::string describe(const CalibrationTrial& trial)
           : "it is not better than what was given.";
   return mrpt::format(
              "On %.0f s of data that it was not fitted to, the normalised innovations go from %.2f "
-             "to "
-             "%.2f and the map's thickness goes from %.1f to %.1f mm: ",
+             "to %.2f and the map's thickness goes from %.1f to %.1f mm: ",
              trial.seconds, trial.before.innovation(), trial.after.innovation(),
              kMillimetres * trial.before.mapThickness(),
              kMillimetres * trial.after.mapThickness()) +

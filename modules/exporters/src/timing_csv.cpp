@@ -16,11 +16,8 @@ constexpr const char* kTimingHeader =
     "# health: 1 is well, below 0.5 a measure exceeds its limit, 0 lost.\n"
     "stamp_ns,status,points_in,dropped_invalid,dropped_near,dropped_far,"
     "points_downsampled,points_effective,imu_samples,map_points,iterations,converged,at_rest,"
-    "residual_"
-    "rms,"
-    "normalized_innovation,information_min,propagate_ms,deskew_ms,downsample_ms,associate_ms,"
-    "update_ms,"
-    "insert_ms,total_ms,health,health_cause\n";
+    "residual_rms,normalized_innovation,information_min,propagate_ms,deskew_ms,downsample_ms,"
+    "associate_ms,update_ms,insert_ms,total_ms,health,health_cause\n";
 
 std::string counts(const ScanStatistics& s)
 {

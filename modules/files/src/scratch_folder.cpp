@@ -116,8 +116,7 @@ void ScratchFolder::readBytes(const ScratchFile& file, std::initializer_list<Tar
     throw std::runtime_error(
         "cannot read '" + file.path + "' (" + wordsOf(content_).content +
         "): was it removed or changed? Leave the folder alone while the program runs, or allow "
-        "more "
-        "memory (" +
+        "more memory (" +
         wordsOf(content_).option + ")");
 }
 

@@ -104,9 +104,8 @@ void RunDiagnostics::considerStep(const ScanResult& result)
       result.stamp_ns,
       "from here on the inertial sensor is not what it was: the scans contradict it, so its biases "
       "and the offset of the clocks are estimated anew and the covariance is wider. A shock, heat "
-      "or a motor that starts does "
-      "that, and so do clipped readings and a clock that jumps. Or the LiDAR sees what moves with "
-      "it, as in an elevator: then the poses are wrong");
+      "or a motor that starts does that, and so do clipped readings and a clock that jumps. Or the "
+      "LiDAR sees what moves with it, as in an elevator: then the poses are wrong");
 }
 
 /** Smaller than what considerMounting() sees, and after a longer time. */

@@ -97,8 +97,7 @@ OdometryOptionRows measurementRows()
        [](auto& o) -> OptionValue {
          return RealValue{&o.map.output_spacing, 0.01, 100.0};
        },
-       "least distance between the points of the saved map; smaller: denser and larger "
-       "files"},
+       "least distance between the points of the saved map; smaller: denser and larger files"},
       {"map.min_spacing", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.map.min_spacing, 0.001, 10.0};

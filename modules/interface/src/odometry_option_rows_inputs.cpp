@@ -215,8 +215,7 @@ OdometryOptionRows calibrationRows()
       {"calibration.estimate_extrinsic", "",
        [](auto& o) -> OptionValue { return BooleanValue{&o.calibration.estimate_extrinsic}; },
        "true: the pose of the LiDAR in the IMU frame is corrected where the scans show beyond "
-       "doubt "
-       "that it is wrong; smaller errors only widen the covariance",
+       "doubt that it is wrong; smaller errors only widen the covariance",
        OptionTier::Main},
       {"calibration.estimate_time_offset", "",
        [](auto& o) -> OptionValue { return BooleanValue{&o.calibration.estimate_time_offset}; },
@@ -229,8 +228,7 @@ OdometryOptionRows calibrationRows()
          return RealValue{&o.calibration.extrinsic_rotation_std, 0.0, 180.0, kRadPerDeg};
        },
        "uncertainty of the given rotation of the LiDAR, per axis; widens the covariance, and is "
-       "the "
-       "prior of calibration.estimate_extrinsic"},
+       "the prior of calibration.estimate_extrinsic"},
       {"calibration.extrinsic_translation_std", "m",
        [](auto& o) -> OptionValue {
          return RealValue{&o.calibration.extrinsic_translation_std, 0.0, 10.0};

@@ -18,8 +18,7 @@ OptionTable<SimulationSettings> worldRows()
          return IntegerValue{&s.world.session, 0, 1000000};
        },
        "another day in the same world: parked cars, furniture and clutter stand elsewhere, are "
-       "gone "
-       "or are new; 0: the first day"},
+       "gone or are new; 0: the first day"},
       {"world.changes", "",
        [](S& s) -> OptionValue {
          return RealValue{&s.world.changes, 0.0, 1.0};

@@ -177,8 +177,7 @@ RotatingScanPoints pointsOf(const mrpt::obs::CObservationRotatingScan& scan)
       "the rotating scan holds a range image of '" + scan.lidarModel + "' with " +
       std::to_string(scan.rowCount) +
       " rows, whose elevations are not known, and no points; known are VLP-16, HDL-32E and "
-      "HDL-64E. "
-      "Convert it to point clouds with the time of each point");
+      "HDL-64E. Convert it to point clouds with the time of each point");
 }
 
 }  // namespace fastlio

@@ -36,8 +36,7 @@ Rows inputRows()
       {"input.factory_T_imu_lidar", "m, deg",
        [](auto& o) -> OptionValue { return OptionalPoseValue{&o.factory_T_imu_lidar}; },
        "pose of the LiDAR in the frame of its built-in IMU as [x, y, z, yaw, pitch, roll]; used "
-       "only "
-       "where the recording gives neither sensor a pose and input.T_vehicle_imu and "
+       "only where the recording gives neither sensor a pose and input.T_vehicle_imu and "
        "input.T_vehicle_lidar are null; the LiDAR's frame is the vehicle's then"},
       {"input.point_time_unit", "",
        [](auto& o) -> OptionValue {
