@@ -51,17 +51,44 @@ std::string foundAgain(const PoseSearchResult& search)
       100.0 * search.best->inlier_ratio, search.candidates);
 }
 
+/** In one clause. The limit is the least that any map asks for (PoseSearchLimits). */
+std::string whyNotFound(const PoseSearchResult& search)
+{
+  // A rival of this part of the score makes the best place doubtful.
+  constexpr double kNearlyAsGood = 0.8;
+  if (!search.best) return "too few points match at each place that was tried";
+  const PoseCandidate& best = *search.best;
+  const double matching = 100.0 * best.inlier_ratio;
+  const double least = PoseSearchLimits{}.min_inlier_ratio;
+  if (best.inlier_ratio < least)
+    return mrpt::format(
+        "%.0f %% of the points match, at least %.0f %% are needed", matching, 100.0 * least);
+  if (best.innovation > kMaxInnovation)
+    return mrpt::format(
+        "%.0f %% of the points match, but they lie too far from its surfaces", matching);
+  if (search.rival_score >= kNearlyAsGood * best.score)
+    return mrpt::format(
+        "%.0f %% of the points match, but another place fits nearly as well", matching);
+  if (!search.complete)
+    return mrpt::format(
+        "%.0f %% of the points match, but the pose is so uncertain that not every place could be "
+        "tried",
+        matching);
+  return mrpt::format(
+      "%.0f %% of the points match, which is too few for this map, or the place is too far away",
+      matching);
+}
+
 std::string searchFailure(const ScanOutcome& outcome)
 {
   const PoseSearchResult& search = *outcome.search;
   const PoseCandidate best = search.best.value_or(PoseCandidate{});
   return mrpt::format(
-      "none of %zu places within the prediction's uncertainty (%.2f m)%s matches convincingly: the "
-      "best has %.0f %% inliers with a mean z^2/r of %.1f, its rival %.0f %% of its score; %.2f s "
-      "on inertial data alone",
-      search.candidates, outcome.position_std, search.complete ? "" : ", not all of it,",
-      100.0 * best.inlier_ratio, best.innovation,
-      best.score > 0.0 ? 100.0 * search.rival_score / best.score : 0.0, outcome.unaided_s);
+      "the scan does not fit the map near the predicted pose: %s; %.2f s on inertial data alone "
+      "(places tried: %zu, position uncertain by %.2f m, mean z^2/r %.1f, score of the rival "
+      "%.0f %%)",
+      whyNotFound(search).c_str(), outcome.unaided_s, search.candidates, outcome.position_std,
+      best.innovation, best.score > 0.0 ? 100.0 * search.rival_score / best.score : 0.0);
 }
 
 std::string afterOutage(const ScanOutcome& outcome)
@@ -79,9 +106,9 @@ std::string afterOutage(const ScanOutcome& outcome)
 std::string unconvincingMatch(const ScanOutcome& outcome, const ScanStatistics& s)
 {
   return mrpt::format(
-      "%zu of %zu points match the map with a mean z^2/r of %.2f, which is no convincing match; "
-      "the last one was %.2f s ago",
-      s.points_effective, outcome.points, s.normalized_innovation, outcome.unaided_s);
+      "%zu of %zu points match the map, but they lie too far from its surfaces: no convincing "
+      "match; the last one was %.2f s ago (mean z^2/r %.2f)",
+      s.points_effective, outcome.points, outcome.unaided_s, s.normalized_innovation);
 }
 
 std::string bridgedGap(double gap_s, double max_gap)

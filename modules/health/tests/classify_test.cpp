@@ -115,6 +115,32 @@ TEST(Classify, MatchesThatDoNotConvinceForLongAreNamed)
   EXPECT_NE(r.message.find("no convincing match"), std::string::npos) << r.message;
 }
 
+TEST(Classify, AFailedSearchBeginsWithAPlainSentence)
+{
+  ScanOutcome outcome = goodOutcome();
+  outcome.updated = false;
+  PoseSearchResult search;
+  search.candidates = 1;
+  search.best = PoseCandidate{{}, 0.13, 87.8, 10.0};
+  outcome.search = search;
+  const auto message = [&outcome] { return classified(outcome).message; };
+  EXPECT_EQ(
+      message().rfind(
+          "the scan does not fit the map near the predicted pose: 13 % of the points match, at "
+          "least 30 % are needed; ",
+          0),
+      0U)
+      << message();
+  EXPECT_LT(message().find("are needed"), message().find("mean z^2/r 87.8")) << message();
+  outcome.search->best->inlier_ratio = 0.6;
+  EXPECT_NE(message().find("too far from its surfaces"), std::string::npos) << message();
+  outcome.search->best->innovation = 1.0;
+  outcome.search->rival_score = 9.0;
+  EXPECT_NE(message().find("another place fits nearly as well"), std::string::npos) << message();
+  outcome.search->best.reset();
+  EXPECT_NE(message().find("too few points match at each place"), std::string::npos) << message();
+}
+
 TEST(Classify, AnOverflowOfThePredictionDivergesWhateverMatches)
 {
   ScanOutcome outcome = goodOutcome();
