@@ -78,9 +78,12 @@ PlotAxes axesOf(const PlotPanel& panel, const PlotRectangle& inner)
   if (panel.x_range) axes.x = *panel.x_range;
   if (panel.y_range) axes.y = *panel.y_range;
   if (!panel.equal_scales) return axes;
-  const double unit =
-      std::max((axes.x.high - axes.x.low) / inner.width, (axes.y.high - axes.y.low) / inner.height);
-  return {withSpan(axes.x, unit * inner.width), withSpan(axes.y, unit * inner.height), inner};
+  const double unit = std::max(
+      (axes.x.high - axes.x.low) / inner.width,
+      panel.y_stretch * (axes.y.high - axes.y.low) / inner.height);
+  return {
+      withSpan(axes.x, unit * inner.width), withSpan(axes.y, unit * inner.height / panel.y_stretch),
+      inner};
 }
 
 }  // namespace fastlio

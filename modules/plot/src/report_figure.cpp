@@ -13,6 +13,14 @@ std::string htmlText(const std::string& text)
   return escapeXml(printable(text, kLongest));
 }
 
+std::string countText(std::size_t count)
+{
+  std::string text = std::to_string(count);
+  for (std::size_t digits = 3; digits < text.size(); digits += 4)
+    text.insert(text.size() - digits, 1, ',');
+  return text;
+}
+
 std::string figureHtml(
     const PlotPanel& panel, const PlotRectangle& place, const std::string& title,
     const std::vector<LegendEntry>& legend, const std::string& note)

@@ -39,6 +39,7 @@ svg{display:block;width:100%;height:auto;font:12px system-ui,-apple-system,"Sego
 svg text{fill:var(--ink)}
 svg .grid{stroke:var(--grid)}svg .frame{stroke:var(--soft)}
 table{border-collapse:collapse;min-width:min(100%,40rem);max-width:100%;font-size:.9rem}
+th{overflow-wrap:break-word}
 th,td{text-align:left;vertical-align:top;padding:.25rem .6rem .25rem 0;border-bottom:1px solid var(--line)}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .wide{overflow-x:auto}

@@ -46,16 +46,18 @@ std::string gridLine(double x1, double y1, double x2, double y2)
   return out.str();
 }
 
-std::string gridOf(const PlotAxes& a)
+std::string gridOf(const PlotPanel& panel, const PlotAxes& a)
 {
   const PlotRectangle& r = a.inner;
+  const auto ticksOf = [](const std::vector<PlotTick>& given, const PlotRange& range, double room)
+  { return given.empty() ? axisTicks(range, static_cast<int>(room)) : given; };
   std::string out;
-  for (const double v : roundTicks(a.x.low, a.x.high, static_cast<int>(r.width / kPixelsPerXTick)))
-    out += gridLine(a.px(v), r.y, a.px(v), r.y + r.height) +
-           textAt(a.px(v), r.y + r.height + 16.0, tickText(v), "text-anchor='middle'");
-  for (const double v : roundTicks(a.y.low, a.y.high, static_cast<int>(r.height / kPixelsPerYTick)))
-    out += gridLine(r.x, a.py(v), r.x + r.width, a.py(v)) +
-           textAt(r.x - 6.0, a.py(v) + 4.0, tickText(v), "text-anchor='end'");
+  for (const PlotTick& tick : ticksOf(panel.x_ticks, a.x, r.width / kPixelsPerXTick))
+    out += gridLine(a.px(tick.at), r.y, a.px(tick.at), r.y + r.height) +
+           textAt(a.px(tick.at), r.y + r.height + 16.0, tick.text, "text-anchor='middle'");
+  for (const PlotTick& tick : ticksOf(panel.y_ticks, a.y, r.height / kPixelsPerYTick))
+    out += gridLine(r.x, a.py(tick.at), r.x + r.width, a.py(tick.at)) +
+           textAt(r.x - 6.0, a.py(tick.at) + 4.0, tick.text, "text-anchor='end'");
   return out;
 }
 
@@ -130,7 +132,8 @@ std::string stretchOf(const PlotStretch& stretch, const PlotAxes& axes)
   out << "<rect x='" << pixel(from) << "' y='" << r.y << "' width='" << pixel(to - from)
       << "' height='" << r.height << "' style='fill:" << stretch.colour << ";fill-opacity:0.3'>"
       << "<title>" << escapeXml(stretch.title) << "</title></rect>\n";
-  return out.str();
+  if (stretch.label.empty()) return out.str();
+  return out.str() + textAt(from + 4.0, r.y + 14.0, stretch.label, "");
 }
 
 /** Cells of a row that touch become one stroke. */
@@ -143,8 +146,10 @@ std::string cellsOf(const PlotCells& cells, const PlotAxes& axes)
       centres.begin(), centres.end(),
       [](const PlotPoint& a, const PlotPoint& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
   const double size = axes.px(axes.x.low + cells.size) - axes.inner.x;
+  const double height = cells.height > 0.0 ? cells.height : cells.size;
+  const double thickness = axes.py(axes.y.low) - axes.py(axes.y.low + height);
   auto out = classicStream();
-  out << "<path fill='none' stroke-width='" << pixel(size + 0.1)
+  out << "<path fill='none' stroke-width='" << pixel(thickness + 0.1)
       << "' style='stroke:" << cells.colour << ";stroke-opacity:" << cells.opacity << "' d='";
   for (std::size_t i = 0; i < centres.size();)
   {
@@ -217,31 +222,6 @@ std::string frameOf(const PlotRectangle& r)
 }
 }  // namespace
 
-std::string tickText(double value)
-{
-  auto out = classicStream();
-  out << (std::abs(value) < 1e-12 ? 0.0 : value);
-  return out.str();
-}
-
-std::vector<double> roundTicks(double low, double high, int count)
-{
-  const double raw = (high - low) / std::max(count, 1);
-  if (!(raw > 0.0) || !std::isfinite(raw)) return {};
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double mantissa = raw / power;
-  const double step = power * (mantissa <= 1.0   ? 1.0
-                               : mantissa <= 2.0 ? 2.0
-                               : mantissa <= 5.0 ? 5.0
-                                                 : 10.0);
-  const auto first = std::ceil(low / step);
-  const auto steps = static_cast<int>(std::floor(high / step) - first);
-  std::vector<double> ticks;
-  for (int i = 0; i <= steps; ++i)
-    ticks.push_back((first + i) * step);
-  return ticks;
-}
-
 std::string drawPanel(const PlotPanel& panel, const PlotRectangle& place)
 {
   const double top = panel.bare ? kBareTop : kTop;
@@ -251,7 +231,7 @@ std::string drawPanel(const PlotPanel& panel, const PlotRectangle& place)
   std::string out;
   for (const PlotStretch& stretch : panel.stretches)
     out += stretchOf(stretch, axes);
-  out += gridOf(axes) + frameOf(inner) + labelsOf(panel, inner) + legendOf(panel, inner);
+  out += gridOf(panel, axes) + frameOf(inner) + labelsOf(panel, inner) + legendOf(panel, inner);
   for (const PlotCells& cells : panel.cells)
     out += cellsOf(cells, axes);
   for (const PlotBand& band : panel.bands)

@@ -33,4 +33,12 @@ TEST(Figure, HasItsTitleLegendAndRemark)
     EXPECT_NE(html.find(part), std::string::npos) << part << "\n" << html;
   EXPECT_EQ(figureHtml(panel, {0, 0, 4, 2}, "t", {}, "").find("<p>"), std::string::npos);
 }
+
+TEST(ReportFigure, ACountHasItsThousandsApart)
+{
+  EXPECT_EQ(countText(0), "0");
+  EXPECT_EQ(countText(999), "999");
+  EXPECT_EQ(countText(51527), "51,527");
+  EXPECT_EQ(countText(1000000), "1,000,000");
+}
 }  // namespace fastlio

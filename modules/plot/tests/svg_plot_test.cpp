@@ -79,6 +79,46 @@ TEST(Svg, AStretchOfAMomentIsSeen)
   EXPECT_NE(svg.find("<title>&lt;why&gt;</title>"), std::string::npos) << svg;
 }
 
+TEST(Svg, AnAxisHasAtLeastThreeTicks)
+{
+  for (const PlotRange& range : {PlotRange{-7.0, 22.0}, PlotRange{0.4, 1.3}, PlotRange{-3.0, 1.0}})
+    for (const int count : {1, 2, 5})
+      EXPECT_GE(axisTicks(range, count).size(), 3U) << range.low << " " << count;
+  EXPECT_TRUE(axisTicks({1.0, 1.0}, 5).empty());
+}
+
+TEST(Svg, TicksMayBeGivenWithTheirTexts)
+{
+  PlotPanel panel = panelOf({"", "red", {{-2, 0}, {0, 3}}});
+  panel.x_ticks = {{-2, "0.01"}, {-1, "0.1"}, {0, "1"}};
+  panel.y_ticks = {{3, "3 or more"}};
+  const std::string svg = drawPanel(panel, kPlace);
+  EXPECT_NE(svg.find(">0.01<"), std::string::npos) << svg;
+  EXPECT_NE(svg.find(">3 or more<"), std::string::npos) << svg;
+  EXPECT_EQ(svg.find(">-2<"), std::string::npos) << svg;
+}
+
+TEST(Svg, AStretchedAxisHasLongerUnits)
+{
+  PlotPanel panel;
+  panel.bare = panel.equal_scales = true;
+  panel.x_range = PlotRange{0.0, 100.0};
+  panel.y_range = PlotRange{0.0, 2.0};
+  panel.y_stretch = 10.0;
+  panel.cells = {{"red", 1.0, 10.0, {{50.0, 1.0}}, 1.0}};
+  // Inside of the margins there are 324 x 150 pixels.
+  const std::string svg = drawPanel(panel, kPlace);
+  EXPECT_NE(svg.find("stroke-width='32.5'"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("h32.4"), std::string::npos) << svg;
+}
+
+TEST(Svg, AStretchMayHaveALabel)
+{
+  PlotPanel panel = panelOf({"", "red", {{0, 0}, {10, 1}}});
+  panel.stretches = {{5, 10, "blue", "why", "the second run"}};
+  EXPECT_NE(drawPanel(panel, kPlace).find(">the second run</text>"), std::string::npos);
+}
+
 TEST(Svg, AnEmptyPanelHasAxes)
 {
   const std::string svg = drawPanel({}, kPlace);

@@ -6,6 +6,7 @@
 
 #include <fastlio/plot/svg_plot.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct LegendEntry
 
 /** Text of others as part of a page: printable, in full, and escaped. */
 [[nodiscard]] std::string htmlText(const std::string& text);
+
+/** A count with its thousands apart: 51527 -> "51,527". */
+[[nodiscard]] std::string countText(std::size_t count);
 
 /** A plot with its title, its legend and a note below. \param note is HTML */
 [[nodiscard]] std::string figureHtml(
@@ -35,7 +39,7 @@ struct LegendEntry
 struct Page
 {
   std::string title;
-  std::string tone;      //!< "good", "warn" or "bad": colours the headline
+  std::string tone;      //!< "good", "warn" or "bad" colours the headline; empty: neither
   std::string headline;  //!< a sentence
   std::string source;    //!< program, version, input
   std::string content;   //!< HTML; all others are plain text

@@ -43,16 +43,18 @@ struct PlotStretch
 {
   double from = 0.0, to = 0.0;
   std::string colour;
-  std::string title;  //!< shown by browsers where the pointer rests
+  std::string title;       //!< shown by browsers where the pointer rests
+  std::string label = {};  //!< written at its top
 };
 
-/** Squares of one colour, for instance of a map; those that touch in a row become one. */
+/** Cells of one colour, for instance of a map; those that touch in a row become one. */
 struct PlotCells
 {
   std::string colour;
   double opacity = 1.0;
-  double size = 1.0;  //!< edge, in the unit of the axes
+  double size = 1.0;  //!< width, in the unit of the axes
   std::vector<PlotPoint> centres;
+  double height = 0.0;  //!< likewise; 0: as the width
 };
 
 /** A dot with a name beside it. */
@@ -68,11 +70,18 @@ struct PlotRange
   double low = 0.0, high = 0.0;
 };
 
+/** A value of an axis with its text. */
+struct PlotTick
+{
+  double at = 0.0;
+  std::string text;
+};
+
 struct PlotPanel
 {
   std::string title, x_label, y_label;  //!< labels with units
   std::vector<PlotSeries> series;
-  bool equal_scales = false;  //!< one unit is as long on x as on y
+  bool equal_scales = false;  //!< one unit is as long on x as on y, but for y_stretch
   bool from_zero = false;     //!< the y axis starts at 0
   std::vector<PlotBand> bands = {};
   std::vector<PlotStretch> stretches = {};
@@ -81,6 +90,9 @@ struct PlotPanel
   std::optional<PlotRange> x_range = {};  //!< instead of that of the data
   std::optional<PlotRange> y_range = {};  //!< likewise
   bool bare = false;                      //!< without title and legend
+  double y_stretch = 1.0;  //!< with equal scales: one unit is so many times as long on y as on x
+  std::vector<PlotTick> x_ticks = {};  //!< instead of round numbers
+  std::vector<PlotTick> y_ticks = {};  //!< likewise
 };
 
 /** Place on the page, axes' labels included [px]. */
@@ -104,5 +116,8 @@ struct PlotRectangle
 
 /** A number as axes show it: at most six digits. */
 [[nodiscard]] std::string tickText(double value);
+
+/** At least three round numbers where there is room for \a count, with their texts. */
+[[nodiscard]] std::vector<PlotTick> axisTicks(const PlotRange& range, int count);
 
 }  // namespace fastlio
