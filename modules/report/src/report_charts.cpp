@@ -88,9 +88,9 @@ const std::vector<ChartSpec>& runCharts()
        "[count]",
        "Before range limits and downsampling.",
        {{"", "var(--s1)", kPointsInChannel}}},
-      {"Points in the map",
-       "[count]",
-       "Of the map that scans are matched with.",
+      {"Size of the matching map",
+       "[points]",
+       "Points in the map that scans are matched with; the saved map is another one.",
        {{"", "var(--s1)", kMapPointsChannel}}},
   };
   return charts;

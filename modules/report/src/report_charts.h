@@ -41,9 +41,6 @@ constexpr double kSigmas = 3.0;
 [[nodiscard]] std::string errorCharts(
     const ReferenceFindings& findings, const ReportSeries& series);
 
-/** Both views of path and map. */
-[[nodiscard]] std::string mapFigures(const MapViews& views);
-
 /** The colour of a cause as CSS: a variable of the page. */
 [[nodiscard]] std::string causeColour(HealthCause cause);
 

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "view_grid.h"
 #include <fastlio/files/failure_text.h>
 #include <fastlio/report/report_map.h>
 
@@ -13,14 +14,10 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::array<const char*, 7> kHeightColours = {"#3b6fd4", "#2aa0c9", "#2fa86f", "#8fb53a",
-                                                       "#d9a91f", "#e8832b", "#d3452c"};
-// The more points a cell holds, the more of it is seen: walls stand out from floors.
-constexpr std::array<double, 3> kOpacities = {0.35, 0.65, 1.0};
-constexpr double kPixelsPerCell = 2.5;
-constexpr double kInnerWidth = 400.0, kInnerHeight = 340.0;  // [px], about
-constexpr double kFarthestPose = 1e8;                        // [m]: nothing is there
-constexpr std::size_t kSample = 20000;                       // points that determine the extent
+constexpr double kFarthestPose = 1e8;     // [m]: nothing is there
+constexpr std::size_t kSample = 20000;    // points that determine the extent
+constexpr double kLowestView = 110.0;     // [px]
+constexpr double kSmallPath = 1.0 / 3.0;  // of the view: the path gets a view of its own
 
 /** Some points of the map, at even distances. */
 struct MapSample
@@ -49,8 +46,8 @@ MapSample sampleOf(const OutputMap& map)
   return sample;
 }
 
-/** Nearly all points and the whole path: a few echoes from afar do not decide. */
-PlotRange rangeOf(const std::vector<float>& sorted, const std::vector<Vec3>& path, int axis)
+/** Nearly all points, and the lines as a whole: a few echoes from afar do not decide. */
+PlotRange rangeOf(const std::vector<float>& sorted, const MapOverlay& overlay, int axis)
 {
   constexpr double kLeftOut = 0.005;
   PlotRange range{1e300, -1e300};
@@ -60,122 +57,109 @@ PlotRange rangeOf(const std::vector<float>& sorted, const std::vector<Vec3>& pat
     range.low = static_cast<double>(sorted[static_cast<std::size_t>(kLeftOut * last)]);
     range.high = static_cast<double>(sorted[static_cast<std::size_t>((1.0 - kLeftOut) * last)]);
   }
-  for (const Vec3& p : path)
-  {
-    if (!p.allFinite()) continue;
-    range.low = std::min(range.low, p[axis]);
-    range.high = std::max(range.high, p[axis]);
-  }
+  for (const MapLine& line : overlay.lines)
+    for (const Vec3& p : line.points)
+    {
+      if (!p.allFinite()) continue;
+      range.low = std::min(range.low, p[axis]);
+      range.high = std::max(range.high, p[axis]);
+    }
   if (range.low > range.high) return {0.0, 1.0};
   const double margin = std::max(0.03 * (range.high - range.low), 0.5);
   return {range.low - margin, range.high + margin};
 }
 
-/** Cells of one view, row by row: their number is that of the view's pixels, whatever the map. */
-struct ViewGrid
+double spanOf(const PlotRange& range)
 {
-  struct Cell
-  {
-    double height = 0.0;  //!< sum
-    std::size_t count = 0;
-  };
-
-  PlotRange x, y;
-  double size;  //!< edge of a cell [m]
-  std::size_t columns;
-  std::vector<Cell> cells;
-
-  ViewGrid(const PlotRange& across, const PlotRange& up)
-      : x(across),
-        y(up),
-        size(
-            kPixelsPerCell *
-            std::max((x.high - x.low) / kInnerWidth, (y.high - y.low) / kInnerHeight)),
-        columns(indexOf(x.high - x.low) + 1),
-        cells(columns * (indexOf(y.high - y.low) + 1))
-  {
-  }
-
-  [[nodiscard]] std::size_t indexOf(double distance) const
-  {
-    return static_cast<std::size_t>(distance / size);
-  }
-
-  void add(double across, double up, double height)
-  {
-    if (!(across >= x.low && across <= x.high && up >= y.low && up <= y.high)) return;
-    Cell& cell = cells[indexOf(up - y.low) * columns + indexOf(across - x.low)];
-    cell.height += height;
-    ++cell.count;
-  }
-
-  [[nodiscard]] PlotPoint centreOf(std::size_t cell) const
-  {
-    const std::size_t row = cell / columns, column = cell % columns;
-    return {
-        x.low + (static_cast<double>(column) + 0.5) * size,
-        y.low + (static_cast<double>(row) + 0.5) * size};
-  }
-};
-
-std::size_t classOf(double value, double low, double high, std::size_t classes)
-{
-  if (!(high > low)) return 0;
-  const double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return std::min(classes - 1, static_cast<std::size_t>(share * static_cast<double>(classes)));
+  return range.high - range.low;
 }
 
-/** Counts that two fifths and four fifths of the cells do not exceed. */
-std::array<std::size_t, 2> crowdLimits(const ViewGrid& grid)
+PlotRange widened(const PlotRange& range, double span)
 {
-  std::vector<std::size_t> counts;
-  for (const ViewGrid::Cell& cell : grid.cells)
-    if (cell.count > 0) counts.push_back(cell.count);
-  if (counts.empty()) return {};
-  std::sort(counts.begin(), counts.end());
-  return {counts[2 * (counts.size() - 1) / 5], counts[4 * (counts.size() - 1) / 5]};
+  const double more = 0.5 * std::max(0.0, span - spanOf(range));
+  return {range.low - more, range.high + more};
 }
 
-std::vector<PlotCells> cellsOfView(const ViewGrid& grid, const PlotRange& heights)
+/** A view of the lines alone, where they are small beside the map. */
+std::optional<ViewGrid> closeGrid(const MapOverlay& overlay, const ViewGrid& top)
 {
-  const auto limits = crowdLimits(grid);
-  std::vector<PlotCells> groups;
-  for (const char* colour : kHeightColours)
-    for (const double opacity : kOpacities)
-      groups.push_back({colour, opacity, grid.size, {}});
-  for (std::size_t i = 0; i < grid.cells.size(); ++i)
-  {
-    const ViewGrid::Cell& cell = grid.cells[i];
-    if (cell.count == 0) continue;
-    const double height = cell.height / static_cast<double>(cell.count);
-    const std::size_t colour = classOf(height, heights.low, heights.high, kHeightColours.size());
-    const std::size_t crowd = cell.count > limits[1] ? 2 : cell.count > limits[0] ? 1 : 0;
-    groups[colour * kOpacities.size() + crowd].centres.push_back(grid.centreOf(i));
-  }
-  return groups;
+  constexpr double kMargin = 1.3;  // room around
+  constexpr double kLeast = 2.0;   // [m]
+  const PlotRange x = rangeOf({}, overlay, 0), y = rangeOf({}, overlay, 1);
+  const double view = std::max(spanOf(top.across()), spanOf(top.up()));
+  const bool has_path = std::any_of(
+      overlay.lines.begin(), overlay.lines.end(),
+      [](const MapLine& line)
+      {
+        return std::any_of(
+            line.points.begin(), line.points.end(), [](const Vec3& p) { return p.allFinite(); });
+      });
+  if (!has_path || std::max(spanOf(x), spanOf(y)) > kSmallPath * view) return {};
+  // As high as other views may be: the surroundings fill what the path leaves.
+  const double across =
+      std::max({kLeast, kMargin * spanOf(x), kMargin * spanOf(y) * kViewWidth / kViewHeight});
+  // So near, points are farther apart than cells of the usual size.
+  constexpr double kPixelsPerCloseCell = 2.0 * kPixelsPerCell;
+  return ViewGrid(
+      widened(x, across), widened(y, across * kViewHeight / kViewWidth), 1.0, kPixelsPerCloseCell);
 }
 
-PlotPanel viewOf(const ViewGrid& grid, const std::vector<Vec3>& path, int across, int up)
+/** How many times as long heights have to be drawn so that they can be read: 1, 2, 5, 10, ... */
+double stretchOf(const PlotRange& across, const PlotRange& up)
+{
+  double power = 1.0;
+  const double height = kViewWidth * spanOf(up) / spanOf(across);
+  for (int i = 0; i < 4; ++i, power *= 10.0)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (power * step * height >= kLowestView) return power * step;
+  return power;
+}
+
+PlotPanel viewOf(
+    const ViewGrid& grid, const MapOverlay& overlay, int across, int up, const PlotRange& heights)
 {
   PlotPanel panel;
   panel.bare = panel.equal_scales = true;
-  panel.x_range = grid.x;
-  panel.y_range = grid.y;
-  PlotSeries line{"path", "var(--path)", {}, 2.0};
-  for (const Vec3& p : path)
-    line.points.push_back({p[across], p[up]});
-  panel.series = {line};
-  if (path.empty()) return panel;
-  panel.marks = {{line.points.front(), "start", "var(--path)"}};
+  panel.x_range = grid.across();
+  panel.y_range = grid.up();
+  panel.y_stretch = grid.stretch();
+  panel.cells = grid.cells(heights);
+  for (const MapLine& line : overlay.lines)
+  {
+    PlotSeries& drawn =
+        panel.series.emplace_back(PlotSeries{line.name, line.colour, {}, line.width});
+    for (const Vec3& p : line.points)
+      drawn.points.push_back({p[across], p[up]});
+  }
+  for (const MapMark& mark : overlay.marks)
+    panel.marks.push_back({{mark.at[across], mark.at[up]}, mark.name, mark.colour});
+  constexpr std::array<const char*, 3> kAxes = {"x [m]", "y [m]", "z [m]"};
+  panel.x_label = kAxes.at(static_cast<std::size_t>(across));
+  panel.y_label = kAxes.at(static_cast<std::size_t>(up));
   return panel;
 }
 
+/** Counted from the origin of the map. */
+MapOverlay relativeTo(const Vec3& origin, MapOverlay overlay)
+{
+  const auto take = [&origin](Vec3& p)
+  {
+    p -= origin;
+    if (!(p.cwiseAbs().maxCoeff() < kFarthestPose)) p.setConstant(std::nan(""));
+  };
+  for (MapLine& line : overlay.lines)
+    std::for_each(line.points.begin(), line.points.end(), take);
+  for (MapMark& mark : overlay.marks)
+    take(mark.at);
+  return overlay;
+}
+
 /** Short bars along the translations that scans left open. */
-PlotSeries openBars(const ReportSeries& series, const Vec3& origin, const ViewGrid& grid)
+PlotSeries openBars(const ReportSeries& series, const Vec3& origin, const PlotRange& across)
 {
   constexpr double kBar = 0.02;          // of the view
   constexpr std::size_t kMostBars = 40;  // more of them hide the path
-  const double length = kBar * (grid.x.high - grid.x.low);
+  const double length = kBar * spanOf(across);
   const double gap = std::nan("");
   PlotSeries bars{"degenerate direction", "var(--warn)", {}, 2.5};
   std::vector<ReportBin> open;
@@ -193,16 +177,6 @@ PlotSeries openBars(const ReportSeries& series, const Vec3& origin, const ViewGr
   return bars;
 }
 
-std::vector<Vec3> relativePath(const ReportSeries& series, const Vec3& origin)
-{
-  std::vector<Vec3> path;
-  for (const Vec3& p : series.path())
-    path.emplace_back(
-        (p - origin).cwiseAbs().maxCoeff() < kFarthestPose ? Vec3(p - origin)
-                                                           : Vec3::Constant(std::nan("")));
-  return path;
-}
-
 /** The heights that get colours. */
 PlotRange heightsOf(const std::vector<float>& sorted)
 {
@@ -211,12 +185,13 @@ PlotRange heightsOf(const std::vector<float>& sorted)
   return {static_cast<double>(sorted[last / 50]), static_cast<double>(sorted[last - last / 50])};
 }
 
-struct BothGrids
+struct Grids
 {
   ViewGrid top, side;
+  std::optional<ViewGrid> close;
 };
 
-void fillGrids(BothGrids& grids, const OutputMap& map, bool side_along_x)
+void fillGrids(Grids& grids, const OutputMap& map, bool side_along_x)
 {
   map.forEachTile(
       [&](const OutputPoints& points)
@@ -227,6 +202,7 @@ void fillGrids(BothGrids& grids, const OutputMap& map, bool side_along_x)
                      z = static_cast<double>(points.z[i]);
           grids.top.add(x, y, z);
           grids.side.add(side_along_x ? x : y, z, z);
+          if (grids.close) grids.close->add(x, y, z);
         }
       });
 }
@@ -246,47 +222,52 @@ std::string problemOf(const Step& step)
   }
 }
 
-void nameAxes(MapViews& views)
-{
-  views.top.x_label = "x [m]";
-  views.top.y_label = "y [m]";
-  views.side.x_label = views.side_axis + " [m]";
-  views.side.y_label = "z [m]";
-}
 }  // namespace
 
 PlotRectangle placeOf(const PlotPanel& view)
 {
-  constexpr double kWidth = 480.0, kMargin = 50.0, kLowest = 110.0;
-  const double up = view.y_range->high - view.y_range->low;
-  const double across = view.x_range->high - view.x_range->low;
-  const double height = std::clamp(kInnerWidth * up / across, kLowest, kInnerHeight);
+  constexpr double kWidth = 480.0, kMargin = 50.0;
+  const double up = view.y_stretch * spanOf(*view.y_range);
+  const double height =
+      std::clamp(kViewWidth * up / spanOf(*view.x_range), kLowestView, kViewHeight);
   return {0.0, 0.0, kWidth, std::round(kMargin + height)};
 }
 
-MapViews mapViewsOf(const ReportSeries& series, const OutputMap& map)
+MapViews mapViewsOf(const MapOverlay& overlay, const OutputMap& map)
 {
   MapViews views;
-  const std::vector<Vec3> path = relativePath(series, map.origin());
+  const MapOverlay drawn = relativeTo(map.origin(), overlay);
   MapSample sample;
   views.problem = problemOf([&] { sample = sampleOf(map); });
-  const PlotRange x = rangeOf(sample.xyz[0], path, 0), y = rangeOf(sample.xyz[1], path, 1),
-                  z = rangeOf(sample.xyz[2], path, 2);
-  const bool along_x = x.high - x.low >= y.high - y.low;
-  BothGrids grids{{x, y}, {along_x ? x : y, z}};
+  const PlotRange x = rangeOf(sample.xyz[0], drawn, 0), y = rangeOf(sample.xyz[1], drawn, 1),
+                  z = rangeOf(sample.xyz[2], drawn, 2);
+  const bool along_x = spanOf(x) >= spanOf(y);
+  const PlotRange& along = along_x ? x : y;
+  Grids grids{{x, y}, {along, z, stretchOf(along, z)}, {}};
+  grids.close = closeGrid(drawn, grids.top);
   if (views.problem.empty()) views.problem = problemOf([&] { fillGrids(grids, map, along_x); });
   const PlotRange heights = heightsOf(sample.xyz[2]);
-  views.top = viewOf(grids.top, path, 0, 1);
-  views.side = viewOf(grids.side, path, along_x ? 0 : 1, 2);
-  views.top.cells = cellsOfView(grids.top, heights);
-  views.side.cells = cellsOfView(grids.side, heights);
-  views.top.series.push_back(openBars(series, map.origin(), grids.top));
+  views.top = viewOf(grids.top, drawn, 0, 1, heights);
+  views.side = viewOf(grids.side, drawn, along_x ? 0 : 1, 2, heights);
+  if (grids.close) views.close = viewOf(*grids.close, drawn, 0, 1, heights);
   views.side_axis = along_x ? "x" : "y";
-  nameAxes(views);
   views.lowest = heights.low;
   views.highest = heights.high;
   views.points = map.size();
   views.height_colours.assign(kHeightColours.begin(), kHeightColours.end());
+  return views;
+}
+
+MapViews mapViewsOf(const ReportSeries& series, const OutputMap& map)
+{
+  const std::vector<Vec3> path = series.path();
+  MapOverlay overlay;
+  overlay.lines = {{"path", "var(--path)", path}};
+  if (!path.empty()) overlay.marks = {{"start", "var(--path)", path.front()}};
+  MapViews views = mapViewsOf(overlay, map);
+  views.top.series.push_back(openBars(series, map.origin(), *views.top.x_range));
+  if (views.close)
+    views.close->series.push_back(openBars(series, map.origin(), *views.close->x_range));
   return views;
 }
 

@@ -1,30 +1,53 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "report_charts.h"
 #include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
+#include <fastlio/report/report_map.h>
+
+#include <algorithm>
 
 namespace fastlio
 {
+namespace
+{
+/** The lines that are drawn, and the colours of the heights. */
+std::vector<LegendEntry> legendOf(const MapViews& views, const PlotPanel& panel)
+{
+  std::vector<LegendEntry> legend;
+  for (const PlotSeries& line : panel.series)
+    if (!line.points.empty()) legend.push_back({line.name, line.colour});
+  if (views.points == 0 || views.height_colours.empty()) return legend;
+  legend.push_back({"low, " + fixedText(views.lowest, 1) + " m", views.height_colours.front()});
+  legend.push_back({"high, " + fixedText(views.highest, 1) + " m", views.height_colours.back()});
+  return legend;
+}
+
+std::string figureOf(
+    const MapViews& views, const PlotPanel& panel, const std::string& title,
+    const std::string& note)
+{
+  return figureHtml(panel, placeOf(panel), title, legendOf(views, panel), note);
+}
+}  // namespace
+
 std::string mapFigures(const MapViews& views)
 {
-  std::vector<LegendEntry> legend{{"path", "var(--path)"}};
-  if (views.points > 0 && !views.height_colours.empty())
-  {
-    legend.push_back({"low, " + fixedText(views.lowest, 1) + " m", views.height_colours.front()});
-    legend.push_back({"high, " + fixedText(views.highest, 1) + " m", views.height_colours.back()});
-  }
-  std::vector<LegendEntry> top_legend = legend;
-  if (views.top.series.size() > 1 && !views.top.series[1].points.empty())
-    top_legend.push_back({"degenerate direction", "var(--warn)"});
-  std::string note = std::to_string(views.points) + " points of the map, coloured by height.";
+  std::string note =
+      "The saved map has " + countText(views.points) + " points. Colours show the height.";
   if (!views.problem.empty()) note = "The map is not complete: " + htmlText(views.problem);
-  return figureHtml(views.top, placeOf(views.top), "From above", top_legend, note) +
-         figureHtml(
-             views.side, placeOf(views.side), "From the side", legend,
-             "Along " + std::string(views.side_axis == "x" ? "y" : "x") +
-                 "; the denser the points, the stronger the colour.");
+  const std::string seen_along = views.side_axis == "x" ? "y" : "x";
+  std::string side_note =
+      "Seen along " + seen_along + ". Where points are denser, the colour is stronger.";
+  if (views.side.y_stretch > 1.0)
+    side_note += " Heights are drawn " + fixedText(views.side.y_stretch, 0) +
+                 " times as large as distances along " + views.side_axis + ".";
+  return figureOf(views, views.top, "From above", note) +
+         (views.close ? figureOf(
+                            views, *views.close, "From above, the path closer",
+                            "The same map around the path.")
+                      : "") +
+         figureOf(views, views.side, "From the side", side_note);
 }
 
 }  // namespace fastlio

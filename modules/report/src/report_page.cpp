@@ -139,8 +139,8 @@ std::string referenceHtml(const ReferenceFindings& findings)
            "</p>\n";
   const EvaluationReport& r = *findings.report;
   std::string html =
-      "<p>" + file + ": " + std::to_string(r.association.used) + " of " +
-      std::to_string(r.association.estimated) + " poses have a reference, " +
+      "<p>" + file + ": " + countText(r.association.used) + " of " +
+      countText(r.association.estimated) + " poses have a reference, " +
       fixedText(100.0 * r.association.coverage, 1) +
       " % of its time. Alignment of APE: " + toString(r.options.alignment) +
       "; errors over time are relative to the first pose. Both are taken as poses of the "

@@ -53,27 +53,26 @@ std::string degenerateText(const DegenerateDirections& open)
 {
   if (open.scans == 0) return "none";
   const Vec3& axis = open.weakest.axis;
-  return std::to_string(open.scans) + " scans; the weakest is a " +
+  return countText(open.scans) + " scans; the weakest is a " +
          (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
          fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) + "]";
 }
 
 std::string pointsText(const PointTotals& points)
 {
-  std::string text = std::to_string(points.in) + " delivered, " +
-                     std::to_string(points.downsampled) + " after downsampling, " +
-                     std::to_string(points.effective) + " matched";
+  std::string text = countText(points.in) + " delivered, " + countText(points.downsampled) +
+                     " after downsampling, " + countText(points.effective) + " matched";
   if (points.own_body > 0)
-    text += "; " + std::to_string(points.own_body) + " on the LiDAR's own carrier, left out";
+    text += "; " + countText(points.own_body) + " on the LiDAR's own carrier, left out";
   return text;
 }
 
 std::string imuText(const ImuReport& imu)
 {
   return fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
-         toString(imu.gyro_unit) + "; gaps: " + std::to_string(imu.gaps) +
-         ", samples missing: " + std::to_string(imu.missing) +
-         ", clipped: " + std::to_string(imu.saturated) + ", spikes: " + std::to_string(imu.spikes);
+         toString(imu.gyro_unit) + "; gaps: " + countText(imu.gaps) +
+         ", samples missing: " + countText(imu.missing) + ", clipped: " + countText(imu.saturated) +
+         ", spikes: " + countText(imu.spikes);
 }
 
 std::string vectorText(const Vec3& v, const Vec3& sigma, int decimals)
@@ -96,14 +95,12 @@ std::string factsHtml(const RunSummary& run)
        {"Time", fixedText(s.duration(), 3) + " s, from " + secondsText(s.beginNs()) + " to " +
                     secondsText(s.endNs())},
        {"Scans", htmlText(scanCountsText(s))},
-       {"Poses",
-        std::to_string(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
+       {"Poses", countText(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
        {"Path", fixedText(s.pathLength(), 3) + " m"},
        {"Points", pointsText(s.points())},
        {"Health", "mean " + fixedText(s.health().mean(), 3) + ", worst " +
-                      fixedText(s.health().worst(), 3) + "; " +
-                      std::to_string(s.health().troubled()) + " of " +
-                      std::to_string(s.health().scans()) + " scans in trouble"},
+                      fixedText(s.health().worst(), 3) + "; " + countText(s.health().troubled()) +
+                      " of " + countText(s.health().scans()) + " scans in trouble"},
        {"Degenerate directions", htmlText(degenerateText(s.degenerateDirections()))},
        {"Inertial data", htmlText(imuText(run.imu))}});
 }
@@ -117,7 +114,7 @@ std::string untrustedHtml(const RunHealth& health)
   for (const UntrustedStretch& s : stretches)
     items.push_back(
         "<b>" + fixedText(s.begin_s, 1) + " to " + fixedText(s.end_s, 1) + " s</b> (" +
-        std::to_string(s.scans) + " scans), " + causeLink(s.cause) + ": " + htmlText(s.reason));
+        countText(s.scans) + " scans), " + causeLink(s.cause) + ": " + htmlText(s.reason));
   return listOfHtml(items, "untrusted.csv");
 }
 
@@ -131,7 +128,7 @@ std::string lossesHtml(const RunSummary& run)
   std::vector<TableRow> rows;
   rows.reserve(lost.size());
   for (const NamedCount& count : lost)
-    rows.push_back({count.name, std::to_string(count.count)});
+    rows.push_back({count.name, countText(count.count)});
   return tableOf(rows);
 }
 
@@ -139,7 +136,7 @@ std::string sensorsHtml(const RunSummary& run)
 {
   std::vector<std::string> files;
   for (const InputFile& file : run.inputs)
-    files.push_back(file.path + " (" + std::to_string(file.bytes) + " bytes)");
+    files.push_back(file.path + " (" + countText(file.bytes) + " bytes)");
   return "<h3>Recording</h3>\n" + listOf(files) + "<h3>Sensors and poses</h3>\n" +
          listOf(run.sensors);
 }

@@ -95,11 +95,11 @@ RunVerdict ofHealth(const RunStatistics& statistics)
   if (!stretches.empty())
     return {
         "warn", "Do not rely on " + untrustedTime(stretches, statistics.duration()) + ".", details};
-  const std::string scans = std::to_string(health.scans()) + " scans";
+  const std::string scans = countText(health.scans()) + " scans";
   if (first)
     return {
         "good",
-        "The run can be trusted: of " + scans + ", " + std::to_string(health.troubled()) +
+        "The run can be trusted: of " + scans + ", " + countText(health.troubled()) +
             " were in trouble, none of them for long.",
         details};
   return {"good", "The run can be trusted: none of " + scans + " was in trouble.", ""};

@@ -33,8 +33,17 @@ TEST(ReportHtml, AGoodRunIsSaidToBeGood)
   expectGoodPage(html);
   EXPECT_TRUE(has(html, "The run can be trusted: none of 50 scans was in trouble.")) << html;
   EXPECT_TRUE(has(html, "<header class=\"good\">"));
-  EXPECT_TRUE(has(html, "5000 points of the map"));
+  EXPECT_TRUE(has(html, "The saved map has 5,000 points."));
   EXPECT_TRUE(has(html, "Nothing was dropped."));
+}
+
+/** The map of these reports is 2.5 km long and 5 m high, the walk is 5 m long. */
+TEST(ReportHtml, ASmallPathHasAViewOfItsOwnAndLowHeightsAreStretched)
+{
+  const std::string html = reportOf(walk(50));
+  EXPECT_TRUE(has(html, "<b>From above, the path closer</b>")) << html;
+  EXPECT_TRUE(has(html, "Heights are drawn 200 times as large as distances along x.")) << html;
+  EXPECT_FALSE(has(reportOf({}), "the path closer"));
 }
 
 TEST(ReportHtml, ABadStretchIsNamedWithItsFirstSecondAndWhatToTry)
@@ -219,7 +228,7 @@ TEST(ReportHtml, ALongRunIsNoLargePage)
   const std::string html = reportOf(walk(30'000));
   expectGoodPage(html);
   EXPECT_LT(html.size(), 3'000'000U);
-  EXPECT_TRUE(has(html, "none of 30000 scans"));
+  EXPECT_TRUE(has(html, "none of 30,000 scans"));
 }
 
 TEST(ReportHtml, WithoutTheMapTheRestIsThere)
