@@ -165,19 +165,31 @@ std::string cellsOf(const PlotCells& cells, const PlotAxes& axes)
   return out.str();
 }
 
-std::string markOf(const PlotMark& mark, const PlotAxes& axes)
+/** The dots with their names. Names that would lie on each other go one below the other. */
+std::string marksOf(const std::vector<PlotMark>& marks, const PlotAxes& axes)
 {
-  if (!isFinite(mark.at)) return {};
-  constexpr double kRoom = 70.0;  // [px] for the name
-  const double x = axes.px(mark.at.x), y = axes.py(mark.at.y);
-  const bool left = x > axes.inner.x + axes.inner.width - kRoom;
+  constexpr double kRoom = 70.0, kLine = 14.0;  // [px] for a name
+  std::vector<PlotPoint> names;
   auto out = classicStream();
-  out << "<circle cx='" << pixel(x) << "' cy='" << pixel(y) << "' r='4' style='fill:" << mark.colour
-      << "'/>\n";
-  return out.str() +
-         textAt(
-             left ? x - 7.0 : x + 7.0, y - 5.0, mark.name,
-             std::string(left ? "text-anchor='end'" : "") + " style='fill:" + mark.colour + "'");
+  for (const PlotMark& mark : marks)
+  {
+    if (!isFinite(mark.at)) continue;
+    const double x = axes.px(mark.at.x), y = axes.py(mark.at.y);
+    out << "<circle cx='" << pixel(x) << "' cy='" << pixel(y)
+        << "' r='4' style='fill:" << mark.colour << "'/>\n";
+    if (mark.name.empty()) continue;
+    const bool left = x > axes.inner.x + axes.inner.width - kRoom;
+    PlotPoint at{left ? x - 7.0 : x + 7.0, y - 5.0};
+    const auto covers = [&at](const PlotPoint& other)
+    { return std::abs(other.x - at.x) < kRoom && std::abs(other.y - at.y) < kLine - 1.0; };
+    while (std::any_of(names.begin(), names.end(), covers))
+      at.y += kLine;
+    names.push_back(at);
+    out << textAt(
+        at.x, at.y, mark.name,
+        std::string(left ? "text-anchor='end'" : "") + " style='fill:" + mark.colour + "'");
+  }
+  return out.str();
 }
 
 std::string labelsOf(const PlotPanel& panel, const PlotRectangle& inner)
@@ -238,9 +250,7 @@ std::string drawPanel(const PlotPanel& panel, const PlotRectangle& place)
     out += polygonsOf(band, axes);
   for (const PlotSeries& series : panel.series)
     out += polylinesOf(series, axes);
-  for (const PlotMark& mark : panel.marks)
-    out += markOf(mark, axes);
-  return out;
+  return out + marksOf(panel.marks, axes);
 }
 
 std::string escapeXml(const std::string& text)

@@ -119,6 +119,21 @@ TEST(Svg, AStretchMayHaveALabel)
   EXPECT_NE(drawPanel(panel, kPlace).find(">the second run</text>"), std::string::npos);
 }
 
+TEST(Svg, NamesOfMarksAtOnePlaceLieBelowEachOther)
+{
+  PlotPanel panel = panelOf({"", "red", {{0, 0}, {10, 10}}});
+  panel.marks = {{{1, 1}, "one", "red"}, {{1, 1}, "two", "red"}, {{1, 1}, "", "red"}};
+  const std::string svg = drawPanel(panel, kPlace);
+  const auto heightOf = [&svg](const std::string& name)
+  {
+    const auto end = svg.find(">" + name + "<");
+    const auto begin = svg.rfind("y='", end) + 3;
+    return std::stod(svg.substr(begin, svg.find('\'', begin) - begin));
+  };
+  EXPECT_NEAR(heightOf("two") - heightOf("one"), 14.0, 0.2) << svg;
+  EXPECT_EQ(countOf(svg, "<circle"), 3U);
+}
+
 TEST(Svg, AnEmptyPanelHasAxes)
 {
   const std::string svg = drawPanel({}, kPlace);
