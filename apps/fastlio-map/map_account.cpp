@@ -46,13 +46,15 @@ MapAccount accountOf(
       std::nullopt,
       std::move(agreeing),
       walls,
-      outputs.points(),
+      outputs.map().size(),
       std::nullopt,
       std::move(notes),
       outputs.files(),
       std::move(problems),
       0.0,
-      status};
+      status,
+      &outputs.map(),
+      outputs.mapProblem()};
 }
 
 }  // namespace fastlio

@@ -102,7 +102,7 @@ bool MapFiles::wants(const std::string& kind) const
 
 bool MapFiles::wantsMap() const
 {
-  const std::vector<std::string> kinds = {"ply", "pcd", "text", "las", "metricmap"};
+  const std::vector<std::string> kinds = {"ply", "pcd", "text", "las", "metricmap", "report"};
   return std::any_of(
       kinds.begin(), kinds.end(), [this](const std::string& kind) { return wants(kind); });
 }
@@ -203,7 +203,8 @@ void MapOutputs::take(const PlacedScan& scan)
   }
   catch (const std::exception& e)
   {
-    of_map_.giveUpMap(failureText(e));
+    map_problem_ = failureText(e);
+    of_map_.giveUpMap(map_problem_);
   }
 }
 

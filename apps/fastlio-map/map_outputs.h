@@ -76,7 +76,9 @@ class MapOutputs
 
   [[nodiscard]] const std::vector<OutputFile>& files() const { return written_; }
   [[nodiscard]] const std::vector<std::string>& problems() const { return problems_; }
-  [[nodiscard]] std::size_t points() const { return map_.size(); }
+  [[nodiscard]] const OutputMap& map() const { return map_; }
+  /** Why some points of the map are missing; empty: none are. */
+  [[nodiscard]] const std::string& mapProblem() const { return map_problem_; }
 
  private:
   void take(const PlacedScan& scan);
@@ -90,6 +92,7 @@ class MapOutputs
   ExporterSet of_map_;
   std::vector<OutputFile> written_;
   std::vector<std::string> problems_;
+  std::string map_problem_;
 };
 
 }  // namespace fastlio

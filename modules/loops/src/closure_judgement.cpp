@@ -122,9 +122,9 @@ void Mapper::judge(Closure& closure) const
     return decide(
         ClosureVerdict::OutOfReach,
         mrpt::format(
-            "%.2f m from where the odometry has it: %.1f of its standard deviations, counted %g "
-            "times; at most %.1f",
-            moved, deviation, limits.odometry_std_factor, limits.max_deviation));
+            "%.2f m from where the odometry has it: %.1f standard deviations, at most %.1f are "
+            "allowed (a standard deviation here is %g times that of the odometry)",
+            moved, deviation, limits.max_deviation, limits.odometry_std_factor));
   decide(
       ClosureVerdict::Accepted,
       mrpt::format(

@@ -22,6 +22,17 @@ bool isInterrupted(const PassHooks& hooks)
   return hooks.interrupted && hooks.interrupted();
 }
 
+/** Enough of them for a drawing. */
+std::vector<PathPose> pathOf(const std::vector<TrackedPose>& poses)
+{
+  constexpr std::size_t kMost = 4000;
+  const std::size_t stride = poses.size() / kMost + 1;
+  std::vector<PathPose> path;
+  for (std::size_t i = 0; i < poses.size(); i += stride)
+    path.push_back({poses[i].stamp_ns, poses[i].T_world_body});
+  return path;
+}
+
 /** The odometry over one session into submaps. */
 SessionOutcome addSession(
     const Session& session, std::size_t number, SubmapBuilder submaps, Mapper& mapper,
@@ -43,6 +54,7 @@ SessionOutcome addSession(
   outcome.pass = session.run(
       use, progressOf(hooks, session.name() + ": odometry"),
       [&submaps](const ImuSample& sample) { submaps.addImu(sample); });
+  outcome.path = pathOf(track.poses());
   if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
   if (calibration) mapper.setExtrinsicMoment(number, extrinsicMoment(*calibration));
   return outcome;

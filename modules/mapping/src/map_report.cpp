@@ -1,206 +1,18 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/mapping/map_report.h>
-#include <fastlio/math/time.h>
+#include "map_figures.h"
+#include <fastlio/math/statistics.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
 #include <fastlio/submaps/registration.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace fastlio
 {
 namespace
 {
-constexpr PlotRectangle kWide{0, 0, 640, 420}, kFlat{0, 0, 640, 260};
-const char* const kBefore = "var(--s2)";
-const char* const kAfter = "var(--s1)";
-const char* const kAccepted = "var(--good)";
-const char* const kRejected = "var(--bad)";
-
-using Coordinate = double (*)(const Vec3&);
-double xOf(const Vec3& p)
-{
-  return p.x();
-}
-double yOf(const Vec3& p)
-{
-  return p.y();
-}
-
-const Pose& odometryPose(const MappingResult& r, std::size_t i)
-{
-  return r.submaps.at(i).reference.T_world_body;
-}
-
-/** Paths of the sessions, broken between them. */
-std::vector<PlotPoint> pathOf(
-    const MappingResult& r, bool corrected, Coordinate horizontal, Coordinate vertical)
-{
-  std::vector<PlotPoint> points;
-  for (std::size_t i = 0; i < r.submaps.size(); ++i)
-  {
-    if (i > 0 && r.submaps[i].session != r.submaps[i - 1].session)
-      points.push_back({std::nan(""), std::nan("")});
-    const Vec3& p = corrected ? r.estimate.nodes.at(i).p : odometryPose(r, i).p;
-    points.push_back({horizontal(p), vertical(p)});
-  }
-  return points;
-}
-
-std::vector<PlotPoint> linksOf(const MappingResult& r, bool accepted)
-{
-  std::vector<PlotPoint> points;
-  for (const Closure& closure : r.closures)
-  {
-    if ((closure.verdict == ClosureVerdict::Accepted) != accepted) continue;
-    for (const std::size_t end : {closure.a, closure.b})
-      points.push_back({r.estimate.nodes.at(end).p.x(), r.estimate.nodes.at(end).p.y()});
-    points.push_back({std::nan(""), std::nan("")});
-  }
-  return points;
-}
-
-std::string topFigure(const MappingResult& r)
-{
-  PlotPanel panel;
-  panel.x_label = "x [m]";
-  panel.y_label = "y [m]";
-  panel.equal_scales = true;
-  panel.bare = true;
-  panel.series = {
-      {"odometry", kBefore, pathOf(r, false, xOf, yOf)},
-      {"corrected", kAfter, pathOf(r, true, xOf, yOf)},
-      {"rejected", kRejected, linksOf(r, false), 1.0},
-      {"accepted", kAccepted, linksOf(r, true), 2.5}};
-  return figureHtml(
-      panel, kWide, "From above",
-      {{"odometry", kBefore},
-       {"corrected", kAfter},
-       {"closure", kAccepted},
-       {"rejected", kRejected}},
-      "Each closure joins the two submaps that show the same place.");
-}
-
-std::string heightFigure(const MappingResult& r)
-{
-  PlotPanel panel;
-  panel.x_label = "submap";
-  panel.y_label = "z [m]";
-  panel.bare = true;
-  PlotSeries before{"odometry", kBefore, {}}, after{"corrected", kAfter, {}};
-  PlotBand band{"color-mix(in srgb, var(--s1) 25%, transparent)", {}};
-  for (std::size_t i = 0; i < r.submaps.size(); ++i)
-  {
-    const auto at = static_cast<double>(i);
-    const double z = r.estimate.nodes.at(i).p.z();
-    const double std = std::sqrt(std::max(0.0, r.estimate.covariances.at(i)(5, 5)));
-    before.points.push_back({at, odometryPose(r, i).p.z()});
-    after.points.push_back({at, z});
-    band.intervals.push_back({at, z - 3.0 * std, z + 3.0 * std});
-  }
-  panel.series = {before, after};
-  panel.bands = {band};
-  return figureHtml(
-      panel, kFlat, "Height", {{"odometry", kBefore}, {"corrected, 3 sigma", kAfter}}, "");
-}
-
-std::string correctionFigure(const MappingResult& r)
-{
-  PlotPanel panel;
-  panel.x_label = "submap";
-  panel.y_label = "[m]";
-  panel.bare = true;
-  PlotSeries horizontal{"horizontal", "var(--s1)", {}}, vertical{"vertical", "var(--s3)", {}};
-  for (std::size_t i = 0; i < r.submaps.size(); ++i)
-  {
-    const Vec3 moved = r.estimate.nodes.at(i).p - odometryPose(r, i).p;
-    horizontal.points.push_back({static_cast<double>(i), moved.head<2>().norm()});
-    vertical.points.push_back({static_cast<double>(i), moved.z()});
-  }
-  panel.series = {horizontal, vertical};
-  return figureHtml(
-      panel, kFlat, "Correction", {{"horizontal", "var(--s1)"}, {"vertical", "var(--s3)"}},
-      "How far each submap moved from where the odometry had it.");
-}
-
-std::string apartFigure(const MapAccount& account)
-{
-  PlotPanel panel;
-  panel.x_label = "closure";
-  panel.y_label = "[m]";
-  panel.from_zero = true;
-  panel.bare = true;
-  PlotSeries before{"before", kBefore, {}}, after{"after", kAfter, {}};
-  for (const ClosureAgreement& one : account.agreements)
-  {
-    if (one.before) before.points.push_back({static_cast<double>(one.closure), *one.before});
-    after.points.push_back({static_cast<double>(one.closure), one.after});
-  }
-  panel.series = {before, after};
-  return figureHtml(
-      panel, kFlat, "Surfaces seen twice", {{"before", kBefore}, {"after", kAfter}},
-      "Median distance between the surfaces of both passes, across the surface.");
-}
-
-/** Walls of a submap as cells from above, near a place. */
-PlotCells wallsOf(
-    const Submap& submap, const Pose& T_world_submap, const Vec3& center, const std::string& colour)
-{
-  constexpr double kReach = 15.0, kUpright = 0.3;
-  PlotCells cells{colour, 0.8, 0.12, {}};
-  const auto surfaces = submap.surfaces.get();
-  for (const VoxelPlane& plane : surfaces->planes)
-  {
-    const Vec3 n = T_world_submap.R * Eigen::Vector3f(plane.nx, plane.ny, plane.nz).cast<double>();
-    const Vec3 q =
-        T_world_submap * Vec3(Eigen::Vector3f(plane.qx, plane.qy, plane.qz).cast<double>());
-    if (std::abs(n.z()) > kUpright || (q - center).head<2>().norm() > kReach) continue;
-    // A short stroke along the wall.
-    const Vec3 along = Vec3(-n.y(), n.x(), 0.0).normalized();
-    for (const double way : {-0.3, -0.15, 0.0, 0.15, 0.3})
-      cells.centres.push_back({q.x() + way * along.x(), q.y() + way * along.y()});
-  }
-  return cells;
-}
-
-/** The walls around the closure that moved most, before or after. */
-std::string wallsFigure(const MappingResult& r, const Closure& closure, bool corrected)
-{
-  const auto poseOf = [&](std::size_t i)
-  { return corrected ? r.estimate.nodes.at(i) : odometryPose(r, i); };
-  const Vec3 center = poseOf(closure.a).p;
-  PlotPanel panel;
-  panel.x_label = "x [m]";
-  panel.y_label = "y [m]";
-  panel.equal_scales = true;
-  panel.bare = true;
-  panel.cells = {
-      wallsOf(r.submaps.at(closure.a), poseOf(closure.a), center, "var(--s1)"),
-      wallsOf(r.submaps.at(closure.b), poseOf(closure.b), center, "var(--s2)")};
-  panel.x_range = PlotRange{center.x() - 15.0, center.x() + 15.0};
-  panel.y_range = PlotRange{center.y() - 11.0, center.y() + 11.0};
-  return figureHtml(
-      panel, kWide, corrected ? "Walls, corrected" : "Walls, odometry",
-      {{"submap " + std::to_string(closure.a), "var(--s1)"},
-       {"submap " + std::to_string(closure.b), "var(--s2)"}},
-      "Upright surfaces that both passes saw, from above.");
-}
-
-std::string wallFigures(const MapAccount& account)
-{
-  if (account.agreements.empty()) return {};
-  // An empty value is the least.
-  const auto worst = std::max_element(
-      account.agreements.begin(), account.agreements.end(),
-      [](const ClosureAgreement& a, const ClosureAgreement& b) { return a.before < b.before; });
-  const MappingResult& r = account.map.result;
-  const Closure& closure = r.closures.at(worst->closure);
-  return (worst->before ? wallsFigure(r, closure, false) : "") + wallsFigure(r, closure, true);
-}
-
 std::string row(const std::vector<std::string>& cells)
 {
   std::string html = "<tr>";
@@ -209,16 +21,44 @@ std::string row(const std::vector<std::string>& cells)
   return html + "</tr>\n";
 }
 
+/** For people; toString() is for programs. */
+const char* wordsOf(ClosureVerdict verdict)
+{
+  switch (verdict)
+  {
+    case ClosureVerdict::Accepted:
+      return "accepted";
+    case ClosureVerdict::FewPlanes:
+      return "too few surfaces";
+    case ClosureVerdict::LittleOverlap:
+      return "little in common";
+    case ClosureVerdict::PoorFit:
+      return "the surfaces do not fit";
+    case ClosureVerdict::Ambiguous:
+      return "two places fit";
+    case ClosureVerdict::OutOfReach:
+      return "too far from the odometry";
+    case ClosureVerdict::Uninformative:
+      return "a direction stays open";
+    case ClosureVerdict::Contradicted:
+      return "the other loops contradict it";
+  }
+  return toString(verdict);
+}
+
 std::string closureTable(const MappingResult& r)
 {
   std::string rows;
-  for (const Closure& closure : r.closures)
+  for (std::size_t i = 0; i < r.closures.size(); ++i)
+  {
+    const Closure& closure = r.closures[i];
     rows += row(
-        {std::to_string(closure.a), std::to_string(closure.b), toString(closure.verdict),
-         closure.reason});
+        {std::to_string(i), std::to_string(closure.a), std::to_string(closure.b),
+         wordsOf(closure.verdict), closure.reason});
+  }
   if (rows.empty()) return "<p>No two submaps came near each other.</p>\n";
-  return "<div "
-         "class=\"wide\"><table>\n<tr><th>a</th><th>b</th><th>verdict</th><th>why</th></tr>\n" +
+  return "<div class=\"wide\"><table>\n<tr><th>number</th><th>submap A</th><th>submap B</th>"
+         "<th>verdict</th><th>why</th></tr>\n" +
          rows + "</table></div>\n";
 }
 
@@ -245,7 +85,25 @@ std::string sessionTable(const BuiltMap& map)
          rows + "</table></div>\n";
 }
 
+bool isWhole(const MappingResult& r)
+{
+  return std::all_of(
+      r.anchors.begin(), r.anchors.end(), [](const SessionAnchor& anchor) { return anchor.found; });
+}
 }  // namespace
+
+Pose odometryPose(const MappingResult& result, std::size_t submap)
+{
+  const Submap& one = result.submaps.at(submap);
+  const Pose& pose = one.reference.T_world_body;
+  if (one.session >= result.anchors.size()) return pose;
+  return result.anchors[one.session].T_world_session * pose;
+}
+
+Vec3 correctionOf(const MappingResult& result, std::size_t submap)
+{
+  return result.estimate.nodes.at(submap).p - odometryPose(result, submap).p;
+}
 
 std::vector<ClosureAgreement> agreements(const MappingResult& r)
 {
@@ -271,25 +129,46 @@ std::vector<ClosureAgreement> agreements(const MappingResult& r)
   return all;
 }
 
+std::string mapHeadline(const MapAccount& account)
+{
+  const MappingResult& r = account.map.result;
+  const std::string part = isWhole(r) ? "" : " A session is missing in the map: see below.";
+  const std::size_t closed = r.accepted();
+  if (closed == 0 && r.corrected)
+    return "No loop found: GNSS or wheel odometry corrected the map." + part;
+  if (closed == 0) return "No loop found: the map is that of the odometry." + part;
+  std::string consistent;
+  if (!account.agreements.empty())
+  {
+    std::vector<double> apart;
+    for (const ClosureAgreement& one : account.agreements)
+      apart.push_back(one.after);
+    consistent =
+        "; the map is consistent to " + fixedText(1e3 * median(std::move(apart)), 0) + " mm";
+  }
+  return countText(closed) + (closed == 1 ? " loop" : " loops") + " closed" + consistent + "." +
+         part;
+}
+
 std::string mapReportHtml(const MapAccount& account)
 {
   const MappingResult& r = account.map.result;
   const bool good = account.status == ExitStatus::Ok;
+  const char* const tone = !good ? "warn" : r.accepted() > 0 ? "good" : "";
   std::string notes;
   for (const std::string& note : account.notes)
     notes += "<p class=\"note\">" + htmlText(note) + "</p>\n";
   std::string inputs;
   for (const std::string& input : account.inputs)
     inputs += (inputs.empty() ? "" : ", ") + input;
+  const std::string map = mapSectionHtml(account);
   return pageHtml(
-      {"Map: " + inputs, good ? "good" : "warn", mapSentence(account) + ".",
+      {"Map: " + inputs, tone, mapHeadline(account),
        "fastlio-map " + account.version + ", " + inputs + "; status " + toString(account.status),
-       sectionHtml("Sessions", sessionTable(account.map) + notes) +
-           sectionHtml(
-               "Before and after", "<div class=\"grid-of\">\n" + topFigure(r) + heightFigure(r) +
-                                       (r.corrected ? correctionFigure(r) : "") +
-                                       (account.agreements.empty() ? "" : apartFigure(account)) +
-                                       wallFigures(account) + "</div>\n") +
+       "<p>" + htmlText(mapSentence(account)) + ".</p>\n" +
+           sectionHtml("Sessions", sessionTable(account.map) + notes) +
+           (map.empty() ? "" : sectionHtml("Trajectory and map", map)) +
+           sectionHtml("Before and after", beforeAndAfterHtml(account)) +
            sectionHtml("Closures", closureTable(r))});
 }
 

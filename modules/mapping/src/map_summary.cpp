@@ -212,17 +212,11 @@ MapJson placeJson(const std::optional<Georeference>& place)
       {"control_points", residuals}};
 }
 
-/** From where the odometry has the submaps, in a session that was placed: from its place. */
 double largestMove(const MappingResult& result)
 {
   double largest = 0.0;
   for (std::size_t i = 0; i < result.submaps.size(); ++i)
-  {
-    const Submap& submap = result.submaps[i];
-    const Vec3 odometry =
-        result.anchors.at(submap.session).T_world_session * submap.reference.T_world_body.p;
-    largest = std::max(largest, (result.estimate.nodes.at(i).p - odometry).norm());
-  }
+    largest = std::max(largest, correctionOf(result, i).norm());
   return largest;
 }
 }  // namespace

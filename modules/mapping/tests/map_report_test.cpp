@@ -48,4 +48,120 @@ TEST(ClosureAgreement, IsNotKnownOfSurfacesThatAreLost)
   EXPECT_TRUE(agreements(result).empty());
 }
 
+/** Two sessions of a submap each; the second one lies 10 m further. Its loop moves it by 0.1 m. */
+BuiltMap twoSessions()
+{
+  BuiltMap map;
+  map.result = twoSubmaps();
+  MappingResult& r = map.result;
+  r.submaps[1].session = 1;
+  r.anchors.resize(2);
+  r.anchors[0].found = r.anchors[1].found = true;
+  r.anchors[1].T_world_session.p = {10.0, 0.0, 0.0};
+  r.estimate.nodes[1].p = {10.0, 0.1, 0.0};
+  r.estimate.covariances.assign(2, Matrix6::Zero());
+  r.corrected = true;
+  map.sessions.resize(2);
+  map.sessions[0].name = "monday";
+  map.sessions[1].name = "tuesday";
+  for (SessionOutcome& session : map.sessions)
+    session.path = {{0, Pose{}}, {1, Pose{Mat3::Identity(), {1.0, 0.0, 0.0}}}};
+  return map;
+}
+
+MapAccount accountOf(const BuiltMap& map)
+{
+  MapAccount account{"1", {"a.rawlog"}, "defaults",     map,     {}, {}, {}, 0, {}, {}, {},
+                     {},  0.0,          ExitStatus::Ok, nullptr, {}};
+  account.agreements = agreements(map.result);
+  return account;
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/** The part of a page that a figure takes. */
+std::string figureOf(const std::string& html, const std::string& title)
+{
+  const auto begin = html.find("<b>" + title + "</b>");
+  if (begin == std::string::npos) return {};
+  return html.substr(begin, html.find("</figure>", begin) - begin);
+}
+
+/** The way from one session's world to the map is no correction. */
+TEST(MapReport, ACorrectionIsCountedFromThePlaceOfTheSession)
+{
+  const BuiltMap map = twoSessions();
+  EXPECT_NEAR(correctionOf(map.result, 1).norm(), 0.1, 1e-12);
+  const MapAccount account = accountOf(map);
+  EXPECT_TRUE(has(mapSentence(account), "moved by up to 0.100 m")) << mapSentence(account);
+  const std::string figure = figureOf(mapReportHtml(account), "Correction");
+  EXPECT_TRUE(has(figure, ">0.1<")) << figure;
+  EXPECT_FALSE(has(figure, ">10<")) << figure;
+}
+
+TEST(MapReport, TheHeadlineIsShort)
+{
+  BuiltMap map = twoSessions();
+  EXPECT_EQ(mapHeadline(accountOf(map)), "1 loop closed; the map is consistent to 0 mm.");
+  EXPECT_TRUE(has(mapReportHtml(accountOf(map)), "<header class=\"good\">"));
+  map.result.anchors[1].found = false;
+  EXPECT_TRUE(has(mapHeadline(accountOf(map)), "A session is missing"));
+  map.result.anchors[1].found = true;
+  map.result.closures[0].verdict = ClosureVerdict::OutOfReach;
+  map.result.corrected = false;
+  const std::string html = mapReportHtml(accountOf(map));
+  EXPECT_TRUE(has(html, "No loop found: the map is that of the odometry.")) << html;
+  EXPECT_TRUE(has(html, "<header class=\"\">"));
+}
+
+TEST(MapReport, ClosuresAreToldInWords)
+{
+  BuiltMap map = twoSessions();
+  map.result.closures[0].verdict = ClosureVerdict::OutOfReach;
+  const std::string html = mapReportHtml(accountOf(map));
+  EXPECT_TRUE(has(html, "<th>submap A</th><th>submap B</th>")) << html;
+  EXPECT_TRUE(has(html, "<td>too far from the odometry</td>"));
+  EXPECT_FALSE(has(html, "out_of_reach"));
+}
+
+TEST(MapReport, SessionsAreToldApart)
+{
+  const std::string html = mapReportHtml(accountOf(twoSessions()));
+  for (const char* title : {"Height", "Correction"})
+    EXPECT_TRUE(has(figureOf(html, title), ">tuesday</text>")) << figureOf(html, title);
+  EXPECT_TRUE(has(figureOf(html, "Paths from above"), ">start of tuesday</text>"));
+  // Both sessions have nothing before.
+  EXPECT_FALSE(has(figureOf(html, "Surfaces seen twice"), "odometry</span>"));
+}
+
+/** Points of the map and all poses, not the places of the submaps alone. */
+TEST(MapReport, ShowsTheMapWithTheWholePath)
+{
+  const BuiltMap map = twoSessions();
+  OutputMap points;
+  OutputPoints wall;
+  for (int i = 0; i < 1000; ++i)
+  {
+    wall.x.push_back(0.02F * static_cast<float>(i));
+    wall.y.push_back(5.0F);
+    wall.z.push_back(0.002F * static_cast<float>(i));
+    wall.intensity.push_back(0.0F);
+    wall.stamp_ns.push_back(0);
+  }
+  points.insert(wall);
+  MapAccount account = accountOf(map);
+  EXPECT_FALSE(has(mapReportHtml(account), "Trajectory and map"));
+  account.points_map = &points;
+  const std::string html = mapReportHtml(account);
+  const std::string figure = figureOf(html, "From above");
+  EXPECT_TRUE(has(figure, "<path ")) << html;
+  EXPECT_TRUE(has(figure, "path of tuesday")) << figure;
+  EXPECT_TRUE(has(figure, "The saved map has ")) << figure;
+  account.points_problem = "the disk is full";
+  EXPECT_TRUE(has(mapReportHtml(account), "The map is not complete: the disk is full"));
+}
+
 }  // namespace fastlio

@@ -14,6 +14,7 @@
 #include <fastlio/run/output_map.h>
 #include <fastlio/run/run_statistics.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,6 +22,13 @@
 
 namespace fastlio
 {
+/** A pose of the odometry. */
+struct PathPose
+{
+  std::int64_t stamp_ns = 0;
+  Pose T_world_imu;
+};
+
 /** What the first pass met in a session. */
 struct SessionOutcome
 {
@@ -30,6 +38,7 @@ struct SessionOutcome
   SessionPass pass;
   std::size_t fixes = 0;              //!< of GNSS
   std::vector<std::string> problems;  //!< of GNSS and wheel odometry
+  std::vector<PathPose> path;         //!< of the odometry; of a long run, some of its poses
 };
 
 /** A built map, without its points. */

@@ -17,6 +17,13 @@
 
 namespace fastlio
 {
+/** Where the odometry has a submap, in the world of the map. The odometry of a session has a world
+ * of its own; the session takes its place in the map from SessionAnchor. */
+[[nodiscard]] Pose odometryPose(const MappingResult& result, std::size_t submap);
+
+/** How far a submap moved from there [m]. */
+[[nodiscard]] Vec3 correctionOf(const MappingResult& result, std::size_t submap);
+
 /** How well two passes over the same surfaces agree: the median distance across planes of the one
  * submap from those of the other. */
 struct ClosureAgreement
@@ -47,16 +54,21 @@ struct MapAccount
   std::vector<std::string> output_problems;
   double wall_seconds = 0.0;
   ExitStatus status = ExitStatus::Ok;
+  const OutputMap* points_map = nullptr;  //!< for the page; null: without its points
+  std::string points_problem;             //!< why some of its points are missing
 };
 
 /** One sentence: what came out. */
 [[nodiscard]] std::string mapSentence(const MapAccount& account);
 
+/** One short sentence: whether loops were closed, and how well the map agrees with itself. */
+[[nodiscard]] std::string mapHeadline(const MapAccount& account);
+
 /** `summary.json`. */
 [[nodiscard]] std::string mapSummaryJson(const MapAccount& account);
 
-/** `report.html`: the path before and after, closures and why others were rejected, walls that were
- * seen twice. Opens without a network. */
+/** `report.html`: the map, the path before and after, closures and why others were rejected, walls
+ * that were seen twice. Opens without a network. */
 [[nodiscard]] std::string mapReportHtml(const MapAccount& account);
 
 }  // namespace fastlio
