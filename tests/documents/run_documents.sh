@@ -70,6 +70,7 @@ make_files() {
   cp walk.gt.tum ground_truth.tum
   mkdir -p params && cp "$source_dir"/params/*.yaml params/
   awk '/^       ( )*[a-z_]+:/ { print substr($0, 8) }' "$source_dir/docs/tuning.md" >space.yaml
+  awk '/^    name,map_x/ { rows = 1 } rows && !NF { exit } rows { print substr($0, 5) }' "$source_dir/docs/georeferencing.md" >points.csv
   cp params/velodyne_vlp16.yaml my.yaml
   local run
   for run in run_a run_b walk-run; do
