@@ -4,6 +4,7 @@
 #include "tuning_report.h"
 
 #include "tuning_text.h"
+#include <fastlio/config/config.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
 
@@ -23,6 +24,7 @@ constexpr PlotRectangle kHalf{0, 0, 440, 280};
 constexpr double kHighestRatio = 3.0;
 constexpr const char* kEach = "var(--s1)";
 constexpr const char* kBest = "var(--s2)";
+constexpr const char* kBeyond = "var(--soft)";
 
 /** Mean ratio of each set; nothing where a run was lost or failed. */
 std::vector<double> ratiosOf(const SearchInputs& inputs, const TuningResult& result)
@@ -48,6 +50,25 @@ PlotPanel ratioPanel(const std::string& x_label)
   return panel;
 }
 
+/** A set's error. Beyond the axis it is drawn at its end, and the axis says so. */
+void addRatio(PlotPanel& panel, double x, double ratio, const char* colour)
+{
+  const bool beyond = ratio > kHighestRatio;
+  panel.marks.push_back({{x, std::min(ratio, kHighestRatio)}, "", beyond ? kBeyond : colour});
+  if (!beyond || panel.y_range) return;
+  panel.y_range = PlotRange{0.0, 1.05 * kHighestRatio};
+  for (double at = 0.0; at < kHighestRatio; at += 1.0)
+    panel.y_ticks.push_back({at, tickText(at)});
+  panel.y_ticks.push_back({kHighestRatio, "\u2265 " + tickText(kHighestRatio)});
+}
+
+std::vector<LegendEntry> legendOf(const PlotPanel& panel, std::vector<LegendEntry> legend)
+{
+  if (panel.y_range)
+    legend.push_back({fixedText(kHighestRatio, 0) + " or more, drawn at the top", kBeyond});
+  return legend;
+}
+
 std::string courseFigure(const std::vector<double>& ratios)
 {
   PlotPanel panel = ratioPanel("parameter set, in the order of the search");
@@ -62,18 +83,20 @@ std::string courseFigure(const std::vector<double>& ratios)
       ++lost;
       continue;
     }
-    panel.marks.push_back({{at, std::min(ratios[i], kHighestRatio)}, "", kEach});
+    addRatio(panel, at, ratios[i], kEach);
     least = std::min(least, ratios[i]);
     best.points.push_back({at, std::min(least, kHighestRatio)});
   }
   panel.series = {best};
   return figureHtml(
-      panel, kWide, "Course of the search", {{"a set", kEach}, {"best so far", kBest}},
-      "Geometric means over the recordings; larger ones than " + fixedText(kHighestRatio, 0) +
-          " are drawn there. Set 0 is the base, set 1 has the defaults of the searched keys." +
-          (lost == 0
-               ? ""
-               : " Sets with a lost or failed run are left out: " + std::to_string(lost) + "."));
+      panel, kWide, "Course of the search",
+      legendOf(panel, {{"a set", kEach}, {"best so far", kBest}}),
+      "Geometric means over the recordings. Set 0 is the base, set 1 has the defaults of the "
+      "searched keys." +
+          std::string(
+              lost == 0
+                  ? ""
+                  : " Sets with a lost or failed run are left out: " + std::to_string(lost) + "."));
 }
 
 /** A number, or the place in the list of a value that is none. */
@@ -93,24 +116,68 @@ bool isNumber(const std::string& value)
   return end != value.c_str() && *end == '\0';
 }
 
+/** " [m]", or nothing. */
+std::string unitOf(const std::string& key)
+{
+  const auto* row = findOption(configTable(), key);
+  return row == nullptr || row->unit.empty() ? "" : " [" + std::string(row->unit) + "]";
+}
+
+/** 1, 2 and 5 times the powers of ten, where there is room; at their logarithms. */
+std::vector<PlotTick> logarithmicTicks(const SearchKey& key)
+{
+  constexpr std::size_t kMost = 6;
+  const auto ticksOf = [&key](const std::vector<double>& steps)
+  {
+    std::vector<PlotTick> ticks;
+    for (double power = std::pow(10.0, std::floor(std::log10(key.min))); power <= key.max;
+         power *= 10.0)
+      for (const double step : steps)
+        if (const double value = power * step;
+            value >= (1.0 - 1e-9) * key.min && value <= (1.0 + 1e-9) * key.max)
+          ticks.push_back({std::log10(value), tickText(value)});
+    return ticks;
+  };
+  const std::vector<PlotTick> all = ticksOf({1.0, 2.0, 5.0});
+  return all.size() <= kMost ? all : ticksOf({1.0});
+}
+
+/** Texts for an axis whose places are no values themselves. */
+std::vector<PlotTick> ticksOf(const SearchKey& key)
+{
+  std::vector<PlotTick> ticks;
+  if (key.values.empty()) return key.logarithmic ? logarithmicTicks(key) : ticks;
+  if (std::all_of(key.values.begin(), key.values.end(), isNumber)) return ticks;
+  for (std::size_t v = 0; v < key.values.size(); ++v)
+    ticks.push_back({static_cast<double>(v), key.values[v]});
+  return ticks;
+}
+
 std::string keyFigure(
     const SearchInputs& inputs, const TuningResult& result, const std::vector<double>& ratios,
     std::size_t k)
 {
   const SearchKey& key = inputs.space[k];
-  const bool numbers = std::all_of(key.values.begin(), key.values.end(), isNumber);
-  PlotPanel panel = ratioPanel((key.logarithmic ? "log10 of " : "") + key.key);
+  PlotPanel panel =
+      ratioPanel(key.key + unitOf(key.key) + (key.logarithmic ? ", logarithmic" : ""));
+  panel.x_ticks = ticksOf(key);
+  // The base and the defaults may lie beside the range.
+  const bool is_scale = key.values.empty() && key.logarithmic;
+  PlotRange range{0.0, 0.0};
+  if (is_scale) range = {std::log10(key.min), std::log10(key.max)};
   for (std::size_t i = 0; i < ratios.size(); ++i)
   {
     if (std::isnan(ratios[i])) continue;
     const double x = numberOf(key, result.trials.sets[i].values[k]);
-    const bool is_best = i == result.best;
-    panel.marks.push_back({{x, std::min(ratios[i], kHighestRatio)}, "", is_best ? kBest : kEach});
+    if (std::isfinite(x)) range = {std::min(range.low, x), std::max(range.high, x)};
+    addRatio(panel, x, ratios[i], i == result.best ? kBest : kEach);
   }
-  std::string note;
-  for (std::size_t v = 0; !numbers && v < key.values.size(); ++v)
-    note += (v == 0 ? "" : ", ") + std::to_string(v) + ": " + htmlText(key.values[v]);
-  return figureHtml(panel, kHalf, key.key, {{"a set", kEach}, {"the best", kBest}}, note);
+  const double margin = 0.03 * (range.high - range.low);
+  if (is_scale) panel.x_range = PlotRange{range.low - margin, range.high + margin};
+  if (!panel.x_ticks.empty() && !is_scale && range.high >= static_cast<double>(key.values.size()))
+    panel.x_ticks.push_back({static_cast<double>(key.values.size()), "other"});
+  return figureHtml(
+      panel, kHalf, key.key, legendOf(panel, {{"a set", kEach}, {"the best", kBest}}), "");
 }
 
 std::string inOneLine(std::string text)
@@ -162,8 +229,8 @@ std::string keysTable(const SearchInputs& inputs, const TuningResult& result)
         levels += (levels.empty() ? "" : ", ") + level.values + ": " +
                   (std::isfinite(level.mean_ratio) ? fixedText(level.mean_ratio, 2) : "lost");
     }
-    rows += "<tr>" + cell(name) + cell(before[k]) + cell(after[k]) + cell(size) + cell(levels) +
-            "</tr>\n";
+    rows += "<tr>" + cell(name + unitOf(name)) + cell(before[k]) + cell(after[k]) + cell(size) +
+            cell(levels) + "</tr>\n";
   }
   return "<div class=\"wide\"><table>\n<tr><th>key</th><th>base</th><th>best</th>"
          "<th>effect</th><th>errors per values</th></tr>\n" +

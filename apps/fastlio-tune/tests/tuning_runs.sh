@@ -53,6 +53,8 @@ grep -q '<h1>Better parameters: tuned.yaml</h1>' tuned.html || fail 'tuned.html 
 [ "$(grep -c '<tr><td>[abc].rawlog</td>' tuned.html)" -eq 3 ] || fail 'tuned.html lacks a recording'
 [ "$(grep -c '<svg ' tuned.html)" -eq 3 ] || fail 'tuned.html: a figure per key, and the search'
 [ "$(grep -c '<circle' tuned.html)" -ge 10 ] || fail 'tuned.html lacks sets'
+grep -q '>lidar.time_offset \[s\]<' tuned.html || fail 'tuned.html: an axis has no unit'
+! grep -q 'log10' tuned.html || fail 'tuned.html: an axis shows logarithms instead of values'
 ! grep -qE 'NaN|nan|inf' tuned.html || fail 'tuned.html has no numbers'
 error() { # CONFIG: RMSE [m] on a.rawlog
   "$replay" a.rawlog -c "$1" -o run --overwrite -q --export trajectory 2>log || [ $? -eq 6 ]
