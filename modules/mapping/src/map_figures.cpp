@@ -112,7 +112,9 @@ std::string topFigure(const BuiltMap& map)
     if (!series.points.empty()) legend.push_back({series.name, series.colour});
   return figureHtml(
       panel, kWideFigure, "Paths from above", legend,
-      "Each closure joins the two submaps that show the same place." +
+      std::string(
+          r.closures.empty() ? ""
+                             : "Each closure joins the two submaps that show the same place.") +
           ofSessions(
               map, " A session after the first one is drawn where it was found in the map."));
 }
