@@ -5,12 +5,18 @@
 #include "yaml_text.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/config/yaml_file.h>
+#include <fastlio/files/input_file.h>
 #include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 namespace fastlio
 {
@@ -170,6 +176,21 @@ int lineOf(std::string_view key, const yaml& document)
   return std::max(1, node->marks.line + 1);
 }
 
+/** Why nothing came out of a file. */
+std::string emptyText(const std::string& path)
+{
+  std::error_code ignored;
+  const auto type = std::filesystem::status(path, ignored).type();
+  // What comes through a pipe is read once, which is enough here.
+  const bool is_stream =
+      type == std::filesystem::file_type::fifo || type == std::filesystem::file_type::character;
+  const auto problem = is_stream ? std::nullopt : inputFileProblem(path);
+  if (!problem) return "is empty; it must hold 'group:' lines with 'name: value' lines below";
+  const bool says_so = problem->rfind("cannot", 0) == 0;
+  return says_so ? *problem : "cannot be read: it " + *problem;
+}
+
+/** \exception std::exception without the name of the file */
 std::string fileText(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
@@ -178,26 +199,25 @@ std::string fileText(const std::string& path)
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kLargestYaml)
     throw std::invalid_argument(
-        path + ": is larger than " + std::to_string(kLargestYaml >> 20U) +
+        "is larger than " + std::to_string(kLargestYaml >> 20U) +
         " MiB and so no parameter file; a recording is given to --input-rawlog");
-  if (text.empty())
-    throw std::runtime_error(
-        path +
-        ": cannot be read as a parameter file; check that it exists, is a file with content and "
-        "may be read");
+  if (text.empty()) throw std::runtime_error(emptyText(path));
   return text;
 }
 
 YamlText parsedFile(const std::string& path)
 {
-  const std::string text = fileText(path);
   try
   {
-    return parseYaml(text);
+    return parseYaml(fileText(path));
   }
   catch (const std::invalid_argument& e)
   {
     throw std::invalid_argument(path + ": " + e.what() + ".");
+  }
+  catch (const std::runtime_error& e)
+  {
+    throw std::runtime_error(path + ": " + e.what() + ".");
   }
 }
 }  // namespace
@@ -220,6 +240,16 @@ ConfigFile readConfigFile(const std::string& path)
     if (const int line = lineOf(row.key, text.document); line > 0)
       file.lines[std::string(row.key)] = line;
   return file;
+}
+
+yaml readYamlFile(const std::string& path)
+{
+  YamlText text = parseYaml(fileText(path));
+  const Problems repeated = repetitions(text.repeated);
+  if (!repeated.empty())
+    throw std::invalid_argument(
+        "line " + std::to_string(repeated.front().line) + ", " + repeated.front().text);
+  return std::move(text.document);
 }
 
 std::string applySetting(const std::string& setting, Config& config)

@@ -59,14 +59,30 @@ void requireText(const std::string& text)
   }
 }
 
+/** Whether a line is indented with a tab, which YAML does not allow. */
+bool beginsWithTab(const std::string& text, std::size_t line)
+{
+  std::size_t at = 0;
+  for (std::size_t before = 1; before < line; ++before)
+  {
+    at = text.find('\n', at);
+    if (at == std::string::npos) return false;
+    ++at;
+  }
+  const std::size_t first = text.find_first_not_of(' ', at);
+  return first != std::string::npos && text[first] == '\t';
+}
+
 /** One step of the parser. */
 class Event
 {
  public:
-  explicit Event(yaml_parser_t& parser)
+  Event(yaml_parser_t& parser, const std::string& text)
   {
     if (yaml_parser_parse(&parser, &event_) != 0) return;
     const std::size_t line = parser.problem_mark.line + 1;
+    if (beginsWithTab(text, line))
+      refuse("is not valid YAML: line " + std::to_string(line) + " begins with a tab; use spaces");
     std::string why = parser.problem != nullptr ? parser.problem : "it cannot be read";
     if (parser.context != nullptr) why = std::string(parser.context) + ", " + why;
     if (parser.error == YAML_READER_ERROR)
@@ -88,7 +104,7 @@ class Event
 class Reader
 {
  public:
-  explicit Reader(const std::string& text)
+  explicit Reader(const std::string& text) : text_(text)
   {
     if (yaml_parser_initialize(&parser_) == 0) throw std::bad_alloc();
     yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
@@ -103,7 +119,7 @@ class Reader
   {
     for (bool begun = false;;)
     {
-      const Event event(parser_);
+      const Event event(parser_, text_);
       if (event->type == YAML_STREAM_END_EVENT) break;
       if (event->type == YAML_STREAM_START_EVENT || event->type == YAML_DOCUMENT_END_EVENT)
         continue;
@@ -172,7 +188,7 @@ class Reader
     auto& items = list.d.emplace<yaml::sequence_t>();
     for (;;)
     {
-      const Event item(parser_);
+      const Event item(parser_, text_);
       if (item->type == YAML_SEQUENCE_END_EVENT) return;
       items.push_back(node(item, path + "[]", depth + 1));
     }
@@ -184,7 +200,7 @@ class Reader
     std::map<std::string, int> lines;
     for (;;)
     {
-      const Event key(parser_);
+      const Event key(parser_, text_);
       if (key->type == YAML_MAPPING_END_EVENT) return;
       if (key->type != YAML_SCALAR_EVENT)
         refuseLine(key->start_mark.line + 1, "a key must be a name");
@@ -193,11 +209,12 @@ class Reader
       const std::string whole = path.empty() ? name : path + "." + name;
       const auto [first, is_new] = lines.emplace(name, key.line());
       if (!is_new) result_.repeated.push_back({whole, key.line(), first->second});
-      const Event value(parser_);
+      const Event value(parser_, text_);
       entries[yaml::node_t(name)] = node(value, whole, depth + 1);
     }
   }
 
+  const std::string& text_;
   yaml_parser_t parser_{};
   YamlText result_;
 };

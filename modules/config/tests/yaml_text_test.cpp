@@ -102,6 +102,34 @@ TEST(YamlText, BrokenSyntaxIsRefusedWithItsLine)
   expectRefused("hello\n", "must hold 'group:' lines");
 }
 
+TEST(YamlText, ATabThatIndentsIsNamed)
+{
+  expectRefused("lidar:\n\tmax_range: 50\n", "line 2 begins with a tab; use spaces");
+  expectRefused("lidar:\n  \tmax_range: [\n", "line 2 begins with a tab; use spaces");
+}
+
+TEST(YamlText, AMissingFileAnEmptyOneAndAFolderAreToldApart)
+{
+  const TemporaryFolder folder;
+  const auto textOf = [](const std::string& path)
+  {
+    try
+    {
+      (void)loadConfigFromFile(path);
+      return std::string();
+    }
+    catch (const std::runtime_error& e)
+    {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_NE(
+      textOf(folder.file("x.yaml")).find("x.yaml: cannot be read: it does not exist"),
+      std::string::npos);
+  EXPECT_NE(textOf(folder.path()).find("it is a folder"), std::string::npos);
+  EXPECT_NE(textOf(folder.write("e.yaml", "")).find("e.yaml: is empty"), std::string::npos);
+}
+
 TEST(YamlText, DeepNestingIsRefused)
 {
   for (const std::string& bytes :

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/config/yaml_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/tuning/search_space.h>
@@ -134,11 +135,11 @@ std::string SearchKey::at(double place) const
 SearchSpace readSearchSpace(const std::string& path)
 try
 {
-  return spaceOf(yaml::FromFile(path).node());
+  return spaceOf(readYamlFile(path).node());
 }
 catch (const std::exception& e)
 {
-  throw std::invalid_argument("search space '" + path + "': " + e.what());
+  throw std::invalid_argument("search space '" + printable(path) + "': " + e.what());
 }
 
 Candidate candidateAt(const SearchSpace& space, const std::vector<double>& places)
