@@ -34,6 +34,20 @@ struct Failure
   std::string text;
 };
 
+/** Runs what may throw. \exception Failure with this status */
+template <typename Step>
+auto failingWith(ExitStatus status, Step step)
+{
+  try
+  {
+    return step();
+  }
+  catch (const std::exception& e)
+  {
+    throw Failure{status, failureText(e)};
+  }
+}
+
 /** Runs what may throw std::invalid_argument for what the user asks, others for the input. */
 template <typename Step>
 auto checked(Step step)
@@ -65,9 +79,8 @@ RunFolderPlan folderPlan(
     made.push_back(
         {(std::filesystem::path(arguments.output_directory) / name).string(), "--output-dir"});
   requireDistinctFiles(used, made);
-  RunFolderPlan plan{
-      arguments.output_directory, files.names(), "summary.json", "exit_status",
-      arguments.overwrite};
+  RunFolderPlan plan{arguments.output_directory, files.names(), "summary.json", "exit_status",
+                     arguments.overwrite,        "fastlio-map"};
   requireReplaceable(plan);
   return plan;
 }
@@ -127,27 +140,13 @@ RunFolderPlan checkedFolder(
 {
   if (files.wants("simplemap") && runs > 1)
     throw Failure{ExitStatus::Usage, "--export simplemap takes one run, not several"};
-  try
-  {
-    return folderPlan(arguments, files, recordings);
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{ExitStatus::Usage, failureText(e)};
-  }
+  return failingWith(ExitStatus::Usage, [&] { return folderPlan(arguments, files, recordings); });
 }
 
 /** Before hours of work. \exception Failure another run holds the folder */
 std::unique_ptr<const RunFolder> claimedFolder(const RunFolderPlan& plan)
 {
-  try
-  {
-    return std::make_unique<const RunFolder>(plan);
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{ExitStatus::Usage, failureText(e)};
-  }
+  return failingWith(ExitStatus::Usage, [&] { return std::make_unique<const RunFolder>(plan); });
 }
 
 /** Once all files are complete: what only the run before has written. */
@@ -232,14 +231,7 @@ ExitStatus run(const MapArguments& arguments)
   requirePoses(map);
   const auto moving = votedObjects(arguments, sessions, map, workers, hooks);
   std::optional<MapOutputs> outputs;
-  try
-  {
-    outputs.emplace(arguments, files, sessions);
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{ExitStatus::OutputFailed, failureText(e)};
-  }
+  failingWith(ExitStatus::OutputFailed, [&] { outputs.emplace(arguments, files, sessions); });
   for (std::size_t i = 0; i < sessions.size(); ++i)
     if (isInMap(map, i))
       endIfInterrupted(!outputs->add(sessions[i], i, map.result, moving.get(), hooks));

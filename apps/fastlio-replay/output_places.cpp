@@ -109,8 +109,9 @@ OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
   requireReport(arguments, names);
   if (!arguments.output_directory.empty())
   {
-    plan.folder = RunFolderPlan{
-        arguments.output_directory, names, "summary.json", "exit_status", arguments.overwrite};
+    plan.folder =
+        RunFolderPlan{arguments.output_directory, names,           "summary.json", "exit_status",
+                      arguments.overwrite,        "fastlio-replay"};
     requireReplaceable(*plan.folder);
   }
   if (!arguments.output_tum_path.empty()) plan.tum_folder = tumFolder(arguments.output_tum_path);

@@ -84,5 +84,37 @@ TEST_F(Map, DoesNotReplaceWhatItHasNotWritten)
   EXPECT_EQ(contentOf(folder_.file("mine") + "/map.ply"), "mine");
 }
 
+/** Either would remove what the other one has written. */
+TEST_F(Map, AFolderOfAnotherProgramIsRefused)
+{
+  const std::string rawlog = record("walk", walk(8.0));
+  const auto replay = [&](const std::string& name)
+  {
+    return Process(
+               {FASTLIO_REPLAY_PROGRAM, rawlog, "-o", folder_.file(name)}, folder_.file("r.txt"))
+        .wait();
+  };
+  ASSERT_EQ(replay("run").exit_status, 0);
+  ASSERT_EQ(run({rawlog, "-o", folder_.file("map"), "--export", "planes"}).exit_status, 0);
+  const ProcessResult map = run({rawlog, "-o", folder_.file("run"), "--export", "planes"});
+  EXPECT_EQ(map.exit_status, 1);
+  EXPECT_NE(map.output.find("holds a run of fastlio-replay"), std::string::npos) << map.output;
+  EXPECT_TRUE(fs::exists(folder_.file("run") + "/timing.csv"));
+  const ProcessResult again = replay("map");
+  EXPECT_EQ(again.exit_status, 1);
+  EXPECT_NE(again.output.find("holds a run of fastlio-map"), std::string::npos) << again.output;
+  EXPECT_TRUE(fs::exists(folder_.file("map") + "/map.planes"));
+  EXPECT_EQ(
+      run({rawlog, "-o", folder_.file("run"), "--export", "planes", "--overwrite"}).exit_status, 0);
+  // Its folder holds no recording.
+  const ProcessResult mapped = run({folder_.file("map"), "-o", folder_.file("next")});
+  EXPECT_EQ(mapped.exit_status, 2);
+  EXPECT_NE(mapped.output.find("is a folder of fastlio-map"), std::string::npos) << mapped.output;
+  std::ofstream(folder_.file("map") + "/summary.json") << R"({"input": 3})";
+  const ProcessResult damaged = run({folder_.file("map"), "-o", folder_.file("next")});
+  EXPECT_EQ(damaged.exit_status, 2);
+  EXPECT_EQ(damaged.output.find("json.exception"), std::string::npos) << damaged.output;
+}
+
 }  // namespace
 }  // namespace fastlio::testing

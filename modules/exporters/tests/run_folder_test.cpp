@@ -80,6 +80,43 @@ TEST_F(RunFolderTest, FilesThatNoRunWroteAreNotReplacedUnlessAsked)
   const RunFolder run(overwrite);
 }
 
+TEST_F(RunFolderTest, ARunOfAnotherProgramIsNotReplacedUnlessAsked)
+{
+  const std::string record = R"({"program": "fastlio-sort", "exit_status": 0, "outputs": []})";
+  write("a.csv", "of a run");
+  write("summary.json", record);
+  RunFolderPlan own = plan(), other = plan();
+  own.program = "fastlio-sort";
+  other.program = "fastlio-shuffle";
+  EXPECT_NO_THROW(requireReplaceable(own));
+  const auto refuse = [&](const auto& step)
+  {
+    try
+    {
+      step();
+      ADD_FAILURE() << "it was not refused";
+    }
+    catch (const std::runtime_error& e)
+    {
+      const std::string text = e.what();
+      EXPECT_NE(
+          text.find("holds a run of fastlio-sort; choose another folder or give --overwrite"),
+          std::string::npos)
+          << text;
+    }
+  };
+  refuse([&] { requireReplaceable(other); });
+  refuse([&] { const RunFolder run(other); });
+  // Nor where a run of the other program was killed.
+  write(".fastlio-lock", "");
+  refuse([&] { requireReplaceable(other); });
+  other.overwrite = true;
+  EXPECT_NO_THROW(requireReplaceable(other));
+  write("summary.json", R"({"exit_status": 0, "outputs": []})");
+  other.overwrite = false;
+  EXPECT_NO_THROW(requireReplaceable(other)) << "an early version named no program";
+}
+
 TEST_F(RunFolderTest, ALinkThatLeadsNowhereIsAFileOfSomebodyToo)
 {
   fs::create_symlink("/home/somebody/a.csv", folder().file("a.csv"));

@@ -4,6 +4,7 @@
 #include "run_record.h"
 #include <fastlio/files/same_file.h>
 #include <fastlio/files/scratch_folder.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/run/run_folder.h>
 
 #include <algorithm>
@@ -22,10 +23,10 @@ std::string pathIn(const RunFolderPlan& plan, const std::string& name)
   return (fs::path(plan.directory) / name).string();
 }
 
-/** The files that the run before has written; nothing when there was none. */
-std::optional<std::vector<OutputFile>> earlierFiles(const RunFolderPlan& plan)
+/** What the run before has left; nothing when there was none. */
+std::optional<RunRecord> earlierRun(const RunFolderPlan& plan)
 {
-  return outputsOfRecord(pathIn(plan, plan.record), plan.record_key);
+  return readRunRecord(pathIn(plan, plan.record), plan.record_key);
 }
 
 bool isAnyOf(const std::string& path, const std::vector<std::string>& others)
@@ -38,7 +39,7 @@ bool isAnyOf(const std::string& path, const std::vector<std::string>& others)
 /** \exception std::runtime_error names the first file that no run has written */
 void requireNothingForeign(const RunFolderPlan& plan)
 {
-  if (earlierFiles(plan)) return;
+  if (earlierRun(plan)) return;
   for (const std::string& name : plan.files)
   {
     std::error_code error;
@@ -47,6 +48,17 @@ void requireNothingForeign(const RunFolderPlan& plan)
         "'" + pathIn(plan, name) + "' would be replaced, but no run of this program wrote it ('" +
         plan.record + "' of a run is not beside it); choose another folder or give --overwrite");
   }
+}
+
+/** Programs keep their results apart: a run would remove those of the other one.
+ * \exception std::runtime_error names the other program */
+void requireSameProgram(const RunFolderPlan& plan)
+{
+  const auto run = earlierRun(plan);
+  if (!run || run->program.empty() || plan.program.empty() || run->program == plan.program) return;
+  throw std::runtime_error(
+      "'" + plan.directory + "' holds a run of " + printable(run->program) +
+      "; choose another folder or give --overwrite");
 }
 
 void removeFinishedOf(
@@ -88,15 +100,18 @@ void removeUnfinished(const RunFolderPlan& plan)
 void requireReplaceable(const RunFolderPlan& plan)
 {
   requireWritableFolder(plan.directory);
+  if (plan.overwrite) return;
+  requireSameProgram(plan);
   // A lock file is of a run: one that was killed, or one that keeps us out later.
-  if (!plan.overwrite && !hasLockFile(plan.directory)) requireNothingForeign(plan);
+  if (!hasLockFile(plan.directory)) requireNothingForeign(plan);
 }
 
 RunFolder::RunFolder(RunFolderPlan plan)
     : plan_(std::move(plan)), made_(plan_.directory), lock_(plan_.directory)
 {
+  if (!plan_.overwrite) requireSameProgram(plan_);
   if (!plan_.overwrite && !lock_.tookOver()) requireNothingForeign(plan_);
-  earlier_ = earlierFiles(plan_).value_or(std::vector<OutputFile>{});
+  earlier_ = earlierRun(plan_).value_or(RunRecord{}).outputs;
 }
 
 void RunFolder::removeLeftovers(const std::vector<std::string>& kept) const

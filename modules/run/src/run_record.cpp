@@ -16,15 +16,15 @@ using Json = nlohmann::json;
 
 constexpr std::uintmax_t kLargestRecord = 100'000'000;  // [byte]: a longer one is none of ours
 
-/** Takes "path" and "bytes" out of the objects in the array "outputs" at the top. A whole document
- * would ask for memory even while it is destroyed. */
+/** Takes "program" at the top, and "path" and "bytes" out of the objects in the array "outputs"
+ * there. A whole document would ask for memory even while it is destroyed. */
 class RecordReader : public nlohmann::json_sax<Json>
 {
  public:
   explicit RecordReader(const std::string& key) : wanted_(key) {}
 
   [[nodiscard]] bool hasKey() const { return has_key_; }
-  [[nodiscard]] const std::vector<OutputFile>& files() const { return files_; }
+  [[nodiscard]] const RunRecord& record() const { return record_; }
 
   bool null() override { return true; }
   bool boolean(bool /*value*/) override { return true; }
@@ -38,6 +38,7 @@ class RecordReader : public nlohmann::json_sax<Json>
   bool string(string_t& value) override
   {
     if (inOutput() && key_ == "path") path_ = value;
+    if (depth_ == 1 && is_object_ && key_ == "program") record_.program = value;
     return true;
   }
   bool binary(binary_t& /*value*/) override { return true; }
@@ -59,7 +60,7 @@ class RecordReader : public nlohmann::json_sax<Json>
   }
   bool end_object() override
   {
-    if (inOutput() && path_ && bytes_) files_.push_back({*path_, *bytes_});
+    if (inOutput() && path_ && bytes_) record_.outputs.push_back({*path_, *bytes_});
     path_.reset();
     bytes_.reset();
     --depth_;
@@ -91,12 +92,11 @@ class RecordReader : public nlohmann::json_sax<Json>
   bool is_object_ = false, has_key_ = false;
   std::optional<std::string> path_;
   std::optional<std::uintmax_t> bytes_;
-  std::vector<OutputFile> files_;
+  RunRecord record_;
 };
 }  // namespace
 
-std::optional<std::vector<OutputFile>> outputsOfRecord(
-    const std::string& path, const std::string& key)
+std::optional<RunRecord> readRunRecord(const std::string& path, const std::string& key)
 {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -105,7 +105,7 @@ std::optional<std::vector<OutputFile>> outputsOfRecord(
   std::ifstream in(path, std::ios::binary);
   RecordReader reader(key);
   if (!Json::sax_parse(in, &reader) || !reader.hasKey()) return std::nullopt;
-  return reader.files();
+  return reader.record();
 }
 
 }  // namespace fastlio

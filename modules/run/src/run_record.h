@@ -12,10 +12,17 @@
 
 namespace fastlio
 {
-/** The "outputs" of a record, a JSON document.
+/** What a run has left in a folder. */
+struct RunRecord
+{
+  std::vector<OutputFile> outputs;
+  std::string program;  //!< that wrote it; empty: the record does not say
+};
+
+/** Reads a record, a JSON document.
  * \param key that records of the program have at the top
  * \return nothing when the file is not there or something else */
-[[nodiscard]] std::optional<std::vector<OutputFile>> outputsOfRecord(
+[[nodiscard]] std::optional<RunRecord> readRunRecord(
     const std::string& path, const std::string& key);
 
 }  // namespace fastlio

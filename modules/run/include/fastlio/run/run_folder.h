@@ -20,12 +20,14 @@ struct RunFolderPlan
   std::vector<std::string> files;  //!< names, without the folder
   std::string record;              //!< the file among them that each complete run writes (JSON)
   std::string record_key;          //!< a key that distinguishes such a file from others
-  bool overwrite = false;          //!< also files that no run wrote may be replaced
+  bool overwrite = false;          //!< also files of others may be replaced
+  std::string program = {};        //!< as its record names it; empty: the record names none
 };
 
-/** Checks, without making anything, that the folder can be written and that everything which the
- * run would replace was written by an earlier run: the record lies beside it, or the lock file of a
- * run that was killed. \exception std::runtime_error otherwise; the message names the file */
+/** Checks, without making anything, that the folder can be written, that it holds no run of another
+ * program, and that everything which the run would replace was written by an earlier run: the
+ * record lies beside it, or the lock file of a run that was killed.
+ * \exception std::runtime_error otherwise; the message names the file or the program */
 void requireReplaceable(const RunFolderPlan& plan);
 
 /** A folder that belongs to this process until the end. A folder that it had to make goes again
