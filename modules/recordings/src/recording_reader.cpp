@@ -25,6 +25,12 @@ std::uint64_t recordingBytes(const std::string& path)
   return total;
 }
 
+std::string sentenceOf(const ReadProblem& problem)
+{
+  if (problem.occurrences < 2) return problem.message;
+  return problem.message + " (" + std::to_string(problem.occurrences) + " times)";
+}
+
 const char* toString(ReadProblemKind kind)
 {
   switch (kind)

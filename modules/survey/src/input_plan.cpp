@@ -16,6 +16,7 @@ namespace fastlio
 {
 namespace
 {
+constexpr const char* kNoPose = "none is given";  // where a pose comes from
 constexpr double kUsualPeriod = 0.1;  // of a revolution, when there is one scan only [s]
 
 /** Median time between the stamps of its scans [s]. */
@@ -141,7 +142,7 @@ std::vector<SensorPlace> placesOf(
     const std::string origin = by_factory                 ? "input.factory_T_imu_lidar"
                                : configured               ? "the configuration"
                                : hasKnownMounting(sensor) ? "the recording"
-                                                          : "none is given";
+                                                          : kNoPose;
     places.push_back(
         {sensor.kind, sensor.label, configured.value_or(sensor.T_vehicle_sensor), origin});
   };
@@ -164,7 +165,8 @@ void notePoses(
   for (const SensorPlace& place : plan.places)
     list += std::string(list.empty() ? "" : ", ") +
             (place.kind == SensorKind::Imu ? "IMU " : "LiDAR ") +
-            poseText(place.T_vehicle_sensor, 6) + " (" + place.origin + ")";
+            poseText(place.T_vehicle_sensor, 6) + " (" +
+            (place.origin == kNoPose ? "the recording gives none: identity" : place.origin) + ")";
   plan.notes.push_back(
       "Poses in the vehicle frame [x, y, z, yaw, pitch, roll] in m and deg: " + list + ".");
   if (given.factory_T_imu_lidar && !by_factory)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/math/time.h>
+#include <fastlio/options/printable.h>
 #include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
 
@@ -13,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -106,6 +108,16 @@ std::optional<double> pauseUntil(std::int64_t next_ns, const std::string& file)
   return pause;
 }
 
+/** The stamps that a whole file covers. */
+std::optional<std::pair<std::int64_t, std::int64_t>> coverageOf(const std::string& file)
+{
+  RawlogSource source({file});
+  SensorSurvey survey;
+  while (const auto observation = source.next())
+    noteObservation(survey, *observation);
+  return coveredBy(survey);
+}
+
 /** The file that may continue this one: the first that begins after it. */
 std::optional<std::size_t> successorOf(std::size_t file, const std::vector<Opening>& openings)
 {
@@ -170,6 +182,38 @@ std::vector<RecordingParts> joinParts(const std::vector<std::string>& files)
     recordings.push_back(std::move(parts));
   }
   return recordings;
+}
+
+void requireInOrder(const std::vector<std::string>& files)
+{
+  for (std::size_t i = 0; i + 1 < files.size(); ++i)
+  {
+    const std::string &file = files[i], &next = files[i + 1];
+    const Opening first = openingOf(file), second = openingOf(next);
+    if (first.sensors.empty() || second.sensors.empty()) continue;
+    if (second.first_ns < first.first_ns)
+      throw std::invalid_argument(mrpt::format(
+          "'%s' begins %.3f s before '%s', which is given before it: give the parts of a recording "
+          "in the order of time",
+          printable(next).c_str(), toSeconds(first.first_ns - second.first_ns),
+          printable(file).c_str()));
+    const auto covered = coverageOf(file);
+    const double overlap = covered ? toSeconds(covered->second - second.first_ns) : 0.0;
+    if (overlap > kLongestOverlap)
+      throw std::invalid_argument(mrpt::format(
+          "'%s' and '%s' overlap by %.3f s, so that they are no parts of one recording: give each "
+          "one by itself, or put what was recorded at the same time together with fastlio-import "
+          "--merge",
+          printable(file).c_str(), printable(next).c_str(), overlap));
+  }
+}
+
+std::vector<RecordingParts> partsOf(const std::vector<std::string>& files, Joining joining)
+{
+  if (joining == Joining::Never) return withoutJoining(files);
+  if (joining == Joining::ByStamps) return joinParts(files);
+  requireInOrder(files);
+  return {{files}};
 }
 
 std::vector<RecordingParts> withoutJoining(const std::vector<std::string>& files)

@@ -4,6 +4,7 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
+#include <fastlio/options/plain_zero.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -144,8 +145,9 @@ std::string describe(const SensorSummary& sensor)
     text += mrpt::format(", %.1f Hz", static_cast<double>(sensor.observations - 1) / seconds);
   return text + mrpt::format(
                     ", T_vehicle_sensor: x=%.3f y=%.3f z=%.3f m, yaw=%.2f pitch=%.2f roll=%.2f deg",
-                    pose.x(), pose.y(), pose.z(), pose.yaw() * kDegPerRad,
-                    pose.pitch() * kDegPerRad, pose.roll() * kDegPerRad);
+                    plainZero(pose.x(), 3), plainZero(pose.y(), 3), plainZero(pose.z(), 3),
+                    plainZero(pose.yaw() * kDegPerRad, 2), plainZero(pose.pitch() * kDegPerRad, 2),
+                    plainZero(pose.roll() * kDegPerRad, 2));
 }
 
 std::string describe(const SensorSelection& selection)

@@ -42,8 +42,8 @@ void reportRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const c
   if (stamps.backwards + stamps.duplicates > 0)
     warn(
         survey, mrpt::format(
-                    "%s '%s': %zu stamps before the one before them, %zu equal to it.", what, label,
-                    stamps.backwards, stamps.duplicates));
+                    "%s '%s': %zu repeated stamps, %zu out of order.", what, label,
+                    stamps.duplicates, stamps.backwards));
 }
 
 void reportOverlap(RecordingSurvey& survey)

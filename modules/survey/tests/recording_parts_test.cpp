@@ -6,6 +6,7 @@
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/recording_parts.h>
 
+#include <stdexcept>
 #include <sys/stat.h>
 
 namespace
@@ -76,6 +77,40 @@ TEST_F(RecordingPartsTest, TwoRecordingsInPartsAreTwo)
   const std::string a1 = fileFrom(0, 3, "a1"), a2 = fileFrom(3, 3, "a2");
   const std::string b1 = fileFrom(50, 3, "b1"), b2 = fileFrom(53, 3, "b2");
   EXPECT_EQ(joined({b1, a1, b2, a2}), (std::vector<Files>{{b1, b2}, {a1, a2}}));
+}
+
+TEST_F(RecordingPartsTest, PartsInOrderOfTimeMayBeJoinedAlways)
+{
+  const std::string a = fileFrom(0, 3, "a"), b = fileFrom(3, 3, "b"), c = fileFrom(60, 3, "c");
+  const auto one = partsOf({a, b, c}, Joining::Always);
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_EQ(one.front().files, (Files{a, b, c}));
+  EXPECT_EQ(partsOf({a, b, c}, Joining::ByStamps).size(), 2U);
+  EXPECT_EQ(partsOf({a, b, c}, Joining::Never).size(), 3U);
+  EXPECT_NO_THROW(requireInOrder({a, folder_.file("missing"), c}));
+  EXPECT_NO_THROW(requireInOrder({a, fileFrom(2.9, 3, "cut")})) << "cut by bytes";
+}
+
+TEST_F(RecordingPartsTest, PartsThatOverlapOrGoBackAreRefused)
+{
+  const std::string a = fileFrom(0, 3, "a"), b = fileFrom(2, 3, "b"), c = fileFrom(6, 3, "c");
+  const auto refusalOf = [](const Files& files)
+  {
+    try
+    {
+      requireInOrder(files);
+      return std::string();
+    }
+    catch (const std::invalid_argument& e)
+    {
+      return std::string(e.what());
+    }
+  };
+  const std::string overlap = refusalOf({a, b, c});
+  EXPECT_NE(overlap.find("'" + a + "' and '" + b + "' overlap by 0.9"), std::string::npos)
+      << overlap;
+  const std::string back = refusalOf({c, a});
+  EXPECT_NE(back.find("'" + a + "' begins 6.000 s before '" + c + "'"), std::string::npos) << back;
 }
 
 TEST_F(RecordingPartsTest, WhatCannotBeReadStaysAlone)

@@ -32,4 +32,7 @@ struct ReadProblem
   std::size_t occurrences = 1;
 };
 
+/** The message, with the number of times where there are several. */
+[[nodiscard]] std::string sentenceOf(const ReadProblem& problem);
+
 }  // namespace fastlio

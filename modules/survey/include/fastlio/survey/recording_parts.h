@@ -28,6 +28,24 @@ struct RecordingParts
 /** Each file is a recording of its own. */
 [[nodiscard]] std::vector<RecordingParts> withoutJoining(const std::vector<std::string>& files);
 
+/** How several files become recordings. */
+enum class Joining
+{
+  ByStamps,  //!< joinParts()
+  Always,    //!< all are parts of one recording, in this order
+  Never      //!< withoutJoining()
+};
+
+/** \exception std::invalid_argument files that are joined always are not in the order of time, or
+ * overlap by more than the last sensors of a file that is cut by bytes do; names both and the
+ * overlap */
+[[nodiscard]] std::vector<RecordingParts> partsOf(
+    const std::vector<std::string>& files, Joining joining);
+
+/** Checks that each file begins where the one before ends. Files that cannot be read, or only once,
+ * are left out. \exception std::invalid_argument as partsOf() */
+void requireInOrder(const std::vector<std::string>& files);
+
 /** A sentence for people on what has been joined; empty: nothing. */
 [[nodiscard]] std::string describe(const RecordingParts& recording);
 
