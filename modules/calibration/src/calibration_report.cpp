@@ -214,8 +214,8 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
 
 std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
 {
-  std::string text =
-      mrpt::format("%-36s %10s %10s %9s %9s  unit\n", "value", "given", "found", "std", "before");
+  std::string text = mrpt::format(
+      "%-36s %10s %10s %9s %9s  unit\n", "value", "given", "found", "std", "prior std");
   for (const CalibrationRow& row : calibrationRows(given, estimate))
     text += mrpt::format(
         "%-36s %10.3f %10.3f %s %s  %s%s\n", row.name.c_str(), row.given, row.found,
@@ -257,7 +257,7 @@ std::string calibrationYaml(
     const Config& calibrated, const Rig& given, const RigEstimate& estimate,
     const std::optional<CalibrationTrial>& trial)
 {
-  std::string header = "# Calibration of fastlio-calibrate; see docs/calibration.md.\n";
+  std::string header = std::string(kCalibrationMark) + "; see docs/calibration.md.\n";
   if (trial) header += commented(describe(*trial));
   header += "#\n" + commented(calibrationTable(given, estimate));
   return toYaml(calibrated, header);

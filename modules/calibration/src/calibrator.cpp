@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "anderson.h"
+#include "one_rig.h"
 #include "unknowns.h"
 #include <fastlio/calibration/calibrator.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -93,6 +94,7 @@ Calibrator::Calibrator(
       given_(rigIn(recordings_.at(0), config_)),
       given_noise_(config_.odometry.imu.noise)
 {
+  requireOneRig(recordings_, config_);
   for (const CalibrationRecording& recording : recordings_)
   {
     const InertialNoise noise = measureInertialNoise(inertialSamples(recording, config_));

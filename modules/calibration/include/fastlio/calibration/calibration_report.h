@@ -36,6 +36,9 @@ struct CalibrationRow
 /** The verdict of the trial, in one or two sentences. */
 [[nodiscard]] std::string describe(const CalibrationTrial& trial);
 
+/** With which every file of a calibration begins. */
+inline constexpr const char* kCalibrationMark = "# Calibration of fastlio-calibrate";
+
 /** The configuration with the calibration, as YAML with its evidence as comments. Loading it gives
  * \a calibrated. \param trial nothing: it was not tried out */
 [[nodiscard]] std::string calibrationYaml(

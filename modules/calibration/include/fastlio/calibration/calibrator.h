@@ -78,7 +78,8 @@ class Calibrator
  public:
   /** \param config its standard deviations of the calibration (calibration.*_std) are the prior
    * \param passes runs of each recording
-   * \exception std::runtime_error a recording has no usable sensors */
+   * \exception std::runtime_error a recording has no usable sensors, or is of another rig than the
+   * first one */
   Calibrator(
       std::vector<CalibrationRecording> recordings, Config config, int passes,
       CalibrationProgress progress = {});
