@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
@@ -16,8 +16,7 @@ constexpr const char* kDescription =
     "Finds how the sensors of a rig sit and measure, from its recordings: pose of the LiDAR in the "
     "IMU frame, time offset, scales and axes of gyro and accelerometer, offsets of the LiDAR's "
     "beams. Each value comes with its standard deviation, and with the motion that would improve "
-    "it "
-    "better. A trial on data that the values were not fitted to says whether to use them.";
+    "it. A trial on data that the values were not fitted to says whether to use them.";
 constexpr const char* kFooter = R"(Exit status:
   0  the calibration is written
   1  wrong usage or configuration
@@ -36,8 +35,7 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
   app.footer(kFooter);
   CalibrateArguments arguments;
   app.add_option("input,--input-rawlog", arguments.recordings, "Recordings of the same rig")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
   auto* join =
       app.add_flag("--join", arguments.join, "The files are parts of one recording, in this order");
   app.add_flag(
@@ -56,26 +54,30 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
          "Where the parameters with the calibration are written, for fastlio-replay -c")
       ->type_name("FILE.yaml")
       ->capture_default_str();
-  app.add_option("--json", arguments.json, "Also write values and standard deviations as JSON")
+  app.add_flag(
+      "--overwrite", arguments.overwrite,
+      "Replace FILE.yaml also where fastlio-calibrate did not write it");
+  app.add_option(
+         "--json", arguments.json,
+         "Also write values and standard deviations as JSON to FILE, or with '-' instead of the "
+         "table")
       ->type_name("FILE");
   app.add_option("--passes", arguments.passes, "Runs of each recording")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
-  app.add_flag(
-      "!--no-trial", arguments.trial,
+  app.add_flag_callback(
+      "--no-trial", [&arguments] { arguments.trial = false; },
       "Do not try the calibration on data that it was not fitted to (saves half of the time)");
   app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
-  app.set_version_flag(
-      "--version", std::string("fastlio-calibrate ") + MRPT_FASTLIO_VERSION + " (" +
-                       mrpt::system::MRPT_getVersion() + ")");
-  try
+  addVersion(app, MRPT_FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
+  const auto checks = [&arguments]
   {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, static_cast<int>(CalibrateStatus::Usage));
-  }
+    if (arguments.recordings.empty())
+      throw CLI::RequiredError("a recording (fastlio-calibrate walk.rawlog)");
+  };
+  if (const auto end =
+          endAfterParsing(app, argc, argv, static_cast<int>(CalibrateStatus::Usage), checks))
+    return *end;
   return arguments;
 }
 

@@ -27,7 +27,8 @@ struct CalibrateArguments
   std::vector<std::string> settings;  //!< KEY=VALUE, over the file
   std::string config_file;            //!< empty: defaults
   std::string output = "calibration.yaml";
-  std::string json;  //!< empty: none
+  bool overwrite = false;  //!< also an output that the program has not written
+  std::string json;        //!< empty: none; "-": instead of the table
   int passes = 8;
   bool trial = true;
   bool quiet = false;

@@ -3,6 +3,8 @@
 
 #include "command_line.h"
 
+#include "../shared/parsing.h"
+
 #include <cmath>
 #include <map>
 
@@ -42,8 +44,7 @@ const std::map<std::string, NeesAlignment>& neesAlignmentNames()
 void addInputOptions(CLI::App& app, EvalCommand& c)
 {
   app.add_option("reference,-r,--reference", c.reference, "Trajectory taken as the truth")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
   const char* estimates =
       "Trajectory to be evaluated, or the folder of a run; several: one row each";
   app.add_option("estimates", c.estimates, estimates)->type_name("FILE|DIR ...");
@@ -60,6 +61,7 @@ void addInputOptions(CLI::App& app, EvalCommand& c)
   app.final_callback(
       [&c]
       {
+        if (c.reference.empty()) throw CLI::RequiredError("reference");
         if (c.estimates.empty()) throw CLI::RequiredError("estimate");
       });
   auto* times =
@@ -153,7 +155,7 @@ void addGateOptions(CLI::App& app, GateLimits& g)
 
 void addOptions(CLI::App& app, EvalCommand& command)
 {
-  app.set_version_flag("--version", "fastlio-eval " MRPT_FASTLIO_VERSION);
+  addVersion(app, MRPT_FASTLIO_VERSION);
   app.footer(kFooter);
   addInputOptions(app, command);
   addMeasureOptions(app, command.evaluation);

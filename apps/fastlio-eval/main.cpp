@@ -3,7 +3,7 @@
 
 /** \file main.cpp fastlio-eval: how far is an estimated trajectory from the truth? */
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 #include "command_line.h"
 #include "estimates.h"
 #include "picture.h"
@@ -69,6 +69,7 @@ void requireHarmlessOutputs(
     outputs.push_back({command.json_path, "--json"});
   if (!command.svg_path.empty()) outputs.push_back({command.svg_path.string(), "--plot"});
   fastlio::requireDistinctFiles(inputs, outputs);
+  fastlio::requirePictureName(command.svg_path);
 }
 
 /** Says on standard error which limits are not kept, with both numbers. */
@@ -133,14 +134,7 @@ try
   CLI::App app{"Compares an estimated trajectory with the truth.", "fastlio-eval"};
   fastlio::EvalCommand command;
   fastlio::addOptions(app, command);
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return fastlio::endOfParsing(app, e, kExitInput);
-  }
+  if (const auto end = fastlio::endAfterParsing(app, argc, argv, kExitInput, [] {})) return *end;
   return run(command);
 }
 catch (const std::exception& e)

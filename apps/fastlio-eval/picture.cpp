@@ -78,6 +78,14 @@ std::string pngOf(const std::string& svg)
 }
 }  // namespace
 
+void requirePictureName(const std::filesystem::path& path)
+{
+  const std::string ending = path.extension().string();
+  if (ending.empty() || ending == ".svg" || ending == ".png") return;
+  throw std::invalid_argument(
+      "--plot '" + path.string() + "': a picture's name must end in .svg or .png");
+}
+
 void writePicture(const std::filesystem::path& path, const std::string& svg)
 {
   writeFileAtomically(path.string(), path.extension() == ".png" ? pngOf(svg) : svg);

@@ -3,13 +3,16 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/choices.h"
+#include "../shared/parsing.h"
 #include "mcap_output.h"
 #include <fastlio/formats/recording_formats.h>
+#include <fastlio/options/printable.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
+#include <filesystem>
 #include <map>
 
 namespace fastlio
@@ -33,6 +36,17 @@ Exit status:
   3  written, but some of the input could not be read; the messages say what)";
 }
 
+/** Empty when the name says which format it is. */
+std::string outputName(const std::string& path)
+{
+  const std::filesystem::path name = std::filesystem::path(path).filename();
+  const bool compressed = name.extension() == ".gz" || name.extension() == ".zst";
+  const std::filesystem::path ending = (compressed ? name.stem() : name).extension();
+  if (ending.empty() || ending == ".rawlog" || isMcapName(path)) return "";
+  return "the name must end in .rawlog or .mcap, not '" + printable(path) +
+         "': these are the formats that fastlio-import writes";
+}
+
 void addOutput(CLI::App& app, ImportArguments& arguments)
 {
   static const std::map<std::string, RawlogCompression> compressions{
@@ -41,9 +55,9 @@ void addOutput(CLI::App& app, ImportArguments& arguments)
       {"none", RawlogCompression::None}};
   app.add_option(
          "-o,--output", arguments.output.path,
-         "Rawlog to write; a name that ends in .mcap: MCAP with messages of ROS 2, for Foxglove "
-         "and "
-         "tools of ROS")
+         "Rawlog to write (.rawlog); a name that ends in .mcap: MCAP with messages of ROS 2, for "
+         "Foxglove and tools of ROS")
+      ->check(outputName)
       ->type_name("FILE");
   auto* run = app.add_option(
                      "--run", arguments.run,
@@ -59,18 +73,18 @@ void addOutput(CLI::App& app, ImportArguments& arguments)
          "--compression", arguments.output.compression,
          "Of the rawlog: gzip (every MRPT reads it), zstd (MRPT 2.15.7 and newer, and this "
          "project), none [gzip]")
-      ->transform(CLI::Transformer(compressions))
+      ->transform(choiceOf(compressions))
       ->type_name("NAME");
   app.add_option(
          "--split-size", arguments.output.split_mib,
          "Begin another file, NAME_001 and so on, after so many MiB before compression")
       ->type_name("MIB")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   app.add_option(
          "--split-time", arguments.output.split_seconds,
          "Begin another file after so many seconds of the recording")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   app.add_flag("--overwrite", arguments.overwrite, "Replace files of the output's name");
 }
 
@@ -97,12 +111,12 @@ void addChoice(CLI::App& app, ImportArguments& arguments)
   app.add_option(
          "--point-time-unit", arguments.point_times.unit,
          "Unit of the times of points: auto, s, ms, us, ns [auto: found from the numbers]")
-      ->transform(CLI::Transformer(units))
+      ->transform(choiceOf(units))
       ->type_name("NAME");
   app.add_option(
          "--point-time-reference", arguments.point_times.reference,
          "What these times refer to: auto, stamp, start, middle, end, absolute [auto]")
-      ->transform(CLI::Transformer(references))
+      ->transform(choiceOf(references))
       ->type_name("NAME");
 }
 }  // namespace
@@ -127,12 +141,9 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
   addOutput(app, arguments);
   addChoice(app, arguments);
   app.add_flag("-q,--quiet", arguments.quiet, "Print errors and warnings only");
-  app.set_version_flag(
-      "--version", std::string("fastlio-import ") + FASTLIO_VERSION + " (" +
-                       mrpt::system::MRPT_getVersion() + ")");
-  try
+  addVersion(app, FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
+  const auto checks = [&arguments]
   {
-    app.parse(argc, argv);
     if (!arguments.list && arguments.output.path.empty())
       throw CLI::RequiredError("--output (or --list)");
     if (!(arguments.trajectory + arguments.run).empty() && !isMcapName(arguments.output.path))
@@ -140,11 +151,10 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
     if (isMcapName(arguments.output.path) &&
         (arguments.output.split_mib > 0 || arguments.output.split_seconds > 0))
       throw CLI::ValidationError("--split-size, --split-time", "are for rawlogs, not for MCAP");
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, static_cast<int>(ImportStatus::Usage));
-  }
+  };
+  if (const auto end =
+          endAfterParsing(app, argc, argv, static_cast<int>(ImportStatus::Usage), checks))
+    return *end;
   return arguments;
 }
 

@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
@@ -17,7 +17,7 @@ constexpr const char* kDescription =
     "of points mean, units and noise of the IMU at rest, time offset and mounting of the LiDAR by "
     "the motion that both see, and what fastlio-replay would do.";
 constexpr const char* kFooter = R"(Exit status:
-  0  fastlio-replay can run on the recording
+  0  fastlio-replay can run on the recording; the last line says whether it is damaged
   1  wrong usage or configuration, or a file that cannot be written
   2  it cannot: the last line says why
 
@@ -34,8 +34,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   app.add_option(
          "input,--input-rawlog", arguments.input_files,
          "Rawlog file; several are parts of one recording, in this order")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
   app.add_option(
          "-c,--config", arguments.config_file,
          "YAML parameters that fastlio-replay would get (labels, times of points, mounting)")
@@ -50,25 +49,21 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   app.add_option(
          "--write-config", arguments.new_config,
          "Write the parameters that follow from the recording, each with its reason, to be edited; "
-         "a "
-         "file "
-         "that is there already is left alone")
+         "a file that is there already is left alone")
       ->type_name("FILE.yaml");
-  app.add_flag(
-      "!--no-motion", arguments.check_motion,
+  app.add_flag_callback(
+      "--no-motion", [&arguments] { arguments.check_motion = false; },
       "Do not compare the motions that LiDAR and IMU see (the part that takes longest)");
   app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
-  app.set_version_flag(
-      "--version", std::string("fastlio-info ") + FASTLIO_VERSION + " (" +
-                       mrpt::system::MRPT_getVersion() + ")");
-  try
+  addVersion(app, FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
+  const auto checks = [&arguments]
   {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, static_cast<int>(InfoStatus::Usage));
-  }
+    if (arguments.input_files.empty())
+      throw CLI::RequiredError("a recording (fastlio-info walk.rawlog)");
+  };
+  if (const auto end =
+          endAfterParsing(app, argc, argv, static_cast<int>(InfoStatus::Usage), checks))
+    return *end;
   return arguments;
 }
 

@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 #include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
@@ -65,8 +65,7 @@ void addOptions(CLI::App& app, MapArguments& arguments)
          "runs,--input-rawlog", arguments.runs,
          "Recordings, or folders that fastlio-replay has written (their recording and parameters); "
          "of several, all show the same place")
-      ->type_name("RUN")
-      ->required();
+      ->type_name("RUN");
   auto* join = app.add_flag(
       "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
   app.add_flag(
@@ -83,7 +82,7 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       ->type_name("DIR");
   app.add_flag(
       "--overwrite", arguments.overwrite,
-      "Replace files in --output-dir also where no earlier run has written them");
+      "Replace files in --output-dir also where no earlier run of fastlio-map has written them");
   app.add_option("--export", arguments.exporters, "Files to write, by the names listed below")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -96,10 +95,11 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       "--remove-moving", arguments.remove_moving,
       "Leave moving objects out of the map: what is where rays of other scans pass; takes another "
       "pass through the recordings");
-  app.add_flag(
-      "!--no-gnss", arguments.use_gnss, "Leave positions of GNSS in the recordings out of the map");
-  app.add_flag(
-      "!--no-wheels", arguments.use_wheels,
+  app.add_flag_callback(
+      "--no-gnss", [&arguments] { arguments.use_gnss = false; },
+      "Leave positions of GNSS in the recordings out of the map");
+  app.add_flag_callback(
+      "--no-wheels", [&arguments] { arguments.use_wheels = false; },
       "Leave wheel odometry in the recordings out of the map");
   app.add_option(
          "--crs", arguments.crs,
@@ -115,9 +115,7 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
   app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
-  app.set_version_flag(
-      "--version", std::string("fastlio-map ") + MRPT_FASTLIO_VERSION + " (" +
-                       mrpt::system::MRPT_getVersion() + ")");
+  addVersion(app, MRPT_FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
 }
 }  // namespace
 
@@ -149,14 +147,13 @@ std::variant<MapArguments, int> parseCommandLine(int argc, const char* const* ar
   app.footer(fileHelp() + kExits);
   MapArguments arguments;
   addOptions(app, arguments);
-  try
+  const auto checks = [&arguments]
   {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, static_cast<int>(ExitStatus::Usage));
-  }
+    if (arguments.runs.empty()) throw CLI::RequiredError("a recording (fastlio-map walk.rawlog)");
+  };
+  if (const auto end =
+          endAfterParsing(app, argc, argv, static_cast<int>(ExitStatus::Usage), checks))
+    return *end;
   return arguments;
 }
 

@@ -3,7 +3,8 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/choices.h"
+#include "../shared/parsing.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
@@ -12,8 +13,8 @@
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
 
-#include <iostream>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 namespace fastlio
@@ -90,12 +91,12 @@ void addInputOptions(
          "--skip-first-n", arguments.skip_first_n,
          "Leave out everything before the LiDAR scan with this number (from 0); the platform must "
          "rest there")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(wholeNumber())
       ->type_name("N");
   app.add_option(
          "--only-first-n", arguments.only_first_n,
          "Stop after this many LiDAR scans (after the skipped ones); 0: all")
-      ->check(CLI::NonNegativeNumber.description(""))
+      ->check(wholeNumber())
       ->type_name("N");
 }
 
@@ -116,7 +117,7 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
       ->type_name("FILE.tum");
   app.add_flag(
       "--overwrite", arguments.overwrite,
-      "Replace files in --output-dir also where no earlier run has written them");
+      "Replace files in --output-dir also where no earlier run of fastlio-replay has written them");
   app.add_option(
          "--export", arguments.exporters,
          "Files to write into --output-dir, by the names listed below; default: those without *")
@@ -131,18 +132,35 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
       ->capture_default_str();
 }
 
+/** \exception CLI::ValidationError they are not six */
+std::vector<double> sixNumbersOf(const std::string& text)
+{
+  std::vector<double> numbers;
+  std::istringstream parts(text);
+  bool all_read = true;
+  for (std::string part; std::getline(parts, part, ',');)
+  {
+    const auto number = parsed<double>(part);
+    all_read = all_read && number.has_value();
+    numbers.push_back(number.value_or(0.0));
+  }
+  if (numbers.size() == 6 && all_read) return numbers;
+  throw CLI::ValidationError(
+      "--initial-pose", "must be six numbers X,Y,Z,YAW,PITCH,ROLL [m, deg] between commas, not '" +
+                            printable(text) + "'");
+}
+
 void addMapOptions(CLI::App& app, ReplayArguments& arguments)
 {
   auto* map = app.add_option(
                      "--map-in", arguments.map_in,
                      "Start in this map of an earlier run: PLY, PCD, or an archive of MRPT")
                   ->type_name("FILE");
-  app.add_option(
-         "--initial-pose", arguments.initial_pose,
+  app.add_option_function<std::string>(
+         "--initial-pose",
+         [&arguments](const std::string& text) { arguments.initial_pose = sixNumbersOf(text); },
          "About where the body (--frame) is in that map: x,y,z,yaw,pitch,roll [m, deg]; default: "
          "the map's origin")
-      ->delimiter(',')
-      ->expected(6)
       ->needs(map)
       ->type_name("X,Y,Z,YAW,PITCH,ROLL");
   app.add_flag(
@@ -172,12 +190,10 @@ void addRunOptions(CLI::App& app, ReplayArguments& arguments)
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   app.add_option("-v,--verbosity", arguments.verbosity, "ERROR, WARN, INFO (default) or DEBUG")
-      ->transform(CLI::CheckedTransformer(verbosityNames(), CLI::ignore_case).description(""))
+      ->transform(choiceOf(verbosityNames()))
       ->type_name("LEVEL");
   app.add_flag("-q,--quiet", arguments.quiet, "Print nothing but errors");
-  app.set_version_flag(
-      "--version", std::string("fastlio-replay ") + FASTLIO_VERSION + " (" +
-                       mrpt::system::MRPT_getVersion() + ")");
+  addVersion(app, FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
 }
 
 void requireOutput(const ReplayArguments& arguments)
@@ -219,17 +235,15 @@ std::variant<ReplayArguments, int> parseCommandLine(int argc, const char* const*
   addOutputOptions(app, arguments);
   addMapOptions(app, arguments);
   addRunOptions(app, arguments);
-  try
+  const auto checks = [&]
   {
-    app.parse(argc, argv);
     joinInputs(arguments, positional);
     if (arguments.quiet) arguments.verbosity = mrpt::system::LVL_ERROR;
     requireOutput(arguments);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, static_cast<int>(ExitStatus::Usage));
-  }
+  };
+  if (const auto end =
+          endAfterParsing(app, argc, argv, static_cast<int>(ExitStatus::Usage), checks))
+    return *end;
   return arguments;
 }
 

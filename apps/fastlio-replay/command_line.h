@@ -21,6 +21,7 @@ struct ReplayArguments
   std::vector<std::string> input_files;           //!< recordings, in order
   bool join = false;                              //!< they are parts of one
   bool batch = false;                             //!< they are recordings of their own, or parts
+  bool in_order = false;                          //!< the parts are known to follow each other
   bool no_join = false;                           //!< none of them is a part of another
   std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none

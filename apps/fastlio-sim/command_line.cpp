@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "../shared/parsing.h"
 #include <fastlio/scenarios/realistic.h>
 #include <fastlio/scenarios/scenario.h>
 #include <fastlio/scenarios/settings_table.h>
@@ -98,7 +99,7 @@ void addSet(CLI::App& app, SimCommand& command)
 
 void addOptions(CLI::App& app, SimCommand& command)
 {
-  app.set_version_flag("--version", "fastlio-sim " MRPT_FASTLIO_VERSION);
+  addVersion(app, MRPT_FASTLIO_VERSION);
   app.footer(kFooter);
   app.add_option("scenario,-s,--scenario", command.scenario, "What is simulated (see --list)")
       ->type_name("NAME");

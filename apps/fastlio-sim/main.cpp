@@ -3,7 +3,7 @@
 
 /** \file main.cpp fastlio-sim: simulated recordings with exact ground truth. */
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 #include "command_line.h"
 #include <fastlio/simulation/recording.h>
 

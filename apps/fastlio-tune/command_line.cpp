@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 
-#include "../shared/unknown_option.h"
+#include "../shared/parsing.h"
 
 #include <CLI/CLI.hpp>
 
@@ -54,6 +54,8 @@ void addFileOptions(CLI::App& app, TuneCommand& c)
   app.add_option("-o,--output", c.files.output, "Better parameters")
       ->capture_default_str()
       ->type_name("FILE.yaml");
+  app.add_flag(
+      "--overwrite", c.overwrite, "Replace FILE.yaml also where fastlio-tune did not write it");
   app.add_option("--json", c.files.json, "Also write the result to this file")
       ->type_name("FILE.json");
   app.add_option(
@@ -158,20 +160,12 @@ std::variant<TuneCommand, int> parseCommandLine(int argc, const char* const* arg
   TuneCommand c;
   Tasks tasks;
   CLI::App app{"Searches parameters with a smaller error on recordings.", "fastlio-tune"};
-  app.set_version_flag("--version", "fastlio-tune " + programVersion());
+  addVersion(app, programVersion());
   app.footer(kFooter);
   addFileOptions(app, c);
   addSearchOptions(app, c);
   addTaskOptions(app, c, tasks);
-  try
-  {
-    app.parse(argc, argv);
-    setTask(c, tasks);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return endOfParsing(app, e, 1);
-  }
+  if (const auto end = endAfterParsing(app, argc, argv, 1, [&] { setTask(c, tasks); })) return *end;
   return c;
 }
 }  // namespace fastlio

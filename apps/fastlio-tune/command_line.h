@@ -47,6 +47,7 @@ struct TuneCommand
   std::string measure = "auto", frame = "vehicle";
   int workers = 1;  //!< that a script starts
   bool retry_failed = false, quiet = false;
+  bool overwrite = false;  //!< also an output that the program has not written
 };
 
 /** The command, or the exit status after --help or an error that has been printed. */

@@ -36,9 +36,11 @@ const Program kPrograms[] = {
     {"fastlio-eval", {"--json", "--plot"}, "--plto"},
     {"fastlio-sim", {"-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
     {"fastlio-import", {"-o,--output", "--overwrite"}, "--overwrit"},
-    {"fastlio-calibrate", {"-c,--config", "-o,--output", "--set", "--json"}, "--jsn"},
+    {"fastlio-calibrate",
+     {"-c,--config", "-o,--output", "--set", "--json", "--overwrite"},
+     "--jsn"},
     {"fastlio-map", {"-c,--config", "-o,--output-dir", "--set", "--overwrite"}, "--overwrit"},
-    {"fastlio-tune", {"-c,--config", "-o,--output", "--json"}, "--jsn"},
+    {"fastlio-tune", {"-c,--config", "-o,--output", "--json", "--overwrite"}, "--jsn"},
 };
 
 class SameWords : public ::testing::TestWithParam<Program>
@@ -63,6 +65,19 @@ TEST_P(SameWords, AreInTheHelp)
     EXPECT_NE(help.output.find(word), std::string::npos) << "no " << word << " in\n" << help.output;
 }
 
+TEST_P(SameWords, TheHelpShowsNothingOfTheParser)
+{
+  const ProcessResult help = run({"--help"});
+  for (const char* rest : {"->", "{false}", "\n  --input-rawlog FILE REQUIRED"})
+    EXPECT_EQ(help.output.find(rest), std::string::npos) << rest << " in\n" << help.output;
+  // An option that is a positional argument, too, is not asked for twice.
+  const std::size_t required = help.output.find("REQUIRED");
+  EXPECT_EQ(
+      help.output.find("REQUIRED", required + (required == std::string::npos ? 0 : 1)),
+      std::string::npos)
+      << help.output;
+}
+
 TEST_P(SameWords, TheVersionNamesTheProgram)
 {
   const ProcessResult version = run({"--version"});
@@ -83,6 +98,7 @@ TEST_P(SameWords, WithoutAnythingNothingHappens)
   const ProcessResult result = run({});
   EXPECT_NE(result.exit_status, 0);
   EXPECT_FALSE(result.output.empty());
+  EXPECT_EQ(result.output.find("--input-rawlog is required"), std::string::npos) << result.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(

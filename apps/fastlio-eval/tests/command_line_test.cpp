@@ -38,6 +38,12 @@ TEST_F(FastlioEval, WithoutItsProgramAPngIsRefusedAndNothingWritten)
   EXPECT_FALSE(std::filesystem::exists(folder_.file("p.png")));
 }
 
+TEST_F(FastlioEval, APictureOfAnotherKindIsRefused)
+{
+  expectOutcome("truth.tum estimate.tum --plot p.jpg", 1, {"must end in .svg or .png", "p.jpg"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("p.jpg")));
+}
+
 TEST_F(FastlioEval, HelpAndVersion)
 {
   expectOutcome("--help", 0, {"--max-ape", "Exit status", "--kitti-times", "covariance.csv"});

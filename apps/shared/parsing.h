@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file unknown_option.h How every program ends when its command line cannot be understood. */
+/** \file parsing.h What all programs do with their command lines. */
 #pragma once
 
 #include <fastlio/options/nearest_name.h>
@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,33 @@ inline int endOfParsing(const CLI::App& app, const CLI::ParseError& error, int w
     return app.exit(error) == 0 ? 0 : wrong;
   std::cerr << unknownOptionText(app) << '\n';
   return wrong;
+}
+
+/** Adds --version. \param version of the program \param mrpt that of MRPT; empty: left out */
+inline void addVersion(CLI::App& app, const std::string& version, const std::string& mrpt = {})
+{
+  app.set_version_flag(
+      "--version", app.get_name() + " " + version + (mrpt.empty() ? "" : " (" + mrpt + ")"));
+}
+
+/** Reads the command line, then runs \a checks on what the options do not check themselves; these
+ * throw CLI::ParseError.
+ * \param wrong status of the program for wrong usage
+ * \return status to end with; nothing: the program goes on */
+template <typename Checks>
+[[nodiscard]] std::optional<int> endAfterParsing(
+    CLI::App& app, int argc, const char* const* argv, int wrong, Checks checks)
+{
+  try
+  {
+    app.parse(argc, argv);
+    checks();
+    return std::nullopt;
+  }
+  catch (const CLI::ParseError& e)
+  {
+    return endOfParsing(app, e, wrong);
+  }
 }
 
 }  // namespace fastlio
