@@ -6,6 +6,7 @@
 
 #include <fastlio/rawlog/rawlog_source.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,15 @@ namespace fastlio
 class ImportInputs
 {
  public:
+  /** Inputs that are merged may each have an IMU of the same label: those of later inputs get
+   * another one. */
   ImportInputs(const std::vector<std::string>& files, bool merge);
+
+  /** Labels that inputs got, beside those that they have. */
+  [[nodiscard]] std::vector<std::string> newLabels() const;
+
+  /** Which labels are others now, for people. */
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
   /** Null after the last one. */
   [[nodiscard]] mrpt::obs::CObservation::Ptr next();
@@ -25,9 +34,14 @@ class ImportInputs
   struct Input
   {
     RawlogSource source;
-    mrpt::obs::CObservation::Ptr waiting;  //!< its next one
+    std::map<std::string, std::string> labels = {};  //!< of IMUs: new ones by old ones
+    mrpt::obs::CObservation::Ptr waiting = {};       //!< its next one
   };
+
+  void relabel(const std::vector<std::string>& files);
+
   std::vector<Input> inputs_;
+  std::vector<std::string> notes_;
 };
 
 }  // namespace fastlio

@@ -3,12 +3,11 @@
 
 #include "import_run.h"
 
+#include "../shared/readable_recordings.h"
 #include "import_inputs.h"
 #include "mcap_output.h"
 #include "topic_list.h"
-#include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/label_pattern.h>
 #include <fastlio/options/printable.h>
@@ -133,15 +132,38 @@ class Import
   std::vector<OutputFile> files_;
 };
 
-void requireInputs(const ImportArguments& arguments)
+void requireReadable(const std::vector<std::string>& files)
 {
-  requireGivenOnce(arguments.input_files);
-  for (const std::string& file : arguments.input_files)
+  try
   {
-    if (recordingFormatOf(file) != nullptr) continue;
-    if (const auto problem = inputFileProblem(file))
-      throw std::invalid_argument("input '" + file + "' " + *problem);
+    requireReadableRecordings(files);
   }
+  catch (const std::runtime_error& e)
+  {
+    throw ImportInputError(e.what());
+  }
+}
+
+/** \exception ImportInputError a pattern of topics finds nothing; lists what there is */
+void requireFound(
+    const ImportPlan& plan, SensorKind kind, const std::string& option, const std::string& topic,
+    const std::vector<std::string>& new_labels = {})
+{
+  if (topic.empty()) return;
+  const LabelPattern pattern(option, topic);
+  for (const std::string& label : new_labels)
+    if (pattern.matches(label)) return;
+  const char* const name = kind == SensorKind::Imu ? "IMU" : "LiDAR";
+  std::string others;
+  for (const SensorSummary& sensor : plan.survey.sensors)
+  {
+    if (sensor.kind != kind) continue;
+    if (pattern.matches(sensor.label)) return;
+    others += "\n  found: " + describe(sensor);
+  }
+  throw ImportInputError(
+      option + " '" + printable(topic) + "' matches no " + name + ". " +
+      (others.empty() ? std::string("There is none.") : "The whole topic must match:" + others));
 }
 
 void requireHarmlessOutput(const ImportArguments& arguments)
@@ -177,16 +199,14 @@ void report(const ImportArguments& arguments, const ImportPlan& plan, const Impo
 void warn(const std::vector<ReadProblem>& problems)
 {
   for (const ReadProblem& problem : problems)
-    std::cerr << "fastlio-import: " << problem.message
-              << (problem.occurrences > 1 ? " (" + std::to_string(problem.occurrences) + " times)"
-                                          : "")
-              << '\n';
+    std::cerr << "fastlio-import: " << sentenceOf(problem) << '\n';
 }
 }  // namespace
 
 ImportStatus runImport(const ImportArguments& arguments)
 {
-  requireInputs(arguments);
+  requireGivenOnce(arguments.input_files);
+  requireReadable(arguments.input_files);
   if (!arguments.list) requireHarmlessOutput(arguments);
   const ImportPlan plan = planImport(arguments);
   if (arguments.list)
@@ -194,8 +214,12 @@ ImportStatus runImport(const ImportArguments& arguments)
     std::cout << listTopics(arguments, plan) << std::flush;
     return plan.survey.sensors.empty() ? ImportStatus::Unusable : ImportStatus::Ok;
   }
-  Import import(arguments, plan);
   ImportInputs source(arguments.input_files, arguments.merge);
+  requireFound(plan, SensorKind::Lidar, "--lidar-topic", arguments.lidar_topic);
+  requireFound(plan, SensorKind::Imu, "--imu-topic", arguments.imu_topic, source.newLabels());
+  Import import(arguments, plan);
+  for (const std::string& note : source.notes())
+    std::cerr << "fastlio-import: " << note << '\n';
   import.run(source);
   const std::vector<ReadProblem> problems = source.problems();
   warn(problems);

@@ -18,6 +18,11 @@ int main(int argc, char** argv)
   {
     return static_cast<int>(runImport(std::get<ImportArguments>(parsed)));
   }
+  catch (const ImportInputError& e)
+  {
+    std::cerr << "fastlio-import: " << e.what() << '\n';
+    return static_cast<int>(ImportStatus::Unusable);
+  }
   catch (const std::exception& e)
   {
     std::cerr << "fastlio-import: " << failureText(e) << '\n';

@@ -179,9 +179,18 @@ TEST_F(ImportProgram, RefusesWhatWouldDestroyOrCannotBe)
   EXPECT_EQ(import({bag, bag, "-o", out()}).exit_status, 1);
   EXPECT_EQ(import({bag}).exit_status, 1);
   EXPECT_EQ(import({"-o", out()}).exit_status, 1);
-  EXPECT_EQ(import({folder_.file("nothing.bag"), "-o", out()}).exit_status, 1);
+  const auto missing = import({folder_.file("nothing.bag"), "-o", out()});
+  EXPECT_EQ(missing.exit_status, 2) << "as of all programs that read recordings";
+  EXPECT_TRUE(contains(missing.output, "nothing.bag' does not exist")) << missing.output;
   EXPECT_EQ(import({bag, "-o", out(), "--lidar-topic", "("}).exit_status, 1);
-  EXPECT_EQ(import({bag, "-o", out(), "--compression", "rar"}).exit_status, 1);
+  const auto compression = import({bag, "-o", out(), "--compression", "lz4"});
+  EXPECT_EQ(compression.exit_status, 1);
+  EXPECT_TRUE(contains(compression.output, "must be gzip, none or zstd, not 'lz4'"))
+      << compression.output;
+  const auto ending = import({bag, "-o", out("out.bag")});
+  EXPECT_EQ(ending.exit_status, 1);
+  EXPECT_TRUE(contains(ending.output, "must end in .rawlog or .mcap")) << ending.output;
+  EXPECT_FALSE(std::filesystem::exists(out("out.bag")));
   EXPECT_EQ(import({bag, "-o", out(), "--split-time", "-1"}).exit_status, 1);
   EXPECT_EQ(import({bag, "-o", "/nowhere/out.rawlog"}).exit_status, 1);
   EXPECT_FALSE(std::filesystem::exists(out()));
@@ -236,6 +245,38 @@ TEST_F(ImportProgram, HelpNamesTheFormats)
   EXPECT_EQ(result.exit_status, 0);
   EXPECT_TRUE(contains(result.output, "MCAP")) << result.output;
   EXPECT_EQ(import({"--version"}).exit_status, 0);
+}
+
+TEST_F(ImportProgram, ATopicThatNothingMatchesListsWhatThereIs)
+{
+  const std::string bag = file("in.bag", bagOf(messages()));
+  for (const auto& [option, found] :
+       {std::pair{"--lidar-topic", "'/lidar'"}, std::pair{"--imu-topic", "'/imu'"}})
+  {
+    const auto result = import({bag, "-o", out(), option, "rear"});
+    EXPECT_EQ(result.exit_status, 2) << result.output;
+    EXPECT_TRUE(contains(result.output, "'rear' matches no")) << result.output;
+    EXPECT_TRUE(contains(result.output, found)) << result.output;
+    EXPECT_FALSE(std::filesystem::exists(out()));
+  }
+}
+
+TEST_F(ImportProgram, ASecondImuOfTheSameLabelGetsAnother)
+{
+  const std::string first = file("a.bag", bagOf(messages()));
+  const std::string second = file("b.mcap", mcapOf(messages({}, Wire::Cdr)));
+  const auto result = import({"--merge", first, second, "-o", out()});
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_TRUE(contains(result.output, "b.mcap' is written as '/imu_2'")) << result.output;
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& label : readAll({out()}).labels)
+    ++counts[label];
+  EXPECT_EQ(counts["/imu"], messages().size() - 30);
+  EXPECT_EQ(counts["/imu_2"], counts["/imu"]);
+  const auto chosen =
+      import({"--merge", first, second, "-o", out(), "--overwrite", "--imu-topic", "/imu_2"});
+  EXPECT_EQ(chosen.exit_status, 0) << chosen.output;
+  EXPECT_FALSE(contains(chosen.output, "/imu:")) << chosen.output;
 }
 }  // namespace
 }  // namespace fastlio::testing
