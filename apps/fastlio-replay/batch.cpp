@@ -72,7 +72,7 @@ std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
   }
   requireGivenOnce(arguments.input_files);
   const auto recordings =
-      arguments.no_join ? withoutJoining(arguments.input_files) : joinParts(arguments.input_files);
+      partsOf(arguments.input_files, arguments.no_join ? Joining::Never : Joining::ByStamps);
   // One run needs no folders below that of the user.
   const bool in_folders = recordings.size() > 1 && !arguments.output_directory.empty();
   for (const RecordingParts& recording : recordings)
@@ -80,6 +80,7 @@ std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
     BatchRun run{arguments, describe(recording)};
     run.arguments.input_files = recording.files;
     run.arguments.batch = recordings.size() > 1;
+    run.arguments.in_order = true;
     if (in_folders)
       run.arguments.output_directory =
           folderIn(arguments.output_directory, recording.files.front(), runs);

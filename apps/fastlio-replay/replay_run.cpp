@@ -44,13 +44,9 @@ double shareOf(const ReadProgress& progress)
 std::vector<std::string> sentences(const std::vector<ReadProblem>& problems)
 {
   std::vector<std::string> texts;
+  texts.reserve(problems.size());
   for (const auto& problem : problems)
-  {
-    const bool repeated = problem.occurrences > 1;
-    texts.push_back(
-        problem.message +
-        (repeated ? " (" + std::to_string(problem.occurrences) + " times)" : std::string()));
-  }
+    texts.push_back(sentenceOf(problem));
   return texts;
 }
 

@@ -119,8 +119,27 @@ std::string filesText(const std::vector<OutputFile>& files)
   return text;
 }
 
-std::string whyOdometryFailed(const RunStatistics& statistics)
+std::size_t countOf(const RunSummary& run, const std::string& name)
 {
+  for (const NamedCount& count : run.input_counts)
+    if (count.name == name) return count.count;
+  return 0;
+}
+
+/** Of the scans that were read, none was left after those of --skip-first-n. */
+bool allAreSkipped(const RunSummary& run)
+{
+  const std::size_t dropped = countOf(run, "scans_without_imu") + countOf(run, "scans_empty") +
+                              countOf(run, "scans_out_of_order") + countOf(run, "scans_bad_stamp");
+  return countOf(run, "scans_skipped") > 0 && dropped == 0;
+}
+
+std::string whyOdometryFailed(const RunSummary& run)
+{
+  const RunStatistics& statistics = run.statistics;
+  if (statistics.scans() == 0 && allAreSkipped(run))
+    return "no scan could be processed: --skip-first-n leaves out all " +
+           std::to_string(countOf(run, "scans_skipped")) + " scans of the recording";
   if (statistics.scans() == 0)
     return "no scan could be processed: no IMU samples cover a scan; check that both sensors "
            "recorded at the same time and that their clocks agree";
@@ -140,7 +159,7 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
   if (!summary.failure.empty()) sentences.push_back(summary.failure);
   const auto& statistics = summary.statistics;
   if (statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0)
-    sentences.push_back(whyOdometryFailed(statistics));
+    sentences.push_back(whyOdometryFailed(summary));
   if (exitStatusOf(summary) == ExitStatus::Degraded)
     sentences.emplace_back(
         "degraded: do not rely on the stretches that the report calls untrusted (untrusted.csv)");

@@ -3,19 +3,22 @@
 
 #include "run_setup.h"
 
+#include "../shared/readable_recordings.h"
 #include "calibration_first.h"
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/config/presets.h>
+#include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/files/failure_text.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/report/report_reference.h>
 #include <fastlio/savedmaps/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
 
 #include <cmath>
@@ -134,13 +137,22 @@ OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config
   }
 }
 
-void requireReadable(const std::vector<std::string>& files)
+/** A reference that is named has to be one; the page alone would say that it is not. */
+void requireReference(const std::string& file)
 {
-  for (const auto& file : files)
-    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
-      throw SetupError(
-          ExitStatus::InputUnusable,
-          "input file '" + file + "' " + *problem + " (--input-rawlog takes a recording)");
+  if (file.empty()) return;
+  const auto refuse = [&file](const std::string& why)
+  { throw SetupError(ExitStatus::Usage, "--reference '" + printable(file) + "' " + why); };
+  if (const auto problem = inputFileProblem(file)) refuse(*problem);
+  if (std::filesystem::file_size(file) > ReferenceComparison::kLargestFile) return;
+  try
+  {
+    (void)readTrajectory(file);
+  }
+  catch (const std::exception& e)
+  {
+    refuse("cannot be used: " + failureText(e));
+  }
 }
 
 /** Runs what may throw std::invalid_argument for a parameter, others for the input. */
@@ -225,7 +237,7 @@ std::string dumpedConfig(const ReplayArguments& arguments)
   Loaded loaded = loadConfiguration(arguments);
   if (!arguments.input_files.empty())
   {
-    requireReadable(arguments.input_files);
+    checked([&] { requireReadableRecordings(arguments.input_files); });
     takePreset(sensorsOf(arguments, loaded.file.config), loaded);
   }
   const std::string file = inOneLine(arguments.config_file);
@@ -249,8 +261,14 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs = checkedOutputs(setup.arguments, setup.config);
-  requireReadable(arguments.input_files);
-  checked([&] { requireGivenOnce(arguments.input_files); });
+  checked([&] { requireReadableRecordings(arguments.input_files); });
+  requireReference(arguments.reference);
+  checked(
+      [&]
+      {
+        requireGivenOnce(arguments.input_files);
+        if (!arguments.in_order) requireInOrder(arguments.input_files);
+      });
   setup.selection = sensorsOf(arguments, setup.config);
   std::vector<std::string> notes;
   setup.configuration =

@@ -98,7 +98,9 @@ TEST_F(Configuration, UnwritableOutputIsFoundBeforeTheRun)
 
 TEST_F(BadInput, MissingFile)
 {
-  expectEnd(replayFile(file("no.rawlog")), 2, file("no.rawlog"));
+  const auto result = replayFile(file("no.rawlog"));
+  expectEnd(result, 2, "the recording '" + file("no.rawlog") + "' does not exist");
+  EXPECT_EQ(result.output.find("--input-rawlog"), std::string::npos) << result.output;
 }
 
 TEST_F(BadInput, Folder)
@@ -246,6 +248,44 @@ TEST_F(BadInput, StampsThatJumpBackAreDroppedAndCounted)
   EXPECT_GE(summary["input"]["counts"]["imu_out_of_order"], 8);
   EXPECT_GE(summary["input"]["counts"]["scans_out_of_order"], 3);
   EXPECT_EQ(summary["scans"]["diverged"], 0);
+}
+
+TEST_F(CommandLine, ValuesThatAreNoneNameTheChoices)
+{
+  for (const char* option : {"--skip-first-n", "--only-first-n"})
+    expectEnd(replayFile("x", {option, "-1"}), 1, "must be a whole number, 0 or larger, not '-1'");
+  expectEnd(
+      replayFile("x", {"-v", "debugg"}), 1, "must be DEBUG, ERROR, INFO or WARN, not 'debugg'");
+  expectEnd(replayFile(record("a.rawlog", {}), {"-v", "error"}), 0, "");
+  expectEnd(
+      replayFile("x", {"--map-in", "m.ply", "--initial-pose", "1,2,3"}), 1,
+      "must be six numbers X,Y,Z,YAW,PITCH,ROLL [m, deg] between commas, not '1,2,3'");
+}
+
+TEST_F(CommandLine, AReferenceThatIsNamedMustBeOne)
+{
+  const std::string rawlog = record("a.rawlog", {});
+  expectEnd(replayFile(rawlog, {"--reference", file("typo.tum")}), 1, "typo.tum' does not exist");
+  expectEnd(
+      replayFile(rawlog, {"--reference", write("notes.tum", "no trajectory")}), 1,
+      "notes.tum' cannot be used");
+  EXPECT_FALSE(std::filesystem::exists(file("out"))) << "nothing was run";
+}
+
+TEST_F(BadInput, SkippingAllScansSaysSo)
+{
+  const auto result = replayFile(record("a.rawlog", {}), {"--skip-first-n", "5000"});
+  expectEnd(result, 4, "--skip-first-n leaves out all 40 scans");
+}
+
+TEST_F(BadInput, PartsThatOverlapAreRefused)
+{
+  BoxRecording second;
+  second.start = 2.0;
+  const auto result = replay(
+      {record("a.rawlog", {}), record("b.rawlog", second), "--join", "--output-dir", file("out")});
+  expectEnd(result, 1, "overlap by 1.9");
+  EXPECT_FALSE(std::filesystem::exists(file("out")));
 }
 
 }  // namespace
