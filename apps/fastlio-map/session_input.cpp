@@ -3,9 +3,9 @@
 
 #include "session_input.h"
 
+#include "../shared/readable_recordings.h"
 #include "../shared/run_names.h"
 #include <fastlio/config/config_yaml.h>
-#include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/formats/recording_formats.h>
 #include <fastlio/survey/recording_parts.h>
@@ -50,20 +50,27 @@ RunInput inputOfFolder(const std::string& folder)
     throw std::runtime_error(
         "the folder '" + folder + "' has no " + kRecord +
         ": it is none that fastlio-replay has written, and no recording");
+  const Json json = Json::parse(file, nullptr, false);
+  if (json.is_object() && json.value("program", "") == "fastlio-map")
+    throw std::runtime_error(
+        "'" + folder +
+        "' is a folder of fastlio-map, which cannot be mapped again; give the recordings, or the "
+        "folders of runs of fastlio-replay");
   RunInput input;
   try
   {
-    const Json json = Json::parse(file);
     for (const Json& recorded : json.at("input").at("files"))
       input.files.push_back(locate(recorded.at("path").get<std::string>(), folder));
     // JSON is YAML, too.
     input.parameters =
         loadConfig(mrpt::containers::yaml::FromText(json.at("parameters").dump()), record.string());
   }
-  catch (const Json::exception& e)
+  catch (const Json::exception&)
   {
     throw std::runtime_error(
-        "'" + record.string() + "' is not the summary of a run of fastlio-replay: " + e.what());
+        "'" + record.string() +
+        "' is not the summary of a run of fastlio-replay, or damaged: it does not hold the "
+        "recording and the parameters; give the recording itself");
   }
   if (input.files.empty()) throw std::runtime_error("'" + record.string() + "' names no recording");
   input.name = recordingName(folder);
@@ -76,13 +83,6 @@ bool isRunFolder(const std::string& path)
   return fs::is_directory(path, ignored) && recordingFormatOf(path) == nullptr;
 }
 
-void requireReadable(const std::vector<std::string>& files)
-{
-  for (const std::string& file : files)
-    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
-      throw std::runtime_error("the recording '" + file + "' " + *problem);
-}
-
 /** The recordings that are named themselves, not by the folder of a run. */
 std::vector<RecordingParts> recordingsOf(const MapArguments& arguments)
 {
@@ -91,8 +91,11 @@ std::vector<RecordingParts> recordingsOf(const MapArguments& arguments)
       arguments.runs.begin(), arguments.runs.end(), std::back_inserter(files),
       [](const std::string& run) { return !isRunFolder(run); });
   if (files.empty()) return {};
-  if (arguments.join) return {{files}};
-  return arguments.no_join ? withoutJoining(files) : joinParts(files);
+  requireGivenOnce(files);
+  const Joining joining = arguments.join      ? Joining::Always
+                          : arguments.no_join ? Joining::Never
+                                              : Joining::ByStamps;
+  return partsOf(files, joining);
 }
 
 void makeNamesUnique(std::vector<RunInput>& inputs)
@@ -127,7 +130,7 @@ std::vector<RunInput> runInputs(const MapArguments& arguments)
   std::vector<std::string> all;
   for (const RunInput& input : inputs)
   {
-    requireReadable(input.files);
+    requireReadableRecordings(input.files);
     all.insert(all.end(), input.files.begin(), input.files.end());
   }
   requireGivenOnce(all);
