@@ -3,13 +3,16 @@
 
 /** \file main.cpp fastlio-calibrate: from recordings to the calibration of a rig. */
 
+#include "../shared/readable_recordings.h"
 #include "command_line.h"
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/config/presets.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/failure_text.h>
+#include <fastlio/files/own_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/options/json_text.h>
 #include <fastlio/survey/input_plan.h>
 #include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -24,7 +27,6 @@
 namespace
 {
 using namespace fastlio;
-using Json = nlohmann::ordered_json;
 
 /** Why the program ends, and with which status. */
 struct Failure
@@ -40,20 +42,30 @@ void requireHarmlessOutputs(const CalibrateArguments& arguments)
   for (const std::string& file : arguments.recordings)
     inputs.push_back({file, "recording"});
   if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
-  if (!arguments.json.empty()) outputs.push_back({arguments.json, "--json"});
+  if (!arguments.json.empty() && arguments.json != "-")
+    outputs.push_back({arguments.json, "--json"});
   requireDistinctFiles(inputs, outputs);
+  if (!arguments.overwrite)
+    requireOwnFile(arguments.output, {"fastlio-calibrate", kCalibrationMark});
+}
+
+/** A line for people, where the table goes. */
+void say(const CalibrateArguments& arguments, const std::string& line)
+{
+  if (!arguments.quiet && arguments.json != "-") std::cout << line << '\n';
 }
 
 std::vector<CalibrationRecording> recordingsOf(const CalibrateArguments& arguments)
 {
   const auto nameOf = [](const std::string& file)
   { return std::filesystem::path(file).filename().string(); };
-  if (arguments.join) return {{nameOf(arguments.recordings.front()), arguments.recordings}};
+  const Joining joining = arguments.join      ? Joining::Always
+                          : arguments.no_join ? Joining::Never
+                                              : Joining::ByStamps;
   std::vector<CalibrationRecording> recordings;
-  for (const RecordingParts& parts :
-       arguments.no_join ? withoutJoining(arguments.recordings) : joinParts(arguments.recordings))
+  for (const RecordingParts& parts : partsOf(arguments.recordings, joining))
   {
-    if (parts.files.size() > 1 && !arguments.quiet) std::cout << describe(parts) << '\n';
+    if (!parts.pauses.empty()) say(arguments, describe(parts));
     recordings.push_back({nameOf(parts.files.front()), parts.files});
   }
   return recordings;
@@ -78,7 +90,7 @@ Json trialJson(const CalibrationTrial& trial)
       {"worth_using", trial.worthUsing()}};
 }
 
-std::string jsonText(
+std::string documentOf(
     const Rig& given, const RigEstimate& estimate, const std::optional<CalibrationTrial>& trial)
 {
   Json values;
@@ -105,7 +117,7 @@ std::string jsonText(
       {"values", values},
       {"beams", beams}};
   document["trial"] = trial ? trialJson(*trial) : Json();
-  return document.dump(2) + "\n";
+  return jsonText(document);
 }
 
 void write(const std::string& path, const std::string& content)
@@ -121,14 +133,15 @@ void write(const std::string& path, const std::string& content)
 }
 
 /** The parameters that are given, beside them those of the LiDAR that the first recording names. */
-Config withPreset(ConfigFile given, const CalibrationRecording& first, bool quiet)
+Config withPreset(
+    ConfigFile given, const CalibrationRecording& first, const CalibrateArguments& arguments)
 {
   const SensorPatterns patterns = patternsOf(given.config.sensors);
   const SensorSelection selection = selectSensors(surveySensors(first.files, patterns), patterns);
   const auto is_given = [&given](std::string_view key)
   { return given.lines.count(std::string(key)) > 0; };
   const auto use = takePreset(selection, is_given, given.config);
-  if (use && !use->keys.empty() && !quiet) std::cout << use->text << '\n';
+  if (use && !use->keys.empty()) say(arguments, use->text);
   return given.config;
 }
 
@@ -157,23 +170,30 @@ CalibrateStatus run(const CalibrateArguments& arguments)
   validate(given.config);
   try
   {
-    const Config config =
-        withPreset(std::move(given), recordingsOf(arguments).front(), arguments.quiet);
+    requireReadableRecordings(arguments.recordings);
+    const std::vector<CalibrationRecording> recordings = recordingsOf(arguments);
+    const Config config = withPreset(std::move(given), recordings.front(), arguments);
     const CalibrationProgress progress = progressOf(arguments);
-    const Calibrator calibrator(recordingsOf(arguments), config, arguments.passes, progress);
+    const Calibrator calibrator(recordings, config, arguments.passes, progress);
     const auto [estimate, trial] = calibrate(calibrator, arguments.trial);
     if (progress) std::cerr << "\r\033[K";
     for (const std::string& problem : estimate.problems)
       std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
     const Config calibrated = calibrator.configWith(estimate);
     write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
-    if (!arguments.json.empty())
-      write(arguments.json, jsonText(calibrator.given(), estimate, trial));
-    if (!arguments.quiet)
-      std::cout << calibrationTable(calibrator.given(), estimate) << '\n'
-                << (trial ? describe(*trial) + "\n" : std::string())
-                << "Written: " << arguments.output << '\n';
-    return trial && !trial->worthUsing() ? CalibrateStatus::NotBetter : CalibrateStatus::Ok;
+    if (arguments.json == "-")
+      std::cout << documentOf(calibrator.given(), estimate, trial) << std::flush;
+    else if (!arguments.json.empty())
+      write(arguments.json, documentOf(calibrator.given(), estimate, trial));
+    if (!std::cout) throw Failure{CalibrateStatus::NotWritten, "standard output cannot be written"};
+    say(arguments, calibrationTable(calibrator.given(), estimate) + "\n" +
+                       (trial ? describe(*trial) + "\n" : std::string()) +
+                       "Written: " + arguments.output);
+    if (!trial || trial->worthUsing()) return CalibrateStatus::Ok;
+    say(arguments, "Do not use " + arguments.output + "; keep the parameters that you had. " +
+                       (recordings.size() > 1 ? "Are all recordings of the same rig?"
+                                              : "A longer recording, with more turns, may help."));
+    return CalibrateStatus::NotBetter;
   }
   catch (const Failure&)
   {

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 namespace fastlio::testing
 {
@@ -127,13 +128,84 @@ TEST_F(Calibrate, SaysWhatIsWrong)
   EXPECT_EQ(run({"a.rawlog", "--passes", "1"}).exit_status, 1);
   const auto missing = run({folder_.file("missing.rawlog"), "-o", folder_.file("x.yaml")});
   EXPECT_EQ(missing.exit_status, 2);
-  EXPECT_NE(missing.output.find("missing.rawlog"), std::string::npos) << missing.output;
+  EXPECT_NE(missing.output.find("missing.rawlog' does not exist"), std::string::npos)
+      << missing.output;
+  EXPECT_EQ(missing.output.find("LiDAR"), std::string::npos) << missing.output;
   EXPECT_FALSE(std::filesystem::exists(folder_.file("x.yaml")));
   const std::string rawlog = record("walk");
   EXPECT_EQ(run({rawlog, rawlog}).exit_status, 1) << "the same recording twice";
   const auto unwritable =
       run({rawlog, "--no-trial", "--passes", "2", "-o", folder_.file("no/such/folder/x.yaml")});
   EXPECT_EQ(unwritable.exit_status, 5) << unwritable.output;
+}
+
+TEST_F(Calibrate, AFileOfSomebodyIsNotReplacedUnlessAsked)
+{
+  const std::string rawlog = record("walk"), yaml = folder_.file("own.yaml");
+  const std::vector<std::string> words = {rawlog, "-q", "--no-trial", "--passes", "2", "-o", yaml};
+  std::ofstream(yaml) << "map:\n  voxel_size: 0.3\n";
+  const std::string before = textOf(yaml);
+  const auto refused = run(words);
+  EXPECT_EQ(refused.exit_status, 1) << refused.output;
+  EXPECT_NE(refused.output.find("own.yaml' is there already"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("--overwrite"), std::string::npos) << refused.output;
+  EXPECT_EQ(textOf(yaml), before);
+  std::vector<std::string> overwriting = words;
+  overwriting.emplace_back("--overwrite");
+  EXPECT_EQ(run(overwriting).exit_status, 0);
+  EXPECT_NE(textOf(yaml), before);
+  EXPECT_EQ(run(words).exit_status, 0) << "its own file";
+}
+
+TEST_F(Calibrate, RecordingsOfTwoRigsAreRefused)
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.duration = 5.0;
+  settings.lidar.stride = 4;
+  const auto other = withSetting(settings, "lidar.pose", "[0.3, 0, 0, 0, 0, 0]");
+  const auto drone = withSetting(settings, "lidar.kind", "os64");
+  const std::string first = writeRecording(Simulation(settings), folder_.file("a")).rawlog;
+  for (const auto& [name, different, what] :
+       {std::tuple{"b", other, "its LiDAR sits at [0.3, 0, 0, 0, 0, 0]"},
+        std::tuple{"c", drone, "its LiDAR is mrpt::obs::CObservationPointCloud"}})
+  {
+    const std::string second = writeRecording(Simulation(different), folder_.file(name)).rawlog;
+    const auto result = run({first, second, "--passes", "2", "-o", folder_.file("x.yaml")});
+    EXPECT_EQ(result.exit_status, 2) << result.output;
+    EXPECT_NE(result.output.find("is of another rig than"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find(what), std::string::npos) << result.output;
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("x.yaml")));
+  }
+}
+
+TEST_F(Calibrate, AFailedTrialSaysWhatToDo)
+{
+  // What is given is the truth: nothing can be better.
+  const std::string rawlog = record("walk"), yaml = folder_.file("rig.yaml");
+  const auto result = run({rawlog, "-o", yaml, "--passes", "2"});
+  ASSERT_EQ(result.exit_status, 6) << result.output;
+  EXPECT_NE(
+      result.output.find("Do not use " + yaml + "; keep the parameters that you had."),
+      std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find(" prior std  unit"), std::string::npos) << result.output;
+}
+
+TEST_F(Calibrate, JsonGoesToStandardOutputWhenAsked)
+{
+  const std::string rawlog = record("walk");
+  const auto result =
+      run({rawlog, "--no-trial", "-o", folder_.file("rig.yaml"), "--passes", "2", "--json", "-"});
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_EQ(nlohmann::json::parse(result.output)["values"].size(), 18U);
+}
+
+TEST_F(Calibrate, PartsThatOverlapAreRefused)
+{
+  const std::string first = record("a"), second = record("b");
+  const auto result = run({first, second, "--join", "-o", folder_.file("rig.yaml")});
+  EXPECT_EQ(result.exit_status, 1) << result.output;
+  EXPECT_NE(result.output.find("overlap by "), std::string::npos) << result.output;
 }
 }  // namespace
 }  // namespace fastlio::testing
