@@ -5,10 +5,12 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/plain_zero.h>
 #include <fastlio/options/printable.h>
 
 #include <mrpt/core/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace fastlio
@@ -56,10 +58,21 @@ std::string rhythmText(const StampReport& stamps)
 
 std::string poseLine(const Pose& T)
 {
-  const auto n = sixNumbers(T);
+  auto n = sixNumbers(T);
+  for (std::size_t i = 0; i < n.size(); ++i)
+    n[i] = plainZero(n[i], i < 3 ? 3 : 2);
   return format(
       "x %.3f y %.3f z %.3f m, yaw %.2f pitch %.2f roll %.2f deg", n[0], n[1], n[2], n[3], n[4],
       n[5]);
+}
+
+/** Whether the recording is damaged, so that a run ends with another status. */
+std::string endText(const RecordingSurvey& survey)
+{
+  if (!survey.unusable.empty()) return "fastlio-replay CANNOT run on this: " + survey.unusable;
+  if (survey.problems.empty()) return "fastlio-replay can run on this.";
+  return "fastlio-replay can run on what could be read of this. The recording is damaged (see "
+         "trouble above): a run ends with exit status 3.";
 }
 
 std::string sensorText(const SurveyedSensor& sensor)
@@ -104,28 +117,46 @@ std::string lidarText(const RecordingSurvey& survey, const SurveyedLidar& lidar)
   return text + line("preset", presetText(lidar.preset, named && &lidar == &survey.lidars.front()));
 }
 
+/** As far as the motion of the LiDAR tells it; else what MRPT prescribes. */
+std::string gyroUnit(const RecordingSurvey& survey)
+{
+  constexpr double kDegrees = 10.0;  // times as fast as the LiDAR
+  const bool degrees =
+      survey.motion && survey.motion->conclusive && survey.motion->scale > kDegrees;
+  return degrees ? "deg/s" : "rad/s";
+}
+
 std::string imuText(const RecordingSurvey& survey)
 {
   const ImuSurvey& imu = survey.imu;
   std::string text = "IMU '" + printable(survey.sensors[*survey.imu_index].summary.label) + "'\n";
-  text += line("largest", format("rate %.3g, acceleration %.4g", imu.gyro_max, imu.accel_max));
+  text += line(
+      "largest", format(
+                     "angular rate %.3g, acceleration %.4g, in the units of the recording",
+                     imu.gyro_max, imu.accel_max));
   if (!imu.rests) return text + line("rest", "never for a second");
   const auto& stamps = survey.sensors[*survey.imu_index].stamps;
   text += line(
       "rest", format(
                   "%.2f s, beginning %.2f s after the start", imu.rest_seconds,
                   toSeconds(imu.rest_begin_ns - stamps.first_ns)));
+  const std::string gyro_unit = gyroUnit(survey);
+  const std::string unit = imu.accel_unit.empty() ? "(unit unclear)" : imu.accel_unit;
+  const auto [x, y, z] =
+      std::array{plainZero(imu.up.x(), 3), plainZero(imu.up.y(), 3), plainZero(imu.up.z(), 3)};
   text += line(
-      "gravity", format("%.4f there: ", imu.accel_norm) +
-                     (imu.accel_unit.empty() ? "unit unclear" : imu.accel_unit) +
-                     format(", up is [%.3f %.3f %.3f]", imu.up.x(), imu.up.y(), imu.up.z()));
+      "gravity", format("%.4f ", imu.accel_norm) + unit +
+                     format(" at rest, up is [%.3f %.3f %.3f] in the IMU's frame", x, y, z));
   text += line(
       "gyro bias",
-      format("[%.5f %.5f %.5f] there", imu.gyro_mean.x(), imu.gyro_mean.y(), imu.gyro_mean.z()));
-  return text + line(
-                    "noise", format(
-                                 "gyro %.2g, acceleration %.2g per sqrt(Hz) there",
-                                 imu.gyro_noise_density, imu.accel_noise_density));
+      format("[%.5f %.5f %.5f] ", imu.gyro_mean.x(), imu.gyro_mean.y(), imu.gyro_mean.z()) +
+          gyro_unit + " at rest");
+  return text +
+         line(
+             "noise", format(
+                          "gyro %.2g %s/sqrt(Hz), acceleration %.2g ", imu.gyro_noise_density,
+                          gyro_unit.c_str(), imu.accel_noise_density) +
+                          unit + "/sqrt(Hz), at rest");
 }
 
 std::string motionText(const RecordingSurvey& survey)
@@ -182,17 +213,14 @@ std::string toTable(const RecordingSurvey& survey)
   for (const std::string& file : survey.files)
     text += file + "\n";
   for (const ReadProblem& problem : survey.problems)
-    text += "trouble: " + problem.message +
-            (problem.occurrences > 1 ? format(" (%zu times)", problem.occurrences) : "") + "\n";
+    text += "trouble: " + sentenceOf(problem) + "\n";
   for (const SurveyedSensor& sensor : survey.sensors)
     text += "\n" + sensorText(sensor);
   for (const SurveyedLidar& lidar : survey.lidars)
     text += "\n" + lidarText(survey, lidar);
   if (survey.imu_index) text += "\n" + imuText(survey) + "\n" + motionText(survey);
   text += "\n" + listText("note: ", survey.notes) + listText("WARNING: ", survey.warnings);
-  return text + "fastlio-replay " +
-         (survey.unusable.empty() ? "can run on this." : "CANNOT run on this: " + survey.unusable) +
-         "\n";
+  return text + endText(survey) + "\n";
 }
 
 }  // namespace fastlio

@@ -10,6 +10,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/survey/recording_parts.h>
 
 #include <filesystem>
 #include <iostream>
@@ -69,6 +70,7 @@ void requireHarmlessOutput(const InfoArguments& arguments)
 int run(const InfoArguments& arguments)
 {
   requireGivenOnce(arguments.input_files);
+  requireInOrder(arguments.input_files);
   requireHarmlessOutput(arguments);
   Config config;
   if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);

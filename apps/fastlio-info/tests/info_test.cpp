@@ -166,6 +166,27 @@ TEST_F(Info, SaysWhyReplayCannotRun)
   expectInTable("of the LiDAR's time only");
 }
 
+TEST_F(Info, ADamagedRecordingIsSaidToBeDamaged)
+{
+  const std::string rawlog = record("office", {{"duration", "6"}, {"lidar.stride", "4"}});
+  std::filesystem::resize_file(rawlog, std::filesystem::file_size(rawlog) * 3 / 4);
+  const Json all = jsonOf(rawlog);
+  EXPECT_FALSE(all["problems"].empty());
+  EXPECT_EQ(table_.find("can run on this."), std::string::npos) << table_;
+  expectInTable("The recording is damaged");
+  expectInTable("exit status 3");
+}
+
+TEST_F(Info, NumbersHaveUnitsAndNoSignOfZero)
+{
+  const Json all = jsonOf(record(
+      "rest", {{"duration", "4"}, {"lidar.stride", "8"}, {"lidar.pose", "[0,0,0,0,-0.001,0]"}}));
+  EXPECT_EQ(table_.find("-0.00 "), std::string::npos) << table_;
+  expectInTable("rad/s at rest");
+  expectInTable("m/s^2 at rest, up is");
+  expectInTable("rad/s/sqrt(Hz), acceleration ");
+}
+
 TEST_F(Info, TheReportDoesNotReplaceTheRecording)
 {
   const std::string rawlog = record("rest", {{"duration", "1"}, {"lidar.stride", "20"}});
