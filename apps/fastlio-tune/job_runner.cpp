@@ -3,7 +3,7 @@
 
 #include "job_runner.h"
 
-#include "interruption.h"
+#include "../shared/interruption.h"
 #include "job_run.h"
 
 #include <algorithm>

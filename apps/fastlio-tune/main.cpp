@@ -3,8 +3,8 @@
 
 /** \file main.cpp fastlio-tune: parameters that make the error on recordings smaller. */
 
+#include "../shared/interruption.h"
 #include "command_line.h"
-#include "interruption.h"
 #include "job_scripts.h"
 #include "tuning_run.h"
 #include <fastlio/files/failure_text.h>

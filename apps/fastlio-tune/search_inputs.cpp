@@ -10,6 +10,7 @@
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <filesystem>
@@ -30,6 +31,21 @@ void requireReadable(const std::string& file, const std::string& role)
   if (role == "recording" && fs::is_directory(file, ignored)) return;
   if (const auto problem = inputFileProblem(file))
     throw std::invalid_argument(role + " '" + printable(file) + "' " + *problem);
+}
+
+/** Recordings are easily given first. */
+void requireSpaceOfText(const std::string& file)
+{
+  requireReadable(file, "search space");
+  std::array<char, 4096> bytes{};
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), bytes.size());
+  const auto is_control = [](char c) { return c >= 0 && c < '\t'; };
+  if (std::none_of(bytes.begin(), bytes.begin() + in.gcount(), is_control)) return;
+  throw std::invalid_argument(
+      "search space '" + printable(file) +
+      "' is not a text file; give the search space first, then the recordings: "
+      "fastlio-tune SPACE.yaml RECORDING...");
 }
 
 /** The given truth, or the file beside the recording when it is there. */
@@ -147,7 +163,7 @@ void requireHarmlessOutputs(const TuneCommand& command, const SearchInputs& inpu
 
 SearchInputs readInputs(const TuneCommand& command)
 {
-  requireReadable(command.files.space, "search space");
+  requireSpaceOfText(command.files.space);
   SearchInputs inputs;
   inputs.space = readSearchSpace(command.files.space);
   if (!command.files.base.empty())

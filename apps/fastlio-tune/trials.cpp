@@ -20,11 +20,6 @@ constexpr std::size_t kGridSteps = 3;  // of a range
 constexpr std::size_t kEachSteps = 5;
 constexpr double kLeastOfBase = 0.9;  // of the duration; a shorter run is truncated
 
-Trial trialOf(const SearchInputs& inputs, const Candidate& values)
-{
-  return {searchedYaml(inputs, configured(inputs.base, inputs.space, values)), values};
-}
-
 Candidate valuesOf(const SearchInputs& inputs, const Config& config)
 {
   Candidate values;
@@ -119,6 +114,11 @@ void append(Trials& trials, const std::vector<Trial>& sets, const std::vector<Ju
 }
 }  // namespace
 
+Trial trialOf(const SearchInputs& inputs, const Candidate& values)
+{
+  return {searchedYaml(inputs, configured(inputs.base, inputs.space, values)), values};
+}
+
 Evaluator::Evaluator(const TuneCommand& command, const SearchInputs& inputs)
     : command_(command), inputs_(inputs), base_(baseSet(inputs)), store_(command.runner.store)
 {
@@ -152,13 +152,7 @@ std::vector<JudgedRuns> Evaluator::run(
   std::vector<JudgedRuns> judged(sets.size(), JudgedRuns(inputs_.recordings.size()));
   for (std::size_t i = 0; i < sets.size(); ++i)
     for (const std::size_t r : recordings)
-    {
-      const RunOutcome result = outcome(sets[i], r);
-      judged[i][r] = {result.state, result.measure(inputs_.measure)};
-      // Without the number that is asked for there is nothing to compare.
-      if (!judged[i][r].error && result.state < RunState::Lost)
-        judged[i][r].state = RunState::Failed;
-    }
+      judged[i][r] = judgedOf(outcome(sets[i], r), r);
   return judged;
 }
 

@@ -24,6 +24,9 @@ struct Trials
   std::vector<JudgedRuns> runs;  //!< of each set, one per recording; failed where not run
 };
 
+/** The base with other values of the searched keys. */
+[[nodiscard]] Trial trialOf(const SearchInputs& inputs, const Candidate& values);
+
 /** Runs sets on recordings by way of the store. */
 class Evaluator
 {

@@ -270,8 +270,8 @@ std::string toPage(
            recordingsTable(inputs, result) + paragraphs({costText(inputs, result)})) +
            sectionHtml(
                "Keys", "<p>Effect: " + htmlText(effectsTitle(command)) + ".</p>\n" +
-                           keysTable(inputs, result) + "<br/>\n<div class=\"grid-of\">\n" +
-                           figures + "</div>\n") +
+                           keysTable(inputs, result) + paragraphs({atBaseText(result)}) +
+                           "<br/>\n<div class=\"grid-of\">\n" + figures + "</div>\n") +
            sectionHtml("Search", courseFigure(ratios)) +
            (result.failures.empty() ? "" : sectionHtml("Failures", paragraphs(result.failures)))});
 }

@@ -4,6 +4,7 @@
 #include "tuning_result.h"
 
 #include "tuning_text.h"
+#include <fastlio/options/json_text.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
@@ -36,7 +37,9 @@ std::string changesText(
   for (std::size_t k = 0; k < inputs.space.size(); ++k)
     if (before[k] != after[k])
       text += indent + inputs.space[k].key + ": " + before[k] + " -> " + after[k] + "\n";
-  return text.empty() ? indent + "none\n" : text;
+  if (text.empty()) text = indent + "none\n";
+  const std::string kept = atBaseText(result);
+  return kept.empty() ? text : text + indent + kept + "\n";
 }
 
 std::string effectsText(const TuningResult& result, const std::string& indent)
@@ -94,16 +97,16 @@ std::vector<KeyEffect> eachEffects(const SearchInputs& inputs, const Trials& tri
   return effects;
 }
 
-nlohmann::json jsonOf(const Judged& run)
+Json jsonOf(const Judged& run)
 {
-  nlohmann::json json = {{"state", toText(run.state)}, {"error", nullptr}};
+  Json json = {{"state", toText(run.state)}, {"error", nullptr}};
   if (run.error) json["error"] = *run.error;
   return json;
 }
 
-nlohmann::json jsonOf(const SearchInputs& inputs, const Candidate& values)
+Json jsonOf(const SearchInputs& inputs, const Candidate& values)
 {
-  nlohmann::json json = nlohmann::json::object();
+  Json json = Json::object();
   for (std::size_t k = 0; k < inputs.space.size(); ++k)
     json[inputs.space[k].key] = values[k];
   return json;
@@ -170,9 +173,9 @@ std::string toParameterFile(
   const JudgedRuns& base = result.trials.runs[0];
   const JudgedRuns& best = result.trials.runs[result.best];
   std::string text =
-      "# Chosen by fastlio-tune " + programVersion() + " among " +
-      std::to_string(result.trials.sets.size()) + " parameter sets (" + command.search.method +
-      ", seed " + std::to_string(command.search.seed) + ").\n# Ratio of the error, " +
+      kParameterMark + programVersion() + " among " + std::to_string(result.trials.sets.size()) +
+      " parameter sets (" + command.search.method + ", seed " +
+      std::to_string(command.search.seed) + ").\n# Ratio of the error, " +
       nameWithUnit(inputs.measure) + ", to that of the base parameters (" +
       (command.files.base.empty() ? "the defaults" : fileNameOf(command.files.base)) +
       "),\n# and of what the other recordings alone choose:\n";
@@ -188,7 +191,7 @@ std::string toParameterFile(
 std::string toJson(
     const TuneCommand& command, const SearchInputs& inputs, const TuningResult& result)
 {
-  nlohmann::json json = {
+  Json json = {
       {"version", programVersion()},
       {"search", inputs.id},
       {"method", command.search.method},
@@ -197,10 +200,11 @@ std::string toJson(
       {"parameter_sets", result.trials.sets.size()},
       {"base", jsonOf(inputs, result.trials.sets[0].values)},
       {"best", jsonOf(inputs, result.trials.sets[result.best].values)},
+      {"kept_at_base", result.at_base},
       {"failures", result.failures}};
   for (std::size_t r = 0; r < inputs.recordings.size(); ++r)
   {
-    nlohmann::json row = {
+    Json row = {
         {"path", inputs.recordings[r].path},
         {"base", jsonOf(result.trials.runs[0][r])},
         {"best", jsonOf(result.trials.runs[result.best][r])}};
@@ -213,7 +217,7 @@ std::string toJson(
   }
   for (const KeyEffect& effect : result.effects)
   {
-    nlohmann::json levels = nlohmann::json::array();
+    Json levels = Json::array();
     for (const KeyLevel& level : effect.levels)
       levels.push_back(
           {{"values", level.values}, {"trials", level.trials}, {"mean_ratio", level.mean_ratio}});
@@ -223,6 +227,6 @@ std::string toJson(
          {"certain", effect.certain},
          {"levels", levels}});
   }
-  return json.dump(2) + "\n";
+  return jsonText(json);
 }
 }  // namespace fastlio

@@ -21,6 +21,7 @@ struct TuningResult
   std::vector<std::string> failures;  //!< reasons, each once
   Conclusion conclusion = Conclusion::NothingBetter;
   std::vector<KeyEffect> effects;
+  std::vector<std::string> at_base;  //!< keys that keep the base's value: others may be chance
 };
 
 /** The effect of each key: of `each`, error by error of the base per value; else main effects. */
@@ -30,6 +31,9 @@ struct TuningResult
 /** For the terminal. */
 [[nodiscard]] std::string toTable(
     const TuneCommand& command, const SearchInputs& inputs, const TuningResult& result);
+
+/** With which every parameter file of the program begins. */
+inline constexpr const char* kParameterMark = "# Chosen by fastlio-tune ";
 
 /** The parameters, with what speaks for them as comments. */
 [[nodiscard]] std::string toParameterFile(

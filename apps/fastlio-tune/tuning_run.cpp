@@ -3,8 +3,10 @@
 
 #include "tuning_run.h"
 
+#include "needed_changes.h"
 #include "tuning_report.h"
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/own_file.h>
 
 #include <algorithm>
 #include <iostream>
@@ -70,6 +72,7 @@ void sayPlan(const TuneCommand& command, const SearchInputs& inputs)
 Conclusion tune(const TuneCommand& command)
 {
   const SearchInputs inputs = readInputs(command);
+  if (!command.overwrite) requireOwnFile(command.files.output, {"fastlio-tune", kParameterMark});
   sayPlan(command, inputs);
   Evaluator evaluator(command, inputs);
   const auto all = recordingsWithout(inputs, inputs.recordings.size());
@@ -81,6 +84,12 @@ Conclusion tune(const TuneCommand& command)
   result.effects = effectsOf(command, inputs, result.trials);
   result.conclusion =
       concludeFrom(result.trials.runs[0], result.trials.runs[result.best], result.left_out);
+  // Workers elsewhere may have ended, as the sets of the search are finished.
+  TuneCommand here = command;
+  here.runner.jobs = std::max(1, command.runner.jobs);
+  here.retry_failed = false;
+  Evaluator checks(here, inputs);
+  keepNeededChanges(inputs, checks, result);
   if (result.conclusion == Conclusion::Better)
     writeFileAtomically(command.files.output, toParameterFile(command, inputs, result));
   if (!command.files.json.empty())

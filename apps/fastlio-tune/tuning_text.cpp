@@ -42,6 +42,15 @@ std::string effectsTitle(const TuneCommand& command)
          (command.search.method == "each" ? "the base" : "all sets");
 }
 
+std::string atBaseText(const TuningResult& result)
+{
+  std::string keys;
+  for (const std::string& key : result.at_base)
+    keys += (keys.empty() ? "" : ", ") + key;
+  if (keys.empty()) return keys;
+  return "at the base's value, as the effect may be chance and nothing gets worse: " + keys;
+}
+
 std::string conclusionText(const TuneCommand& command, const TuningResult& result)
 {
   switch (result.conclusion)

@@ -23,6 +23,9 @@ namespace fastlio
 /** The meaning of the numbers of the effects. */
 [[nodiscard]] std::string effectsTitle(const TuneCommand& command);
 
+/** Which keys keep the value of the base, and why; empty: none does. */
+[[nodiscard]] std::string atBaseText(const TuningResult& result);
+
 /** A sentence. */
 [[nodiscard]] std::string conclusionText(const TuneCommand& command, const TuningResult& result);
 

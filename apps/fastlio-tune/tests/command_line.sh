@@ -19,3 +19,14 @@ expect 1 'recordings' "$tune" "$dir/good.yaml"
 expect 1 'lidar.min_range' "$tune" "$dir/bad.yaml" "$dir/a.rawlog"
 expect 1 'a.rawlog' "$tune" "$dir/good.yaml" "$dir/a.rawlog" -o "$dir/o.yaml"
 expect 1 'method' "$tune" "$dir/good.yaml" "$dir/a.rawlog" --method luck
+# Recordings first: said in words.
+printf '\001\002\003 a recording' >"$dir/b.rawlog"
+expect 1 'give the search space first' "$tune" "$dir/b.rawlog" "$dir/good.yaml"
+! grep -q memory "$dir/log" || { cat "$dir/log"; exit 1; }
+printf 'lidar:\n\tmin_range: [1]\n' >"$dir/tab.yaml"
+expect 1 'line 2 begins with a tab; use spaces' "$tune" "$dir/tab.yaml" "$dir/b.rawlog"
+# Parameters of somebody stay.
+printf 'map:\n  voxel_size: 0.3\n' >"$dir/own.yaml"
+expect 1 "own.yaml' is there already, and fastlio-tune did not write it" \
+  "$tune" "$dir/good.yaml" "$dir/b.rawlog" -o "$dir/own.yaml"
+grep -q 'voxel_size: 0.3' "$dir/own.yaml"
