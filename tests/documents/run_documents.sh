@@ -63,10 +63,15 @@ make_files() {
     cp ../simulated/ground_truth.tum "$name.gt.tum"
     seed=$((seed + 1))
   done
-  for name in walk_2 walk_3 part1 part2 a b c; do
+  for name in walk_2 walk_3 a b c; do
     cp walk_1.rawlog $name.rawlog
     cp walk_1.gt.tum $name.gt.tum
   done
+  # Parts of one recording follow each other.
+  fastlio-import walk_1.rawlog -o part.rawlog --split-time 3 --quiet
+  mv part_001.rawlog part1.rawlog
+  mv part_002.rawlog part2.rawlog
+  rm -f part_0*.rawlog
   cp walk.gt.tum ground_truth.tum
   mkdir -p params && cp "$source_dir"/params/*.yaml params/
   awk '/^       ( )*[a-z_]+:/ { print substr($0, 8) }' "$source_dir/docs/tuning.md" >space.yaml
