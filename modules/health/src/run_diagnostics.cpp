@@ -63,6 +63,7 @@ void RunDiagnostics::consider(const ScanResult& result)
   considerExtrinsic(result);
   considerMotion(result);
   considerStep(result);
+  considerClocks(result);
 }
 
 void RunDiagnostics::considerMounting(const ScanResult& result)
@@ -106,6 +107,25 @@ void RunDiagnostics::considerStep(const ScanResult& result)
       "and the offset of the clocks are estimated anew and the covariance is wider. A shock, heat "
       "or a motor that starts does that, and so do clipped readings and a clock that jumps. Or the "
       "LiDAR sees what moves with it, as in an elevator: then the poses are wrong");
+}
+
+/** An offset that is nothing but a late clock costs little, as it is estimated. More often points
+ * have another time than was assumed. */
+void RunDiagnostics::considerClocks(const ScanResult& result)
+{
+  const double variance = result.filter.P(kTimeOffset, kTimeOffset);
+  const double error = result.filter.x.time_offset, std = std::sqrt(std::max(0.0, variance));
+  const double given_std = calibration_.time_offset_std;
+  const bool known = variance > 0.0 && kOddDeviations * std < given_std;
+  if (clocks_reported_ || !known || std::abs(error) < kOddDeviations * given_std) return;
+  clocks_reported_ = true;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the clocks of LiDAR and IMU seem to be apart by %.1f +- %.1f ms beside what was given; "
+          "the trajectory counts this, the scans before did not. Set lidar.time_offset to %.4f; if "
+          "it is the duration of a scan, input.point_time_reference is wrong",
+          1e3 * error, 1e3 * std, given_time_offset_ + error));
 }
 
 /** Smaller than what considerMounting() sees, and after a longer time. */

@@ -20,7 +20,9 @@ class RunDiagnostics
 {
  public:
   explicit RunDiagnostics(const OdometryOptions& options)
-      : calibration_(options.calibration), imu_noise_(options.imu.noise)
+      : calibration_(options.calibration),
+        imu_noise_(options.imu.noise),
+        given_time_offset_(options.lidar.time_offset)
   {
   }
 
@@ -40,12 +42,14 @@ class RunDiagnostics
   void considerExtrinsic(const ScanResult& result);
   void considerMotion(const ScanResult& result);
   void considerStep(const ScanResult& result);
+  void considerClocks(const ScanResult& result);
 
   CalibrationOptions calibration_;
   ImuNoise imu_noise_;
+  double given_time_offset_;  // [s]
   SampleScatter scatter_;
   bool scatter_reported_ = false, mounting_reported_ = false, extrinsic_reported_ = false,
-       motion_reported_ = false, step_reported_ = false;
+       motion_reported_ = false, step_reported_ = false, clocks_reported_ = false;
   std::vector<Diagnostic> all_;
 };
 
