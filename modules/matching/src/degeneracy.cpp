@@ -23,9 +23,6 @@ constexpr std::size_t kDistrustedPlanes = 3;
 // A plane with more than this part of the points is no accident at an edge: the landing of a
 // staircase is all that shows the height.
 constexpr double kLargePlane = 0.03;
-// Without them, this part of the signal-to-noise ratio has to be left. In corridors, spurious
-// planes of realistic sensors leave up to two thirds, a floor that only near points see more.
-constexpr double kSupportedPart = 0.8;
 
 /** Lever arm that makes rotations and translations equally strong on the whole [m]. */
 double leverArmOf(const Matrix6& information)
@@ -218,14 +215,14 @@ double StrongestPlanes::informationAlong(
   return std::accumulate(most.begin(), most.end(), 0.0);
 }
 
-void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& c)
+void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& c, double supported_part)
 {
   c.unconstrained = 0;
   Vector6 keep = Vector6::Ones();
   for (int i = 5; i >= 0; --i)
   {
     const double needed = min_signal_to_noise * c.noise_information[i];
-    if (c.information[i] <= needed || c.supported_information[i] <= kSupportedPart * needed)
+    if (c.information[i] <= needed || c.supported_information[i] <= supported_part * needed)
     {
       c.unconstrained = i + 1;
       keep.head(i + 1).setZero();

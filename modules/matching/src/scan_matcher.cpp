@@ -112,11 +112,15 @@ void ScanMatcher::findConstraints(
     noise += part;
   ScanConstraints& constraints = call.result.constraints;
   strongest_planes_.look(measured_, matches_);
-  const TranslationAxes translations = strongest_planes_.unsupportedTranslations(
-      measured_, sums.HtRinvH, noise, min_signal_to_noise);
+  TranslationAxes translations(3, 0);
+  if (!call.options.at_start)
+    translations = strongest_planes_.unsupportedTranslations(
+        measured_, sums.HtRinvH, noise, min_signal_to_noise);
   constraints = informationByDirection(sums.HtRinvH, noise, translations);
   strongest_planes_.takeFromSupport(measured_, constraints);
-  leaveOutUnconstrained(min_signal_to_noise, constraints);
+  leaveOutUnconstrained(
+      min_signal_to_noise, constraints,
+      call.options.at_start ? kSupportedPartAtStart : kSupportedPart);
 }
 
 // Eq. 12-14 at an iterate.

@@ -105,7 +105,11 @@ MatchResult Estimator::matchPrediction(const Work& work)
   const bool pull_in = window && window->pull_in;
   MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
   // Only these scans can tell the velocity of a start in motion: no direction is left out lightly.
-  if (window) how.measurement.min_signal_to_noise *= kStartSignalToNoise;
+  if (window)
+  {
+    how.measurement.min_signal_to_noise *= kStartSignalToNoise;
+    how.at_start = true;
+  }
   how.deskew_std = deskewStd(work.deskewed, work.predicted);
   return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how);
 }

@@ -28,6 +28,13 @@ inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
     const Mat3& R_world_scan, const BodyPoints& body, const std::vector<PlaneMatch>& matches,
     const MeasuredScan& scan, std::size_t chunk);
 
+/** This part of the signal-to-noise ratio has to be left without the few planes that say most. In
+ * corridors, spurious planes of realistic sensors leave up to two thirds, a floor that only near
+ * points see more. */
+inline constexpr double kSupportedPart = 0.8;
+/** Of the scans of a start in motion, which have few planes and leave nothing out lightly. */
+inline constexpr double kSupportedPartAtStart = 0.6;
+
 /** Axes in the world, a column each; three at most, on the stack. */
 using TranslationAxes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::DontAlign, 3, 3>;
 
@@ -68,9 +75,11 @@ class StrongestPlanes
 };
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
- * that of the noise, or where its supported information is not more than eight tenths of that; and
- * so are all weaker ones. */
-void leaveOutUnconstrained(double min_signal_to_noise, ScanConstraints& constraints);
+ * that of the noise, or where its supported information is not more than \a supported_part of that;
+ * and so are all weaker ones. */
+void leaveOutUnconstrained(
+    double min_signal_to_noise, ScanConstraints& constraints,
+    double supported_part = kSupportedPart);
 
 /** True when some direction has so much less information than the best one that it is worth the
  * while to look for noise in it. */

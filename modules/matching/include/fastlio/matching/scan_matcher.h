@@ -27,6 +27,7 @@ struct MatchOptions
   MeasurementOptions measurement;  //!< noise and gates
   int association_iterations = 2;  //!< so many iterations search the map anew; more move no match
   IterationLimits limits;          //!< of the iterated update
+  bool at_start = false;           //!< a start in motion: no direction is left out lightly
   GainForm gain = GainForm::Information;
   /** Where the iterations start, and how near that is; the prediction if there is none. */
   std::optional<FilterState> start;
