@@ -41,6 +41,7 @@ std::vector<Pose> likeliest(const std::vector<Start>& starts)
   if (starts.size() > kMostStarts)
   {
     std::vector<double> squared;
+    squared.reserve(starts.size());
     for (const Start& start : starts)
       squared.push_back(start.squared);
     const auto last = squared.begin() + static_cast<std::ptrdiff_t>(kMostStarts);
