@@ -244,12 +244,12 @@ ConfigFile readConfigFile(const std::string& path)
 
 yaml readYamlFile(const std::string& path)
 {
-  YamlText text = parseYaml(fileText(path));
+  const YamlText text = parseYaml(fileText(path));
   const Problems repeated = repetitions(text.repeated);
   if (!repeated.empty())
     throw std::invalid_argument(
         "line " + std::to_string(repeated.front().line) + ", " + repeated.front().text);
-  return std::move(text.document);
+  return text.document;
 }
 
 std::string applySetting(const std::string& setting, Config& config)

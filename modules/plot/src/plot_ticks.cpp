@@ -44,6 +44,7 @@ std::vector<PlotTick> axisTicks(const PlotRange& range, int count)
   for (int more = count + 1; values.size() < kLeast && more <= kMost; ++more)
     values = roundTicks(range.low, range.high, more);
   std::vector<PlotTick> ticks;
+  ticks.reserve(values.size());
   for (const double value : values)
     ticks.push_back({value, tickText(value)});
   return ticks;
