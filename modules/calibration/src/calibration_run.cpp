@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "one_rig.h"
 #include <fastlio/calibration/calibration_run.h>
 #include <fastlio/imu/imu_conditioner.h>
 #include <fastlio/math/time.h>
@@ -70,8 +71,7 @@ class RunFollower
 
 DecodeAheadSource openedSource(const CalibrationRecording& recording, const Config& config)
 {
-  const SensorPatterns patterns = patternsOf(config.sensors);
-  SensorSelection selection = selectSensors(surveySensors(recording.files, patterns), patterns);
+  SensorSelection selection = sensorsIn(recording, config);
   const InputPlan plan = planInput(selection, config.sensors, config.odometry.lidar);
   return {RawlogSource(recording.files), ObservationBridge(std::move(selection), plan.bridge)};
 }

@@ -22,9 +22,7 @@ constexpr double kFittedPart = 0.6;
 
 Rig rigIn(const CalibrationRecording& recording, const Config& config)
 {
-  const SensorPatterns patterns = patternsOf(config.sensors);
-  const SensorSelection selection =
-      selectSensors(surveySensors(recording.files, patterns), patterns);
+  const SensorSelection selection = sensorsIn(recording, config);
   return rigOf(config, selection, planInput(selection, config.sensors, config.odometry.lidar));
 }
 

@@ -3,12 +3,10 @@
 
 #include "one_rig.h"
 
+#include <fastlio/math/so3.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/survey/input_plan.h>
-#include <fastlio/survey/sensor_selection.h>
-
-#include <Eigen/Geometry>
 
 #include <stdexcept>
 #include <string>
@@ -31,9 +29,7 @@ struct RigSensors
 
 RigSensors sensorsOf(const CalibrationRecording& recording, const Config& config)
 {
-  const SensorPatterns patterns = patternsOf(config.sensors);
-  const SensorSelection selection =
-      selectSensors(surveySensors(recording.files, patterns), patterns);
+  const SensorSelection selection = sensorsIn(recording, config);
   const SensorSummary& lidar = selection.lidar;
   RigSensors sensors;
   sensors.lidar = lidar.class_name;
@@ -47,8 +43,7 @@ RigSensors sensorsOf(const CalibrationRecording& recording, const Config& config
 
 bool isSame(const Pose& a, const Pose& b)
 {
-  const Mat3 turn = a.R.transpose() * b.R;
-  return (a.p - b.p).norm() < kSamePlace && Eigen::AngleAxisd(turn).angle() < kSameRotation;
+  return (a.p - b.p).norm() < kSamePlace && logSO3(a.R.transpose() * b.R).norm() < kSameRotation;
 }
 
 /** Sentences on what differs; empty: nothing. */
@@ -68,6 +63,12 @@ std::string differences(const RigSensors& first, const RigSensors& other)
   return text;
 }
 }  // namespace
+
+SensorSelection sensorsIn(const CalibrationRecording& recording, const Config& config)
+{
+  const SensorPatterns patterns = patternsOf(config.sensors);
+  return selectSensors(surveySensors(recording.files, patterns), patterns);
+}
 
 void requireOneRig(const std::vector<CalibrationRecording>& recordings, const Config& config)
 {

@@ -5,11 +5,16 @@
 #pragma once
 
 #include <fastlio/calibration/calibration_run.h>
+#include <fastlio/survey/sensor_selection.h>
 
 #include <vector>
 
 namespace fastlio
 {
+/** The sensors of a recording that a calibration uses. */
+[[nodiscard]] SensorSelection sensorsIn(
+    const CalibrationRecording& recording, const Config& config);
+
 /** Compares the LiDAR and the poses of LiDAR and IMU with those of the first recording.
  * \exception std::runtime_error they differ; names both recordings and what differs */
 void requireOneRig(const std::vector<CalibrationRecording>& recordings, const Config& config);

@@ -54,19 +54,18 @@ std::string foundAgain(const PoseSearchResult& search)
 /** In one clause. The limit is the least that any map asks for (PoseSearchLimits). */
 std::string whyNotFound(const PoseSearchResult& search)
 {
-  // A rival of this part of the score makes the best place doubtful.
-  constexpr double kNearlyAsGood = 0.8;
   if (!search.best) return "too few points match at each place that was tried";
   const PoseCandidate& best = *search.best;
   const double matching = 100.0 * best.inlier_ratio;
-  const double least = PoseSearchLimits{}.min_inlier_ratio;
-  if (best.inlier_ratio < least)
+  const PoseSearchLimits limits;
+  if (best.inlier_ratio < limits.min_inlier_ratio)
     return mrpt::format(
-        "%.0f %% of the points match, at least %.0f %% are needed", matching, 100.0 * least);
-  if (best.innovation > kMaxInnovation)
+        "%.0f %% of the points match, at least %.0f %% are needed", matching,
+        100.0 * limits.min_inlier_ratio);
+  if (best.innovation > limits.max_innovation)
     return mrpt::format(
         "%.0f %% of the points match, but they lie too far from its surfaces", matching);
-  if (search.rival_score >= kNearlyAsGood * best.score)
+  if (search.rival_score >= kRivalShare * best.score)
     return mrpt::format(
         "%.0f %% of the points match, but another place fits nearly as well", matching);
   if (!search.complete)

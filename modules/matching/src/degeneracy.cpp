@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -118,10 +119,14 @@ ScanConstraints informationByDirection(
   c.lever_arm = leverArmOf(information);
   const Matrix6 scaled = inLengths(information, c.lever_arm);
   const Square6 noise = inLengths(noise_information, c.lever_arm);
-  const Eigensystem6 system = symmetricEigensystem(scaled);
-  Square6 V = system.vectors;
-  c.information = system.values;
-  if (translations.cols() > 0)
+  Square6 V;
+  if (translations.cols() == 0)
+  {
+    const Eigensystem6 system = symmetricEigensystem(scaled);
+    V = system.vectors;
+    c.information = system.values;
+  }
+  else
   {
     V = directionsOf(scaled, translations);
     for (int i = 0; i < 6; ++i)
@@ -182,7 +187,7 @@ void StrongestPlanes::takeFromSupport(const MeasuredScan& scan, ScanConstraints&
     Vector6 direction = constraints.directions.col(i);
     direction.head<3>() /= constraints.lever_arm;
     constraints.supported_information[i] -=
-        informationAlong(scan, direction, static_cast<double>(scan.sums().count));
+        informationAlong(scan, direction, std::numeric_limits<double>::infinity());
   }
 }
 

@@ -27,9 +27,7 @@ constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
 constexpr double kSamePlace = 0.3;     // [m]
 constexpr double kSameAttitude = 0.1;  // [rad]
-// A rival as good as this fraction of the best: nobody knows which of the two is right.
-constexpr double kRivalShare = 0.8;
-constexpr double kHeadingStd = 0.01;  // of a candidate's attitude [rad]
+constexpr double kHeadingStd = 0.01;   // of a candidate's attitude [rad]
 // The whole scan pulls a candidate in from wide to narrow.
 constexpr double kRefiningStds[] = {0.3, 0.1, 0.05};  // [m]
 

@@ -76,15 +76,18 @@ RelativePose predictedAt(const Pose& T, double position_std, double attitude_std
 }
 
 const Pose kTruth{expSO3({0.01, -0.02, 1.9}), {3.0, -2.0, 0.1}};  // T_target_source
+
+Pose besideTruth(const Vec3& way, double heading)
+{
+  return {kTruth.R * expSO3({0.0, 0.0, heading}), kTruth.p + way};
+}
 }  // namespace
 
 TEST(SubmapRegistration, FindsThePoseFromAnyHeading)
 {
   const SubmapRegistration target(yard({}, 1));
   const auto source = yard(kTruth.inverse(), 2);
-  Pose guess = kTruth;
-  guess.p += Vec3(0.9, -0.7, 0.3);
-  guess.R = guess.R * expSO3({0.0, 0.0, 0.05});
+  const Pose guess = besideTruth({0.9, -0.7, 0.3}, 0.05);
   const Registration found = target.search(source, predictedAt(guess, 0.6, 0.05), Vec3::UnitZ());
   ASSERT_TRUE(found.converged);
   EXPECT_LT((found.motion.T_a_b.p - kTruth.p).norm(), 0.01);
@@ -112,9 +115,7 @@ TEST(SubmapRegistration, TriesNoMoreThanSomeThousandPlaces)
 {
   const SubmapRegistration target(yard({}, 1));
   const auto source = yard(kTruth.inverse(), 2);
-  Pose guess = kTruth;
-  guess.p += Vec3(3.0, -2.5, 0.8);
-  guess.R = guess.R * expSO3({0.0, 0.0, 0.15});
+  const Pose guess = besideTruth({3.0, -2.5, 0.8}, 0.15);
   const Registration found = target.search(source, predictedAt(guess, 20.0, 0.5), Vec3::UnitZ());
   EXPECT_GT(found.evidence.starts, 2000U);
   EXPECT_LE(found.evidence.starts, 3000U);

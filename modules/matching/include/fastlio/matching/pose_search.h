@@ -68,6 +68,9 @@ struct CandidateGrid
 using MatchFromStart =
     std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
 
+/** A rival as good as this fraction of the best: nobody knows which of the two is right. */
+inline constexpr double kRivalShare = 0.8;
+
 /** The evidence that a pose needs to be accepted. */
 struct PoseSearchLimits
 {
