@@ -46,14 +46,29 @@ PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state
   return of_scan;
 }
 
-PoseByCalibration CalibrationErrorModel::ofMap(const std::vector<PlaneGroup>& groups)
+PoseByCalibration CalibrationErrorModel::meanOfInsertions() const
 {
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, insertions_, weightOf);
   Twist mean = Twist::Zero();
   for (const Insertion& insertion : insertions_)
     if (insertion.weight > 0.0) mean += static_cast<float>(insertion.weight) * insertion.twist;
   return mean.cast<double>();
+}
+
+PoseByCalibration CalibrationErrorModel::ofMap(
+    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
+{
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, insertions_, weightOf);
+  const PoseByCalibration mean = meanOfInsertions();
+  PoseByCalibration of_map = mean;
+  const auto directions = shownDirections(update);
+  for (int i = update.constraints.unconstrained; i < 6; ++i)
+  {
+    const ShownDirection& d = directions[static_cast<std::size_t>(i)];
+    if (!weighInsertions(groups, created_by_, insertions_, d)) continue;
+    of_map += d.moved * (d.seen.transpose() * (meanOfInsertions() - mean));
+  }
+  return of_map;
 }
 
 UpdateByCalibration CalibrationErrorModel::update(
@@ -62,7 +77,8 @@ UpdateByCalibration CalibrationErrorModel::update(
   UpdateByCalibration by_calibration;
   if (scan.groups.empty()) return by_calibration;
   const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  by_calibration.innovation = ofScan(update.by_state) - product(L_inverse, ofMap(scan.groups));
+  by_calibration.innovation =
+      ofScan(update.by_state) - product(L_inverse, ofMap(update, scan.groups));
   const Matrix6 information =
       update.constraints.projection.transpose() * scan.information * update.constraints.projection;
   const Sensitivity correction =

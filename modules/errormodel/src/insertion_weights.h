@@ -4,9 +4,13 @@
 /** \file insertion_weights.h Which scans created the planes in view. */
 #pragma once
 
+#include <fastlio/errormodel/map_error.h>
+#include <fastlio/errormodel/twist.h>
 #include <fastlio/matching/plane_groups.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -62,9 +66,10 @@ void findInsertions(
 }
 
 /** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
- * created. \param found from findInsertions() \param weight_of weight of a group of points */
+ * created. \param found from findInsertions() \param weight_of weight of a group of points
+ * \return false when no group has a weight: the insertions have none then */
 template <typename Insertion, typename WeightOf>
-void weighInsertions(
+bool weighInsertions(
     const std::vector<PlaneGroup>& groups, const std::vector<std::size_t>& found,
     std::vector<Insertion>& insertions, const WeightOf& weight_of)
 {
@@ -77,15 +82,47 @@ void weighInsertions(
     total += weight;
     if (found[i] < insertions.size()) insertions[found[i]].weight += weight;
   }
-  if (!(total > 0.0)) return;
+  if (!(total > 0.0)) return false;
   for (Insertion& insertion : insertions)
     insertion.weight /= total;
+  return true;
 }
 
 /** Weight of a group by all that its points say. */
 inline double weightOf(const PlaneGroup& group)
 {
   return group.weight;
+}
+
+/** A direction of the scan pose, and what a twist of the map is along it. */
+struct ShownDirection
+{
+  Vector6 along;  //!< in the scan pose's coordinates
+  Vector6 moved;  //!< the twist of the map that moves the scan along it
+  Vector6 seen;   //!< component of a twist along it: seen . moved = 1, 0 with the other directions'
+
+  /** Weight of a group by what its points say about the direction. */
+  [[nodiscard]] double operator()(const PlaneGroup& group) const
+  {
+    return std::pow(group.g.dot(along), 2) / group.weight;
+  }
+};
+
+/** The directions of an update's constraints. */
+inline std::array<ShownDirection, 6> shownDirections(const LinearizedUpdate& update)
+{
+  const ScanConstraints& constraints = update.constraints;
+  const Matrix6 L = twistJacobian(update.T_world_scan);
+  const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
+  std::array<ShownDirection, 6> directions;
+  for (int i = 0; i < 6; ++i)
+  {
+    Vector6 along = constraints.directions.col(i), measured = along;
+    along.head<3>() /= constraints.lever_arm;
+    measured.head<3>() *= constraints.lever_arm;
+    directions[static_cast<std::size_t>(i)] = {along, L * along, L_inverse.transpose() * measured};
+  }
+  return directions;
 }
 
 }  // namespace fastlio

@@ -120,37 +120,32 @@ struct MapErrorModel::CreatingErrors
   }
 };
 
+/** The planes that show one direction may be of other insertions than those that show another one:
+ * walls of the start keep the position while new ground drifts in height. So the weights count
+ * direction by direction. */
 MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
   findInsertions(groups, insertions_, created_by_);
   weighInsertions(groups, created_by_, insertions_, weightOf);
-  const Matrix6 with_beams = meanWithBeams();
-  return {insertionCovariance(update, groups), with_beams};
-}
-
-/** The few planes that show a weak direction may be of other insertions than most planes are. Where
- * nothing showed that direction for a while, they are all wrong along it. */
-TwistCovariance MapErrorModel::insertionCovariance(
-    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
-{
   const TwistCovariance mean = meanOfInsertions();
-  TwistCovariance all = mean;
-  const ScanConstraints& constraints = update.constraints;
-  for (int i = constraints.unconstrained; i < 6 && isWeak(constraints, i); ++i)
+  const Matrix6 mean_with_beams = meanWithBeams();
+  Matrix6 scale = Matrix6::Identity();
+  Matrix6 with_beams = mean_with_beams;
+  const auto directions = shownDirections(update);
+  for (int i = update.constraints.unconstrained; i < 6; ++i)
   {
-    Vector6 along = constraints.directions.col(i), measured = along;  // along . measured = 1
-    along.head<3>() /= constraints.lever_arm;
-    measured.head<3>() *= constraints.lever_arm;
-    weighInsertions(
-        groups, created_by_, insertions_,
-        [&](const PlaneGroup& group) { return std::pow(group.g.dot(along), 2) / group.weight; });
-    const Vector6 moved = twistJacobian(update.T_world_scan) * along;
-    const Vector6 seen = twistJacobianInverse(update.T_world_scan).transpose() * measured;
-    const double more = seen.dot((meanOfInsertions() - mean) * seen);
-    if (more > 0.0) all += more * moved * moved.transpose();
+    const ShownDirection& d = directions[static_cast<std::size_t>(i)];
+    weighInsertions(groups, created_by_, insertions_, d);
+    const double variance = d.seen.dot(meanOfInsertions() * d.seen);
+    const double of_mean = d.seen.dot(mean * d.seen);
+    // Where nothing showed a weak direction for a while, all planes are wrong along it.
+    const bool at_least_mean = isWeak(update.constraints, i) && variance < of_mean;
+    if (!(variance > 0.0 && of_mean > 0.0) || at_least_mean) continue;
+    scale += (std::sqrt(variance / of_mean) - 1.0) * d.moved * d.seen.transpose();
+    with_beams += d.moved * (d.seen.transpose() * (meanWithBeams() - mean_with_beams));
   }
-  return all;
+  return {scale * mean * scale.transpose(), with_beams};
 }
 
 TwistCovariance MapErrorModel::meanOfInsertions() const

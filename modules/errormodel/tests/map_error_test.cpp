@@ -77,6 +77,42 @@ TEST(MapError, AlongAWeakDirectionItIsThatOfThePlanesThatShowIt)
   EXPECT_LT(std::abs(poseAddition(model)(3, 5)), 1e-9);
 }
 
+// Walls of the start are in view again, above ground that was first seen after the height had
+// drifted. All directions are well determined.
+TEST(MapError, OldWallsDoNotMakeTheHeightOfNewGroundCertain)
+{
+  MapErrorModel model;
+  InsertionError certain, drifted;
+  certain.inherited = 1e-6 * Matrix6::Identity();
+  drifted.inherited = certain.inherited;
+  drifted.inherited(5, 5) = 0.09;
+  model.recordInsertion(1, certain, {});
+  model.recordInsertion(2, drifted, {});
+  GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
+  for (std::size_t i = 0; i < scan.groups.size(); ++i)
+    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
+  model.update(fullTrust(), scan);
+  EXPECT_NEAR(poseAddition(model)(5, 5), 0.09, 1e-4);
+  EXPECT_NEAR(poseAddition(model)(3, 3), 1e-6, 1e-9);
+}
+
+// The other way round: new walls leave the height as certain as the old ground makes it.
+TEST(MapError, NewWallsDoNotMakeTheHeightOfOldGroundUncertain)
+{
+  MapErrorModel model;
+  InsertionError certain, drifted;
+  certain.inherited = 1e-6 * Matrix6::Identity();
+  drifted.inherited = 0.09 * Matrix6::Identity();
+  model.recordInsertion(1, certain, {});
+  model.recordInsertion(2, drifted, {});
+  GroupedMeasurements scan = scanOn({2, 2, 2, 2, 2, 2, 2, 2, 2, 1});
+  for (std::size_t i = 0; i < scan.groups.size(); ++i)
+    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
+  model.update(fullTrust(), scan);
+  EXPECT_NEAR(poseAddition(model)(3, 3), 0.09, 1e-4);
+  EXPECT_NEAR(poseAddition(model)(5, 5), 1e-6, 1e-9);
+}
+
 // The odometry has drifted by 0.3 m since it began. Planes of late have the same error as the pose;
 // the first ones have none, and the prediction lies beside them by all that it has drifted.
 TEST(MapError, IsInTheInnovationWhereAnOldPlaceIsSeenAgain)
@@ -198,14 +234,16 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     model.correct(kept);
     dense.propagate(kept);
 
-    GroupedMeasurements scan = scanOn({1, 1, 1, 1, newest, newest, newest, newest});
+    GroupedMeasurements scan =
+        scanOn({1, 1, 1, 1, 1, 1, newest, newest, newest, newest, newest, newest});
     scan.information = randomCovariance(kScanInformation);
     scan.shared_noise = randomCovariance(1e-3 * kScanInformation);
     scan.persistence = 0.7;
-    for (PlaneGroup& group : scan.groups)
+    for (std::size_t k = 0; k < scan.groups.size(); ++k)
     {
-      group.g = 100.0 * Vector6::Random();
-      group.shared_variance = 1e-6;
+      // Both insertions show each direction equally well.
+      scan.groups[k].g = k < 6 ? Vector6(100.0 * Vector6::Random()) : scan.groups[k - 6].g;
+      scan.groups[k].shared_variance = 1e-6;
     }
     LinearizedUpdate update;
     update.gain = 0.2 / kScanInformation * ScanGain::Random();

@@ -80,7 +80,9 @@ class CalibrationErrorModel
   using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
 
   [[nodiscard]] PoseByCalibration ofScan(const ScanPoseJacobian& by_state) const;
-  [[nodiscard]] PoseByCalibration ofMap(const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] PoseByCalibration ofMap(
+      const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] PoseByCalibration meanOfInsertions() const;
 
   Sensitivity S_ = Sensitivity::Zero();
   std::vector<Insertion> insertions_;    // ascending by scan

@@ -22,13 +22,13 @@
  *
  * s_i being the variance of plane i's own error, g_i the sum of w_j h_j over its points, M = sum
  * w_j h_j h_j^T, and A the covariance of the poses from which the planes in view were created,
- * averaged with their weights; along a direction that few planes show, not less than with the
- * weights of these. Errors that the points of a beam share add a third part, Q_b. Q = C C^T makes
- * q = C eta of a unit vector eta, which persists: the creating poses' and the beams' wholly, the
- * planes' own as far as the same planes stay in view. The same beams have been at work in the
- * creating poses: what of A they explain has the eta of the beams. With Y = cov(e, eta), E = cov(e)
- * follows without any approximation. The part D of it that the filter has counted as noise of the
- * points is taken off. See docs/covariance.md. */
+ * averaged direction by direction with the information of the planes about it. Errors that the
+ * points of a beam share add a third part, Q_b. Q = C C^T makes q = C eta of a unit vector eta,
+ * which persists: the creating poses' and the beams' wholly, the planes' own as far as the same
+ * planes stay in view. The same beams have been at work in the creating poses: what of A they
+ * explain has the eta of the beams. With Y = cov(e, eta), E = cov(e) follows without any
+ * approximation. The part D of it that the filter has counted as noise of the points is taken off.
+ * See docs/covariance.md. */
 #pragma once
 
 #include <fastlio/errormodel/twist.h>
@@ -112,9 +112,6 @@ class MapErrorModel
 
   void thinOut();
   [[nodiscard]] CreatingErrors creatingErrors(
-      const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
-  /** A, of insertions whose weights are set; it changes these. */
-  [[nodiscard]] TwistCovariance insertionCovariance(
       const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
   [[nodiscard]] Matrix6 mismatch(
       const LinearizedUpdate& update, const CreatingErrors& creating) const;
