@@ -194,8 +194,11 @@ void ScanClassifier::classify(
   context.inflated_ratio = inflatedRatio(inflations, context.since_ns, result.stamp_ns);
   context.map_is_sparse = scans_until_dense_ > 0;
   const Mat3 position = result.filter.P.block<3, 3>(kPosition, kPosition);
+  // A scan that matched nothing has constrained nothing.
+  const bool constrained =
+      outcome.begins_map || (outcome.updated && result.statistics.constraints.unconstrained == 0);
   context.lost_std = lost_.add(
-      result.stamp_ns, result.statistics.constraints.unconstrained == 0,
+      result.stamp_ns, constrained,
       std::sqrt(std::max(0.0, symmetricEigensystem(position).values[2])));
   context.max_mounting_error = maxMountingError(options_.calibration);
   context.max_gyro_scale_error = maxGyroScaleError(options_.calibration);

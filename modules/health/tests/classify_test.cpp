@@ -46,6 +46,32 @@ TEST(Classify, APredictionAfterAnOutageIsOneAndSaysWhatItWaitsFor)
   EXPECT_NE(r.message.find("a new one begins"), std::string::npos) << r.message;
 }
 
+// Two metres are lost along an open direction; then nothing matches for two seconds.
+TEST(Classify, ScansWithoutAMatchDoNotEndALostStretch)
+{
+  ScanClassifier classifier{OdometryOptions{}};
+  std::int64_t index = 0;
+  const auto next = [&](bool updated, int unconstrained, double position_std)
+  {
+    ScanResult r = goodScan(++index);
+    r.statistics.constraints.unconstrained = unconstrained;
+    r.filter.P.block<3, 3>(kPosition, kPosition) = position_std * position_std * Mat3::Identity();
+    ScanOutcome outcome = goodOutcome();
+    outcome.updated = updated;
+    classifier.classify(outcome, {}, r);
+    return r.health;
+  };
+  for (int i = 0; i < 15; ++i)
+    EXPECT_GE(next(true, 0, 0.05).value, 0.5);
+  for (int i = 0; i < 5; ++i)
+    next(true, 1, 2.0);
+  for (int i = 0; i < 20; ++i)
+    next(false, 0, 2.0);
+  const ScanHealth health = next(true, 0, 2.0);
+  EXPECT_LT(health.value, 0.5);
+  EXPECT_EQ(health.cause, HealthCause::DegenerateDirection) << health.reason;
+}
+
 TEST(Classify, FewMatchesAreNoTroubleWhileTheMapIsSparse)
 {
   ScanClassifier classifier{OdometryOptions{}};
