@@ -46,29 +46,26 @@ PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state
   return of_scan;
 }
 
-PoseByCalibration CalibrationErrorModel::meanOfInsertions() const
-{
-  Twist mean = Twist::Zero();
-  for (const Insertion& insertion : insertions_)
-    if (insertion.weight > 0.0) mean += static_cast<float>(insertion.weight) * insertion.twist;
-  return mean.cast<double>();
-}
-
+/** Direction by direction, as the errors of the creating poses (MapErrorModel). */
 PoseByCalibration CalibrationErrorModel::ofMap(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, insertions_, weightOf);
-  const PoseByCalibration mean = meanOfInsertions();
-  PoseByCalibration of_map = mean;
   const auto directions = shownDirections(update);
-  for (int i = update.constraints.unconstrained; i < 6; ++i)
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, directions, insertions_);
+  Eigen::Matrix<float, 6, 6> seen;  // rows
+  Eigen::Matrix<float, 6, 6> moved;
+  for (int i = 0; i < 6; ++i)
   {
-    const ShownDirection& d = directions[static_cast<std::size_t>(i)];
-    if (!weighInsertions(groups, created_by_, insertions_, d)) continue;
-    of_map += d.moved * (d.seen.transpose() * (meanOfInsertions() - mean));
+    seen.row(i) = directions[static_cast<std::size_t>(i)].seen.cast<float>();
+    moved.col(i) = directions[static_cast<std::size_t>(i)].moved.cast<float>();
   }
-  return of_map;
+  Eigen::Matrix<float, 6, kCalibrationErrorDim> components;
+  components.setZero();
+  for (const Insertion& insertion : insertions_)
+    if (insertion.weights.all > 0.0)
+      components += insertion.weights.shown.cast<float>().asDiagonal() * (seen * insertion.twist);
+  return (moved * components).cast<double>();
 }
 
 UpdateByCalibration CalibrationErrorModel::update(
@@ -93,7 +90,7 @@ void CalibrationErrorModel::recordInsertion(
 {
   if (insertions_.size() >= kMaxInsertions) keepEverySecond(insertions_);
   const PoseByCalibration twist = product(twistJacobian(T_world_scan), ofScan(by_state));
-  insertions_.push_back({scan, 0.0, twist.cast<float>()});
+  insertions_.push_back({scan, {}, twist.cast<float>()});
 }
 
 StateVector CalibrationErrorModel::withoutExtrinsicError(const Vector6& error) const

@@ -65,47 +65,12 @@ void findInsertions(
   }
 }
 
-/** Sets the weight of each insertion to the fraction of a scan's weight on the planes that it
- * created. \param found from findInsertions() \param weight_of weight of a group of points
- * \return false when no group has a weight: the insertions have none then */
-template <typename Insertion, typename WeightOf>
-bool weighInsertions(
-    const std::vector<PlaneGroup>& groups, const std::vector<std::size_t>& found,
-    std::vector<Insertion>& insertions, const WeightOf& weight_of)
-{
-  for (Insertion& insertion : insertions)
-    insertion.weight = 0.0;
-  double total = 0.0;
-  for (std::size_t i = 0; i < groups.size(); ++i)
-  {
-    const double weight = weight_of(groups[i]);
-    total += weight;
-    if (found[i] < insertions.size()) insertions[found[i]].weight += weight;
-  }
-  if (!(total > 0.0)) return false;
-  for (Insertion& insertion : insertions)
-    insertion.weight /= total;
-  return true;
-}
-
-/** Weight of a group by all that its points say. */
-inline double weightOf(const PlaneGroup& group)
-{
-  return group.weight;
-}
-
 /** A direction of the scan pose, and what a twist of the map is along it. */
 struct ShownDirection
 {
-  Vector6 along;  //!< in the scan pose's coordinates
+  Vector6 along;  //!< in the scan pose's coordinates; zero when the update left it alone
   Vector6 moved;  //!< the twist of the map that moves the scan along it
   Vector6 seen;   //!< component of a twist along it: seen . moved = 1, 0 with the other directions'
-
-  /** Weight of a group by what its points say about the direction. */
-  [[nodiscard]] double operator()(const PlaneGroup& group) const
-  {
-    return std::pow(group.g.dot(along), 2) / group.weight;
-  }
 };
 
 /** The directions of an update's constraints. */
@@ -121,8 +86,44 @@ inline std::array<ShownDirection, 6> shownDirections(const LinearizedUpdate& upd
     along.head<3>() /= constraints.lever_arm;
     measured.head<3>() *= constraints.lever_arm;
     directions[static_cast<std::size_t>(i)] = {along, L * along, L_inverse.transpose() * measured};
+    if (i < constraints.unconstrained) directions[static_cast<std::size_t>(i)].along.setZero();
   }
   return directions;
+}
+
+/** Sets the weights of each insertion to the fractions of a scan's weight on the planes that it
+ * created: of all that the points say, and of what they say about each direction. A direction that
+ * no plane shows has the weights of all. \param found from findInsertions() */
+template <typename Insertion>
+void weighInsertions(
+    const std::vector<PlaneGroup>& groups, const std::vector<std::size_t>& found,
+    const std::array<ShownDirection, 6>& directions, std::vector<Insertion>& insertions)
+{
+  for (Insertion& insertion : insertions)
+    insertion.weights = {};
+  Eigen::Matrix<double, 6, 6> along;
+  for (int i = 0; i < 6; ++i)
+    along.row(i) = directions[static_cast<std::size_t>(i)].along;
+  InsertionWeights total;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    const PlaneGroup& group = groups[i];
+    const Eigen::Matrix<double, 6, 1> shown = (along * group.g).cwiseAbs2() / group.weight;
+    total.all += group.weight;
+    total.shown += shown;
+    if (found[i] >= insertions.size()) continue;
+    insertions[found[i]].weights.all += group.weight;
+    insertions[found[i]].weights.shown += shown;
+  }
+  if (!(total.all > 0.0)) return;
+  for (Insertion& insertion : insertions)
+  {
+    InsertionWeights& weights = insertion.weights;
+    if (weights.all == 0.0) continue;  // most of them: long out of sight
+    weights.all /= total.all;
+    for (int i = 0; i < 6; ++i)
+      weights.shown[i] = total.shown[i] > 0.0 ? weights.shown[i] / total.shown[i] : weights.all;
+  }
 }
 
 }  // namespace fastlio

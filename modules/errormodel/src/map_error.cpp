@@ -126,24 +126,25 @@ struct MapErrorModel::CreatingErrors
 MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, insertions_, weightOf);
-  const TwistCovariance mean = meanOfInsertions();
-  const Matrix6 mean_with_beams = meanWithBeams();
-  Matrix6 scale = Matrix6::Identity();
-  Matrix6 with_beams = mean_with_beams;
   const auto directions = shownDirections(update);
-  for (int i = update.constraints.unconstrained; i < 6; ++i)
+  findInsertions(groups, insertions_, created_by_);
+  weighInsertions(groups, created_by_, directions, insertions_);
+  const TwistCovariance mean = meanOfInsertions();
+  Matrix6 scale = Matrix6::Identity(), with_beams = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i)
   {
     const ShownDirection& d = directions[static_cast<std::size_t>(i)];
-    weighInsertions(groups, created_by_, insertions_, d);
-    const double variance = d.seen.dot(meanOfInsertions() * d.seen);
+    double variance = varianceAlong(d.seen, i);
     const double of_mean = d.seen.dot(mean * d.seen);
     // Where nothing showed a weak direction for a while, all planes are wrong along it.
-    const bool at_least_mean = isWeak(update.constraints, i) && variance < of_mean;
-    if (!(variance > 0.0 && of_mean > 0.0) || at_least_mean) continue;
-    scale += (std::sqrt(variance / of_mean) - 1.0) * d.moved * d.seen.transpose();
-    with_beams += d.moved * (d.seen.transpose() * (meanWithBeams() - mean_with_beams));
+    if (isWeak(update.constraints, i)) variance = std::max(variance, of_mean);
+    if (variance > 0.0 && of_mean > 0.0)
+      scale += (std::sqrt(variance / of_mean) - 1.0) * d.moved * d.seen.transpose();
+    Vector6 row = Vector6::Zero();
+    for (const Insertion& insertion : insertions_)
+      if (insertion.weights.all > 0.0)
+        row += insertion.weights.shown[i] * (insertion.with_beams.transpose() * d.seen);
+    with_beams += d.moved * row.transpose();
   }
   return {scale * mean * scale.transpose(), with_beams};
 }
@@ -154,7 +155,7 @@ TwistCovariance MapErrorModel::meanOfInsertions() const
   TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
   for (const Insertion& insertion : insertions_)
   {
-    const double part = insertion.weight;
+    const double part = insertion.weights.all;
     remembered *= insertion.memory;
     if (part == 0.0) continue;  // most of them: long out of sight
     mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
@@ -163,12 +164,20 @@ TwistCovariance MapErrorModel::meanOfInsertions() const
   return mean;
 }
 
-Matrix6 MapErrorModel::meanWithBeams() const
+/** The same along a direction, with the weights of the planes that show it. */
+double MapErrorModel::varianceAlong(const Vector6& seen, int direction) const
 {
-  Matrix6 mean = Matrix6::Zero();
+  double variance = 0.0, remembered = 0.0;
   for (const Insertion& insertion : insertions_)
-    if (insertion.weight > 0.0) mean += insertion.weight * insertion.with_beams;
-  return mean;
+  {
+    const double part = insertion.weights.shown[direction];
+    remembered *= insertion.memory;
+    if (part == 0.0) continue;
+    const double own = seen.dot(insertion.own * seen);
+    variance += part * (seen.dot(insertion.inherited * seen) + part * own + 2.0 * remembered);
+    remembered += part * own;
+  }
+  return variance;
 }
 
 void MapErrorModel::thinOut()
@@ -261,9 +270,12 @@ void MapErrorModel::recordInsertion(
   if (insertions_.size() >= kMaxInsertions) thinOut();
   const AlignedMatrix6 with_beams = product(Aligned6ByState(by_state), AlignedStateBy6(Y_beams_));
   insertions_.push_back(
-      {scan, twistCovariance(pose_error.inherited, T_world_scan),
-       twistCovariance(pose_error.own, T_world_scan), twistJacobian(T_world_scan) * with_beams,
-       memory_, 0.0});
+      {scan,
+       twistCovariance(pose_error.inherited, T_world_scan),
+       twistCovariance(pose_error.own, T_world_scan),
+       twistJacobian(T_world_scan) * with_beams,
+       memory_,
+       {}});
   memory_ = 1.0;
 }
 

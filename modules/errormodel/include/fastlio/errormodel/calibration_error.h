@@ -74,7 +74,7 @@ class CalibrationErrorModel
   struct Insertion
   {
     std::uint32_t scan = 0;
-    double weight = 0.0;  // of a scan on its planes
+    InsertionWeights weights;
     Twist twist = Twist::Zero();
   };
   using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
@@ -82,7 +82,6 @@ class CalibrationErrorModel
   [[nodiscard]] PoseByCalibration ofScan(const ScanPoseJacobian& by_state) const;
   [[nodiscard]] PoseByCalibration ofMap(
       const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
-  [[nodiscard]] PoseByCalibration meanOfInsertions() const;
 
   Sensitivity S_ = Sensitivity::Zero();
   std::vector<Insertion> insertions_;    // ascending by scan

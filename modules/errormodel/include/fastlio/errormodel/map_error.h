@@ -52,6 +52,13 @@ struct LinearizedUpdate
   ScanGain gain = ScanGain::Zero();                //!< G of the filter's gain
 };
 
+/** What part of a scan's weight is on the planes of an insertion. */
+struct InsertionWeights
+{
+  double all = 0.0;                 //!< of all that its points say
+  Vector6 shown = Vector6::Zero();  //!< of what they say about each direction of ScanConstraints
+};
+
 /** Covariance of a scan pose from which planes were created, as Matrix6 of scanPoseCovariance(). */
 struct InsertionError
 {
@@ -104,7 +111,7 @@ class MapErrorModel
     TwistCovariance own = TwistCovariance::Zero();
     Matrix6 with_beams = Matrix6::Zero();  // cov(error, eta of the beams)
     double memory = 0.0;  // how much of the own error of the insertion before is in this one's
-    double weight = 0.0;  // of a scan on its planes
+    InsertionWeights weights;
   };
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
@@ -116,7 +123,7 @@ class MapErrorModel
   [[nodiscard]] Matrix6 mismatch(
       const LinearizedUpdate& update, const CreatingErrors& creating) const;
   [[nodiscard]] TwistCovariance meanOfInsertions() const;
-  [[nodiscard]] Matrix6 meanWithBeams() const;
+  [[nodiscard]] double varianceAlong(const Vector6& seen, int direction) const;
 
   StateMatrix addition_ = StateMatrix::Zero();  //!< E - D: both follow the same recursion
   StateBy6 Y_planes_ = StateBy6::Zero();        //!< cov(e, eta) of the planes' own errors
