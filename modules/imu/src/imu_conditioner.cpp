@@ -55,8 +55,11 @@ ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
           !parameters.gyro_matrix.empty() || !parameters.accel_matrix.empty()},
       time_gate_(parameters.max_gap),
       spike_gate_(kSpikeGyro, kSpikeAccel),
-      gyro_clipping_(parameters.gyro_range, kGyroFloor),
-      accel_clipping_(parameters.accel_range, kAccelFloor)
+      clipping_{
+          ClippingDetector(parameters.gyro_range, kGyroFloor),
+          ClippingDetector(parameters.accel_range, kAccelFloor),
+          {},
+          0}
 {
   report_.accel_unit = parameters.accel_unit;
   report_.gyro_unit =
@@ -184,6 +187,7 @@ double ImuConditioner::considerGyroUnit(ConditionedSample& next)
   report_.gyro_unit = GyroUnit::Degrees;
   units_.gyro_scale = siPerUnit(GyroUnit::Degrees);
   next.sample.gyro *= units_.gyro_scale;
+  clipping_.gyro = ClippingDetector(parameters_.gyro_range, kGyroFloor);
   diagnostics_.push_back(
       {next.sample.stamp_ns,
        "the angular rate is in deg/s, not in rad/s (" + gyro_unit_test_.evidence() +
@@ -234,15 +238,41 @@ InterpolationError ImuConditioner::interpolationError(const TimedSample& timed) 
 /** The noise of an input between two samples is inflated when that of one of them is. */
 std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample& sample)
 {
-  const double gyro = gyro_clipping_.add(sample.gyro), accel = accel_clipping_.add(sample.accel);
-  const double gyro_between = std::max(gyro, gyro_clipping_.before());
-  const double accel_between = std::max(accel, accel_clipping_.before());
+  Clipping& c = clipping_;
+  const bool held = sample.gyro == c.latest.gyro && sample.accel == c.latest.accel;
+  c.latest = sample;
+  const double gyro = c.gyro.add(sample.gyro, held), accel = c.accel.add(sample.accel, held);
+  reportClipping(sample.stamp_ns);
+  const double gyro_between = std::max(gyro, c.gyro.before());
+  const double accel_between = std::max(accel, c.accel.before());
   if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
   const auto last_ns = recent_.newestStamp();
+  c.turning = gyro_between > 0.0 ? c.turning + 1 : 0;
   if (!last_ns || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
   return NoiseInflation{
-      *last_ns, sample.stamp_ns, kSaturationStd * gyro_between, kSaturationStd * accel_between,
-      InertialFault::Saturation};
+      *last_ns,
+      sample.stamp_ns,
+      kSaturationStd * gyro_between,
+      kSaturationStd * accel_between,
+      InertialFault::Saturation,
+      std::max(0, c.turning - 1)};
+}
+
+void ImuConditioner::reportClipping(std::int64_t stamp_ns)
+{
+  const auto report = [&](ClippingDetector& detector, const char* sensor, const char* unit)
+  {
+    const std::optional<RangeEnd> end = detector.takeFound();
+    if (!end) return;
+    diagnostics_.push_back(
+        {stamp_ns,
+         mrpt::format(
+             "the %s clips at %.4g %s: readings of its axis %c stay at %.4g and never go beyond. "
+             "Clipped samples are trusted less; give the sensor, or the driver, a larger range",
+             sensor, std::abs(end->value), unit, "xyz"[end->axis], end -> value)});
+  };
+  report(clipping_.gyro, "gyro", "rad/s");
+  report(clipping_.accel, "accelerometer", "m/s^2");
 }
 
 ImuReport ImuConditioner::report() const

@@ -43,7 +43,9 @@ ImuNoise noiseBetween(
     const std::int64_t common_ns = overlap(inflation, begin_ns, end_ns);
     if (common_ns <= 0) continue;
     const double fraction = static_cast<double>(common_ns) / duration_ns;
-    gyro_variance += fraction * inflation.gyro_std * inflation.gyro_std;
+    // An error that n inputs share turns n times as far as that of one: n^2 = 1 + 3 + 5 + ...
+    const double shared = 1.0 + 2.0 * inflation.before;
+    gyro_variance += fraction * shared * inflation.gyro_std * inflation.gyro_std;
     accel_variance += fraction * inflation.accel_std * inflation.accel_std;
   }
   if (gyro_variance == 0.0 && accel_variance == 0.0) return noise;

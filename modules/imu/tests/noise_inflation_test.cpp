@@ -32,4 +32,25 @@ TEST(NoiseInflation, GrowsTheNoiseByItsShareOfTheInput)
   EXPECT_DOUBLE_EQ(rotationStdInGaps(one, kBegin, kBegin + 2 * kLength), 0.25 * dt);
 }
 
+// Rates that are off to the same side turn the platform three times as far in three inputs.
+TEST(NoiseInflation, CountsErrorsOfOneSignTogether)
+{
+  const ImuNoise noise;
+  std::vector<NoiseInflation> turn;
+  for (int i = 0; i < 3; ++i)
+    turn.push_back(
+        {kBegin + i * kLength, kBegin + (i + 1) * kLength, 0.5, 2.0, InertialFault::Saturation, i});
+  const double dt = 1e-9 * static_cast<double>(kLength);
+  double turned = 0.0, moved = 0.0;  // variances
+  for (int i = 0; i < 3; ++i)
+  {
+    const ImuNoise grown =
+        noiseBetween(noise, turn, kBegin + i * kLength, kBegin + (i + 1) * kLength);
+    turned += (std::pow(grown.gyro_noise_density, 2) - std::pow(noise.gyro_noise_density, 2)) * dt;
+    moved += (std::pow(grown.accel_noise_density, 2) - std::pow(noise.accel_noise_density, 2)) * dt;
+  }
+  EXPECT_NEAR(std::sqrt(turned), 3.0 * 0.5 * dt, 1e-12);
+  EXPECT_NEAR(std::sqrt(moved), std::sqrt(3.0) * 2.0 * dt, 1e-12);
+}
+
 }  // namespace fastlio

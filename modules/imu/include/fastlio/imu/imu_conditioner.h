@@ -59,11 +59,19 @@ class ImuConditioner
     bool matrices = false;
   };
 
+  struct Clipping
+  {
+    ClippingDetector gyro, accel;
+    ImuSample latest;
+    int turning = 0;  // intervals in a row with a clipped rate
+  };
+
   void decideAccelUnit();
   void scaled(ImuSample sample);
   void emit(const TimedSample& timed);
   void emitAll();
   void reportClockStep();
+  void reportClipping(std::int64_t stamp_ns);
   [[nodiscard]] double considerGyroUnit(ConditionedSample& next);
   [[nodiscard]] std::optional<NoiseInflation> inflationBefore(const TimedSample& timed);
   [[nodiscard]] InterpolationError interpolationError(const TimedSample& timed) const;
@@ -77,7 +85,7 @@ class ImuConditioner
   ImuTimeGate time_gate_;
   ImuSpikeGate spike_gate_;
   SamplingPeriod period_;
-  ClippingDetector gyro_clipping_, accel_clipping_;
+  Clipping clipping_;
   GyroUnitTest gyro_unit_test_;
   RecentMotion recent_;
   std::vector<Diagnostic> diagnostics_;
