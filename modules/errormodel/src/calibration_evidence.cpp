@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fastlio
 {
@@ -83,6 +84,8 @@ void CalibrationEvidence::add(
   const Vec6 by_error = innovation * estimate_.mean;
   const double elements = 6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum();
   const double unexplained = squares + by_error.dot(2.0 * Wy + W * by_error);
+  // Of a pose that was lost for long, numbers may overflow. They would stay in all sums.
+  if (!information_of_error.allFinite() || !Wy.allFinite() || !std::isfinite(unexplained)) return;
   const Vec6 W_unexplained = Wy + W * by_error;  // W y of what is left of y
   watch_.add(
       unexplained / elements, normalizedInnovation(update),

@@ -135,6 +135,23 @@ TEST(CalibrationEvidence, HasNoneForWhatIsKnownExactly)
   EXPECT_EQ(evidence.estimate().second_moment.norm(), 0.0);
 }
 
+// Of a pose that was lost for long. The covariance of all scans after it would be no number.
+TEST(CalibrationEvidence, LeavesOutAScanWhoseNumbersOverflow)
+{
+  CalibrationEvidence evidence(CalibrationOptions{});
+  RandomScans(6).feed(evidence, someError(0.003), 20, 1.0);
+  const CalibrationErrorMatrix before = evidence.estimate().second_moment;
+  FilterState predicted;
+  predicted.P.setIdentity();
+  UpdateResult update;
+  update.last.HtRinvH.setIdentity();
+  for (int i = 0; i < 10; ++i)
+    evidence.add(
+        PoseByCalibration::Constant(1e200), bodyPoseJacobian(), predicted, update, Matrix6::Zero());
+  EXPECT_TRUE(evidence.estimate().second_moment.allFinite());
+  EXPECT_EQ((evidence.estimate().second_moment - before).norm(), 0.0);
+}
+
 /** calibration.estimate_extrinsic, after a first scan at 1 s. */
 CalibrationEvidence estimatingEvidence()
 {

@@ -157,7 +157,8 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   outcome.map_was_empty = map_.empty();
   outcome.begins_map = map_.empty() && hasEnoughPoints(work.deskewed);
   outcome.updated = match.update.updated;
-  outcome.prediction_finite = work.predicted.finite;
+  // What the errors of map and calibration add is no number any more when a pose was lost for long.
+  outcome.prediction_finite = work.predicted.finite && result.filter.P.allFinite();
   outcome.points = work.deskewed.surfaces.size();
   outcome.imu_gap_s = work.predicted.imu_gap_s;
   statistics.usual_inlier_ratio = map_.usualInlierRatio();
