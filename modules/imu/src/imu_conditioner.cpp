@@ -264,12 +264,13 @@ void ImuConditioner::reportClipping(std::int64_t stamp_ns)
   {
     const std::optional<RangeEnd> end = detector.takeFound();
     if (!end) return;
+    const char axis = "xyz"[static_cast<std::size_t>(end->axis)];
     diagnostics_.push_back(
         {stamp_ns,
          mrpt::format(
              "the %s clips at %.4g %s: readings of its axis %c stay at %.4g and never go beyond. "
              "Clipped samples are trusted less; give the sensor, or the driver, a larger range",
-             sensor, std::abs(end->value), unit, "xyz"[end->axis], end -> value)});
+             sensor, std::abs(end->value), unit, axis, end->value)});
   };
   report(clipping_.gyro, "gyro", "rad/s");
   report(clipping_.accel, "accelerometer", "m/s^2");
