@@ -92,7 +92,7 @@ double mapCost(
     const FilterState& prior, const NavState& x, const std::vector<testing::PlaneMatch>& m)
 {
   const StateVector d = boxminus(x, prior.x);
-  return d.dot(prior.P.inverse() * d) +
+  return testing::weightedSquare(d, prior.P) +
          testing::sumsOf(testing::residualsOf(m, x, kSigma)).weighted_squares;
 }
 
@@ -135,7 +135,7 @@ TEST(IteratedUpdate, PosteriorCovarianceIsThatOfTheErrors)
     const UpdateResult r = iteratedUpdate(
         p.prior, testing::planeModel(matches, kSigma), tightLimits(), GainForm::Information);
     const StateVector e = boxminus(p.truth, r.posterior.x);
-    nees += e.dot(r.posterior.P.inverse() * e) / kRuns;
+    nees += testing::weightedSquare(e, r.posterior.P) / kRuns;
   }
   // Standard deviation of the average: sqrt(2 * 18 / 400) = 0.3.
   EXPECT_NEAR(nees, kStateDim, 1.0);
@@ -168,7 +168,7 @@ TEST(IteratedUpdate, CovarianceRefersToThePosteriorsTangentSpace)
   const UpdateStep step = informationStep(p.prior, p.prior.x, model(p.prior.x, 0).sums);
   const StateMatrix J_inv = priorJacobianInverse(r.posterior.x, p.prior.x);
   EXPECT_GT((r.posterior.P - step.P).norm(), 1e-3 * step.P.norm());
-  EXPECT_LT((r.posterior.P - J_inv * step.P * J_inv.transpose()).norm(), 1e-13 * step.P.norm());
+  EXPECT_LT((r.posterior.P - testing::onBothSides(J_inv, step.P)).norm(), 1e-13 * step.P.norm());
 }
 
 TEST(IteratedUpdate, ACorridorLeavesItsAxisToThePrior)

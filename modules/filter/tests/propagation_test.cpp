@@ -164,8 +164,8 @@ TEST(Propagation, CovarianceIsEquation8)
   {
     const FilterState s{c.x, random.covariance(0.3, 100.0)};
     const auto [Fx, Fw] = processJacobians(c.x, c.gyro, c.accel, c.dt);
-    const StateMatrix expected = Fx * s.P * Fx.transpose() +
-                                 Fw * discreteVariances(noise, c.dt).asDiagonal() * Fw.transpose();
+    const Eigen::MatrixXd noises = Eigen::MatrixXd(discreteVariances(noise, c.dt).asDiagonal());
+    const StateMatrix expected = testing::onBothSides(Fx, s.P) + testing::onBothSides(Fw, noises);
     const FilterState out = propagate(s, c.gyro, c.accel, c.dt, noise);
     EXPECT_LT((out.P - expected).norm(), 1e-13 * expected.norm());
     EXPECT_EQ((out.P - out.P.transpose()).norm(), 0.0);
@@ -243,7 +243,7 @@ TEST(Propagation, TransitionIsTheProductOfTheJacobians)
   const StateMatrix P = random.covariance(1.0, 10.0);
   const double size = Phi.norm();
   EXPECT_LT((transition.times(StateMatrix(StateMatrix::Identity())) - Phi).norm(), 1e-12 * size);
-  const StateMatrix expected = Phi * P * Phi.transpose();
+  const StateMatrix expected = testing::onBothSides(Phi, P);
   EXPECT_LT((transition.onBothSidesOf(P) - expected).norm(), 1e-12 * expected.norm());
 }
 

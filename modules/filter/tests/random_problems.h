@@ -1,12 +1,16 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file random_problems.h Reproducible random states and covariances for the filter's tests. */
+/** \file random_problems.h Reproducible random states and covariances for the filter's tests.
+ *
+ * The formulas of the tests are of matrices of dynamic size. The compiler needs more time
+ * for those of 25 x 25 numbers, as Eigen unrolls their loops. */
 #pragma once
 
 #include <fastlio/filter/state.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <cmath>
@@ -55,17 +59,17 @@ class Random
    * \a spread times the smallest. */
   StateMatrix covariance(double sigma, double spread)
   {
-    StateMatrix m;
+    Eigen::MatrixXd m(kStateDim, kStateDim);
     for (int i = 0; i < kStateDim; ++i)
       m.col(i) = stateVector(1.0);
-    const Eigen::Matrix<double, kStateDim, kStateDim> Q = m.householderQr().householderQ();
-    StateVector variances;
+    const Eigen::MatrixXd Q = m.householderQr().householderQ();
+    Eigen::VectorXd variances(kStateDim);
     for (int i = 0; i < kStateDim; ++i)
     {
       const double s = sigma * std::pow(spread, uniform(-0.5, 0.5));
       variances[i] = s * s;
     }
-    const StateMatrix P = Q * variances.asDiagonal() * Q.transpose();
+    const Eigen::MatrixXd P = Q * variances.asDiagonal() * Q.transpose();
     return 0.5 * (P + P.transpose());
   }
 
@@ -74,10 +78,21 @@ class Random
   std::normal_distribution<double> normal_;
 };
 
-/** Eigenvalues of a symmetric covariance (Eigen's solver takes no unaligned matrices). */
-inline StateVector eigenvaluesOf(const StateMatrix& P)
+/** Eigenvalues of a symmetric covariance. */
+inline Eigen::VectorXd eigenvaluesOf(const Eigen::MatrixXd& P)
 {
-  using Aligned = Eigen::Matrix<double, kStateDim, kStateDim>;
-  return Eigen::SelfAdjointEigenSolver<Aligned>(Aligned(P), Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(P, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+/** A P A^T. */
+inline Eigen::MatrixXd onBothSides(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P)
+{
+  return A * P * A.transpose();
+}
+
+/** e^T P^-1 e. */
+inline double weightedSquare(const Eigen::VectorXd& e, const Eigen::MatrixXd& P)
+{
+  return e.dot(P.inverse() * e);
 }
 }  // namespace fastlio::testing
