@@ -14,11 +14,18 @@ namespace fastlio
 {
 namespace
 {
-/** Direction of a spinning sensor's laser; the azimuth grows clockwise seen from above. */
-Vec3 spinningDirection(double azimuth, double elevation)
+/** Sine and cosine of an angle. */
+struct Angle
 {
-  const double c = std::cos(elevation);
-  return {c * std::cos(azimuth), -c * std::sin(azimuth), std::sin(elevation)};
+  explicit Angle(double radians) : cos(std::cos(radians)), sin(std::sin(radians)) {}
+
+  double cos, sin;
+};
+
+/** Direction of a spinning sensor's laser; the azimuth grows clockwise seen from above. */
+Vec3 spinningDirection(const Angle& azimuth, const Angle& elevation)
+{
+  return {elevation.cos * azimuth.cos, -elevation.cos * azimuth.sin, elevation.sin};
 }
 
 /** Packets follow each other without a pause; a sweep is the packets that begin in one revolution.
@@ -29,6 +36,8 @@ class Vlp16Model : public LidarModel
   Vlp16Model(const LidarSettings& settings, std::int64_t first_shot_ns)
       : rate_(settings.rate), zero_ns_(first_shot_ns)
   {
+    for (const double elevation : vlp16::kElevationDeg)
+      elevations_.emplace_back(elevation * kRadPerDeg);
   }
 
   [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
@@ -62,13 +71,13 @@ class Vlp16Model : public LidarModel
                                    static_cast<std::int64_t>(laser) * vlp16::kLaserNs;
     const double azimuth = vlp16::azimuthAt(stamp_ns + offset_ns - zero_ns_, rate_);
     return {
-        spinningDirection(azimuth, vlp16::kElevationDeg[laser] * kRadPerDeg),
-        static_cast<std::int32_t>(offset_ns), static_cast<std::uint32_t>(firing),
-        vlp16::ringOf(laser)};
+        spinningDirection(Angle(azimuth), elevations_[laser]), static_cast<std::int32_t>(offset_ns),
+        static_cast<std::uint32_t>(firing), vlp16::ringOf(laser)};
   }
 
   double rate_;
   std::int64_t zero_ns_;
+  std::vector<Angle> elevations_;  // of the lasers, in the order of firing
 };
 
 /** All lines of a column fire at once, columns are equally spaced in angle and time. */
@@ -78,6 +87,8 @@ class SpinningModel : public LidarModel
   SpinningModel(const LidarSettings& settings, std::int64_t first_shot_ns)
       : settings_(settings), zero_ns_(first_shot_ns)
   {
+    for (int line = 0; line < settings_.lines; ++line)
+      elevations_.emplace_back(elevation(line));
   }
 
   [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
@@ -95,9 +106,10 @@ class SpinningModel : public LidarModel
     {
       const double turn = static_cast<double>(column) / settings_.columns;
       const auto offset_ns = static_cast<std::int32_t>(toNanoseconds(turn / settings_.rate));
-      for (int line = 0; line < settings_.lines; ++line)
+      const Angle azimuth(kTwoPi * turn);
+      for (std::size_t line = 0; line < elevations_.size(); ++line)
         sweep.shots.push_back(
-            {spinningDirection(kTwoPi * turn, elevation(line)), offset_ns,
+            {spinningDirection(azimuth, elevations_[line]), offset_ns,
              static_cast<std::uint32_t>(column), static_cast<std::uint16_t>(line)});
     }
     return sweep;
@@ -113,6 +125,7 @@ class SpinningModel : public LidarModel
 
   LidarSettings settings_;
   std::int64_t zero_ns_;
+  std::vector<Angle> elevations_;  // of the lines, the lowest first
 };
 
 /** Two prisms that turn in opposite directions at incommensurable speeds bend the beam along a
@@ -162,7 +175,7 @@ class RosetteModel : public LidarModel
     const double up = kDeflection * (std::sin(kFirstPrism * t) + std::sin(kSecondPrism * t)) +
                       kLaserSpacing * (static_cast<double>(laser) - 0.5 * (kLasers - 1));
     return {
-        spinningDirection(-left, up),
+        spinningDirection(Angle(-left), Angle(up)),
         static_cast<std::int32_t>(zero_ns_ + toNanoseconds(t) - sweep_ns),
         static_cast<std::uint32_t>(in_sweep / kLasers), static_cast<std::uint16_t>(laser)};
   }
