@@ -41,7 +41,7 @@ double mostUncertain(const SimulatedRun& run)
 // was no part of the map that the scans fitted: 2 m off, with a standard deviation of 0.1 m.
 TEST(GapOfTheImu, DoesNotMakeADistortedScanTellTheVelocity)
 {
-  const SimulatedRun run = runWithGap(CastWalk("campus"), 16.0, 0.2);
+  const SimulatedRun run = runWithGap(castWalk("campus"), 16.0, 0.2);
   EXPECT_LT(positionError(run, run.scans.back()), 0.05);
 }
 
@@ -50,7 +50,7 @@ TEST(GapOfTheImu, DoesNotMakeADistortedScanTellTheVelocity)
 // by 0.7 to 3 m in six of these runs.
 TEST(GapOfTheImu, LeavesNoWrongVelocityBehind)
 {
-  const CastWalk walk("campus");
+  const CastWalk& walk = castWalk("campus");
   for (double begin = 6.0; begin < 23.0; begin += 1.0)
   {
     const SimulatedRun run = runWithGap(walk, begin, 0.4);

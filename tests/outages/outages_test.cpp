@@ -66,7 +66,7 @@ class OutageOfTheLidar : public ::testing::TestWithParam<std::tuple<std::string,
 TEST_P(OutageOfTheLidar, IsNeverFollowedByAWrongPoseThatIsSureOfItself)
 {
   const auto& [scenario, length] = GetParam();
-  const CastWalk walk(scenario);
+  const CastWalk& walk = castWalk(scenario);
   // An outage begins at every second in the full grid, at two of them here.
   const double step = everything() ? 1.0 : 6.0;
   for (double begin = 6.0; begin + length < 23.0; begin += step)
@@ -146,7 +146,7 @@ class AnyFault : public ::testing::TestWithParam<std::string>
 
 TEST_P(AnyFault, EndsRightOrIsReported)
 {
-  const CastWalk walk(GetParam());
+  const CastWalk& walk = castWalk(GetParam());
   // All faults at every second in the full grid; here one half of them on each walk.
   const bool every = everything();
   const double step = every ? 1.0 : 16.0;
@@ -167,14 +167,14 @@ INSTANTIATE_TEST_SUITE_P(Sample, AnyFault, ::testing::Values("office", "campus")
 
 TEST(OutageOfTheLidar, OfASecondIsForgottenAfterwards)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("campus"), {12.0, 1.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("campus"), {12.0, 1.0}, Missing::Scans);
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
   EXPECT_LT(positionError(run, run.scans.back()), 0.1);
 }
 
 TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("campus"), {12.0, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("campus"), {12.0, 5.0}, Missing::Scans);
   EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
   EXPECT_LT(positionError(run, run.scans.back()), 0.1);
   const auto found = std::find_if(
@@ -189,7 +189,7 @@ TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
 // map begins at the prediction, and the run is never lost.
 TEST(OutageOfTheLidar, TheFloorsOfAStairwellAreNotTakenForEachOther)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("stairs"), {15.0, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("stairs"), {15.0, 5.0}, Missing::Scans);
   EXPECT_EQ(confidentlyWrong(run), 0);
   EXPECT_EQ(countOf(run, ScanStatus::Diverged), 0U);
   EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 2U);
@@ -220,7 +220,7 @@ double attitudeStd(const JudgedScan& scan)
 // The pose where a new map begins contains the errors of the old map, and no scan takes them off.
 TEST(OutageOfTheLidar, ANewMapIsNoMoreCertainThanTheOldOne)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("stairs"), {15.0, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("stairs"), {15.0, 5.0}, Missing::Scans);
   const auto begins_map = [](const JudgedScan& scan)
   { return scan.result.status == ScanStatus::FirstScan; };
   const auto first = std::find_if(run.scans.begin(), run.scans.end(), begins_map);
@@ -240,7 +240,7 @@ TEST(OutageOfTheLidar, ANewMapIsNoMoreCertainThanTheOldOne)
 // nothing yet. They stand as accurately in it as ever, however uncertain its own pose is.
 TEST(OutageOfTheLidar, OfACarIsFollowedByANewMapThatGrows)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("car"), {7.2, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("car"), {7.2, 5.0}, Missing::Scans);
   EXPECT_EQ(confidentlyWrong(run), 0);
   EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 2U);
   EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
@@ -248,7 +248,7 @@ TEST(OutageOfTheLidar, OfACarIsFollowedByANewMapThatGrows)
 
 TEST(OutageOfTheLidar, ScansWithoutPointsAreAnOutageToo)
 {
-  const SimulatedRun run = runWithOutage(CastWalk("office"), {10.0, 6.0}, Missing::Points);
+  const SimulatedRun run = runWithOutage(castWalk("office"), {10.0, 6.0}, Missing::Points);
   EXPECT_EQ(confidentlyWrong(run), 0);
 }
 
