@@ -13,7 +13,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kWeight = 1.0 / 4e-4;  // of a range noise of 2 cm
+constexpr double kSideWeight = 1.0 / 4e-4;  // of a range noise of 2 cm
 
 /** Scans of a street: walls to the left and to the right, the ground below. */
 class Street
@@ -29,10 +29,10 @@ class Street
       const double ahead = uniform_(random_), cosine = 0.4 + 0.2 * uniform_(random_);
       BeamGeometry beam{5.0 * ahead, surface == 0 ? 6.0 : -6.0, cosine, surface == 2 ? 1.0 : 0.0};
       PointMeasurement point;
-      point.weight = kWeight;
+      point.weight = kSideWeight;
       point.weighted_h.setZero();
-      point.weighted_h[4] = surface == 2 ? 0.0 : kWeight * (surface == 0 ? 1.0 : -1.0);
-      point.weighted_h[5] = surface == 2 ? kWeight : 0.0;
+      point.weighted_h[4] = surface == 2 ? 0.0 : kSideWeight * (surface == 0 ? 1.0 : -1.0);
+      point.weighted_h[5] = surface == 2 ? kSideWeight : 0.0;
       point.z = offsets[surface] * cosine + 0.02 * normal_(random_);
       sides.add(beam, point, cosine * point.weighted_h);
     }
