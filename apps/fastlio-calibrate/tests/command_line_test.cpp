@@ -4,6 +4,7 @@
 // The program on simulated recordings: good and bad command lines, and a file that runs.
 
 #include "process.h"
+#include "recorded_once.h"
 #include "temporary_folder.h"
 #include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
@@ -28,7 +29,7 @@ class Calibrate : public ::testing::Test
     SimulationSettings settings = defaultSettings("office");
     settings.duration = 12.0;
     settings.lidar.stride = 4;
-    return writeRecording(Simulation(settings), folder_.file(name)).rawlog;
+    return recordedOnce(settings, folder_.file(name));
   }
 
   ProcessResult run(std::vector<std::string> arguments)

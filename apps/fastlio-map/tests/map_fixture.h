@@ -5,9 +5,9 @@
 #pragma once
 
 #include "process.h"
+#include "recorded_once.h"
 #include "temporary_folder.h"
 #include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/recording.h>
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class Map : public ::testing::Test
 
   std::string record(const std::string& name, const SimulationSettings& settings)
   {
-    return writeRecording(Simulation(settings), folder_.file(name)).rawlog;
+    return recordedOnce(settings, folder_.file(name));
   }
 
   ProcessResult run(std::vector<std::string> arguments)
