@@ -119,7 +119,12 @@ class Estimator
   [[nodiscard]] MapSearchResult matchWithMap(const Work& work, std::int64_t end_ns);
   [[nodiscard]] MapSearchResult trackOrSearch(const Work& work, std::int64_t end_ns);
   [[nodiscard]] MatchResult matchPrediction(const Work& work);
-  [[nodiscard]] MatchResult pullIn(const Work& work, std::int64_t end_ns);
+  [[nodiscard]] MatchResult alongOpenDirections(
+      MatchResult match, const Work& work, std::int64_t end_ns);
+  /** \param start the prediction, more uncertain than the filter has it */
+  [[nodiscard]] MatchResult pullIn(
+      const Work& work, std::int64_t end_ns,
+      const std::optional<FilterState>& start = std::nullopt);
   [[nodiscard]] MapSearchResult searchAfterOutage(
       const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
   [[nodiscard]] FilterState beginNewMap(const DeskewedScan& scan, const FilterState& predicted);

@@ -7,8 +7,10 @@
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace fastlio
@@ -18,6 +20,12 @@ namespace
 // Of measurement.min_signal_to_noise. Found by trial: with 0.1, 0.3 or 0.6 a start in an open area
 // or in fast rotation fails.
 constexpr double kStartSignalToNoise = 0.2;
+
+// How far a position that was lost along open directions may be off, as a standard deviation: the
+// gate of the ordinary match has planes that are nearer, and the map's largest voxels end there.
+constexpr double kLeastLost = 0.1, kMostLost = 2.0;  // [m]
+// Fewer points more than in the ordinary match are those of a plane that happens to lie there.
+constexpr double kPlaneFoundAgain = 0.02;  // of all points
 
 /** How far missing inertial samples leave the points of a scan from where they belong, all of them
  * together [m]: the rotation in a gap grows towards the scan's begin, so its mean square is a
@@ -80,7 +88,10 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
     MatchResult match = matchPrediction(work);
     const bool uncertain =
         !tracking.run.motion_window && needsPullIn(predicted, match.constraints.unconstrained > 0);
-    if (uncertain) match = pullIn(work, end_ns);
+    if (uncertain)
+      match = pullIn(work, end_ns);
+    else
+      match = alongOpenDirections(std::move(match), work, end_ns);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
     const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
     const bool good = !match.update.updated || (found && isConvincing(match, scan, map_));
@@ -114,12 +125,37 @@ MatchResult Estimator::matchPrediction(const Work& work)
   return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how);
 }
 
+/** Where scans leave a direction open, the position drifts along it: planes that show it again then
+ * lie outside the gate of the filter's own covariance, would not match ever after, and the
+ * direction would stay open. They are looked for as far as the whole covariance reaches. */
+MatchResult Estimator::alongOpenDirections(MatchResult match, const Work& work, std::int64_t end_ns)
+{
+  if (match.constraints.unconstrained == 0 || run().motion_window) return match;
+  FilterState start = work.predicted.state;
+  const Mat3 systematic =  // the errors of the map have been propagated already
+      systematicCovariance({start, ErrorTransition()}).block<3, 3>(kPosition, kPosition);
+  const double lost = std::sqrt(std::max(0.0, systematic.trace()));
+  if (!(lost > kLeastLost && lost < kMostLost)) return match;
+  start.P.block<3, 3>(kPosition, kPosition) += systematic;
+  MatchResult again = pullIn(work, end_ns, start);
+  const double more =
+      static_cast<double>(again.update.last.count) - static_cast<double>(match.update.last.count);
+  const auto points = static_cast<double>(work.deskewed.surfaces.size());
+  const bool found = again.constraints.unconstrained < match.constraints.unconstrained &&
+                     more > kPlaneFoundAgain * points && matchesAsFound(again, work.deskewed, map_);
+  if (found) return again;
+  deskew(work.scan, end_ns, work.predicted.state.x);
+  return matchPrediction(work);  // the matcher keeps the matches of the latest one only
+}
+
 /** Where the prediction is uncertain, so is the motion that the points were deskewed with. They are
  * deskewed again with the motion that a first match finds: otherwise a wrong velocity shears the
  * scan, the sheared scan confirms the velocity, and the map drifts along with both. */
-MatchResult Estimator::pullIn(const Work& work, std::int64_t end_ns)
+MatchResult Estimator::pullIn(
+    const Work& work, std::int64_t end_ns, const std::optional<FilterState>& start)
 {
   MatchOptions first = pullInMatching(options_), second = ordinaryMatching(options_);
+  first.start = start;
   first.measurement.min_signal_to_noise = 0.0;  // it may be wrong along what it does not see
   first.deskew_std = second.deskew_std = deskewStd(work.deskewed, work.predicted);
   const FilterState& predicted = work.predicted.state;
