@@ -24,8 +24,9 @@ constexpr double kStartSignalToNoise = 0.2;
 // How far a position that was lost along open directions may be off, as a standard deviation: the
 // gate of the ordinary match has planes that are nearer, and the map's largest voxels end there.
 constexpr double kLeastLost = 0.1, kMostLost = 2.0;  // [m]
-// Fewer points more than in the ordinary match are those of a plane that happens to lie there.
-constexpr double kPlaneFoundAgain = 0.02;  // of all points
+// Fewer points more than in the ordinary match may be those of planes that happen to lie there, as
+// the next step of a staircase does.
+constexpr double kPlaneFoundAgain = 0.05;  // of all points
 
 /** How far missing inertial samples leave the points of a scan from where they belong, all of them
  * together [m]: the rotation in a gap grows towards the scan's begin, so its mean square is a
