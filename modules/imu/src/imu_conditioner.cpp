@@ -260,7 +260,7 @@ std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample&
 
 void ImuConditioner::reportClipping(std::int64_t stamp_ns)
 {
-  const auto report = [&](ClippingDetector& detector, const char* sensor, const char* unit)
+  const auto report = [&](ClippingDetector& detector, const char* what, const char* unit)
   {
     const std::optional<RangeEnd> end = detector.takeFound();
     if (!end) return;
@@ -268,12 +268,12 @@ void ImuConditioner::reportClipping(std::int64_t stamp_ns)
     diagnostics_.push_back(
         {stamp_ns,
          mrpt::format(
-             "the %s clips at %.4g %s: readings of its axis %c stay at %.4g and never go beyond. "
+             "%s %.4g %s: readings of its axis %c stay at %.4g and never go beyond. "
              "Clipped samples are trusted less; give the sensor, or the driver, a larger range",
-             sensor, std::abs(end->value), unit, axis, end->value)});
+             what, std::abs(end->value), unit, axis, end->value)});
   };
-  report(clipping_.gyro, "gyro", "rad/s");
-  report(clipping_.accel, "accelerometer", "m/s^2");
+  report(clipping_.gyro, "the gyro clips at", "rad/s");
+  report(clipping_.accel, "the accelerometer clips at", "m/s^2");
 }
 
 ImuReport ImuConditioner::report() const
