@@ -160,7 +160,7 @@ MatchResult Estimator::pullIn(
   first.measurement.min_signal_to_noise = 0.0;  // it may be wrong along what it does not see
   first.deskew_std = second.deskew_std = deskewStd(work.deskewed, work.predicted);
   const FilterState& predicted = work.predicted.state;
-  const MatchResult near = matcher_.match(work.deskewed, predicted, map_.matched(), first);
+  MatchResult near = matcher_.match(work.deskewed, predicted, map_.matched(), first);
   if (!near.update.updated) return near;
   second.start = near.update.posterior;
   deskew(work.scan, end_ns, second.start->x);
