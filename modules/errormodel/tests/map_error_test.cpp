@@ -13,6 +13,14 @@ namespace fastlio::testing
 {
 namespace
 {
+InsertionError inheritedError(double variance, double of_height)
+{
+  InsertionError error;
+  error.inherited = variance * Matrix6::Identity();
+  error.inherited(5, 5) = of_height;
+  return error;
+}
+
 TEST(MapError, IsThatOfTheCreatingPosesWhereTheMapIsTrusted)
 {
   MapErrorModel model;
@@ -43,8 +51,7 @@ TEST(MapError, OwnErrorsThatAreRememberedDoNot)
 
 TEST(MapError, InheritedErrorsAreCommonToAllInsertions)
 {
-  InsertionError inherited;
-  inherited.inherited = 4e-6 * Matrix6::Identity();
+  const InsertionError inherited = inheritedError(4e-6, 4e-6);
   MapErrorModel model;
   model.recordInsertion(1, inherited, {});
   model.update(fullTrust(), scanOn({1}));
@@ -53,64 +60,50 @@ TEST(MapError, InheritedErrorsAreCommonToAllInsertions)
   EXPECT_LT((poseAddition(model) - 4e-6 * Matrix6::Identity()).norm(), 1e-12);
 }
 
-// Nine planes of ten are of a certain pose and do not show the height. The tenth shows it, and its
-// pose was uncertain there.
-TEST(MapError, AlongAWeakDirectionItIsThatOfThePlanesThatShowIt)
+/** The pose's error where nine planes of ten show x, and the tenth one shows the height. */
+Matrix6 additionOn(
+    const InsertionError& walls, const InsertionError& ground, const LinearizedUpdate& update)
 {
   MapErrorModel model;
-  InsertionError certain, uncertain;
-  certain.inherited = 1e-6 * Matrix6::Identity();
-  uncertain.inherited = certain.inherited;
-  uncertain.inherited(5, 5) = 0.09;
-  model.recordInsertion(1, certain, {});
-  model.recordInsertion(2, uncertain, {});
+  model.recordInsertion(1, walls, {});
+  model.recordInsertion(2, ground, {});
   GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
-  for (std::size_t i = 0; i < scan.groups.size(); ++i)
-    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
+  for (PlaneGroup& group : scan.groups)
+    group.g[group.created_insertion == 1 ? 3 : 5] = 1.0;
+  model.update(update, scan);
+  return poseAddition(model);
+}
+
+TEST(MapError, AlongAWeakDirectionItIsThatOfThePlanesThatShowIt)
+{
   LinearizedUpdate update = fullTrust();
   update.constraints.directions = Matrix6::Identity().rowwise().reverse();
   update.constraints.information.setConstant(kScanInformation);
   update.constraints.information[0] = 0.01 * kScanInformation;
-  model.update(update, scan);
-  EXPECT_NEAR(poseAddition(model)(5, 5), 0.09, 1e-4);
-  EXPECT_NEAR(poseAddition(model)(3, 3), 1e-6, 1e-9);
-  EXPECT_LT(std::abs(poseAddition(model)(3, 5)), 1e-9);
+  const Matrix6 addition =
+      additionOn(inheritedError(1e-6, 1e-6), inheritedError(1e-6, 0.09), update);
+  EXPECT_NEAR(addition(5, 5), 0.09, 1e-4);
+  EXPECT_NEAR(addition(3, 3), 1e-6, 1e-9);
+  EXPECT_LT(std::abs(addition(3, 5)), 1e-9);
 }
 
 // Walls of the start are in view again, above ground that was first seen after the height had
 // drifted. All directions are well determined.
 TEST(MapError, OldWallsDoNotMakeTheHeightOfNewGroundCertain)
 {
-  MapErrorModel model;
-  InsertionError certain, drifted;
-  certain.inherited = 1e-6 * Matrix6::Identity();
-  drifted.inherited = certain.inherited;
-  drifted.inherited(5, 5) = 0.09;
-  model.recordInsertion(1, certain, {});
-  model.recordInsertion(2, drifted, {});
-  GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
-  for (std::size_t i = 0; i < scan.groups.size(); ++i)
-    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
-  model.update(fullTrust(), scan);
-  EXPECT_NEAR(poseAddition(model)(5, 5), 0.09, 1e-4);
-  EXPECT_NEAR(poseAddition(model)(3, 3), 1e-6, 1e-9);
+  const Matrix6 addition =
+      additionOn(inheritedError(1e-6, 1e-6), inheritedError(1e-6, 0.09), fullTrust());
+  EXPECT_NEAR(addition(5, 5), 0.09, 1e-4);
+  EXPECT_NEAR(addition(3, 3), 1e-6, 1e-9);
 }
 
 // The other way round: new walls leave the height as certain as the old ground makes it.
 TEST(MapError, NewWallsDoNotMakeTheHeightOfOldGroundUncertain)
 {
-  MapErrorModel model;
-  InsertionError certain, drifted;
-  certain.inherited = 1e-6 * Matrix6::Identity();
-  drifted.inherited = 0.09 * Matrix6::Identity();
-  model.recordInsertion(1, certain, {});
-  model.recordInsertion(2, drifted, {});
-  GroupedMeasurements scan = scanOn({2, 2, 2, 2, 2, 2, 2, 2, 2, 1});
-  for (std::size_t i = 0; i < scan.groups.size(); ++i)
-    scan.groups[i].g[i < 9 ? 3 : 5] = 1.0;
-  model.update(fullTrust(), scan);
-  EXPECT_NEAR(poseAddition(model)(3, 3), 0.09, 1e-4);
-  EXPECT_NEAR(poseAddition(model)(5, 5), 1e-6, 1e-9);
+  const Matrix6 addition =
+      additionOn(inheritedError(0.09, 0.09), inheritedError(1e-6, 1e-6), fullTrust());
+  EXPECT_NEAR(addition(3, 3), 0.09, 1e-4);
+  EXPECT_NEAR(addition(5, 5), 1e-6, 1e-9);
 }
 
 // The odometry has drifted by 0.3 m since it began. Planes of late have the same error as the pose;
@@ -119,8 +112,7 @@ TEST(MapError, IsInTheInnovationWhereAnOldPlaceIsSeenAgain)
 {
   constexpr double kDrift2 = 0.09;  // [m^2]
   MapErrorModel model;
-  InsertionError drifted;
-  drifted.inherited = kDrift2 * Matrix6::Identity();
+  const InsertionError drifted = inheritedError(kDrift2, kDrift2);
   model.recordInsertion(1, InsertionError{}, {});
   model.recordInsertion(2, drifted, {});
   model.update(fullTrust(), scanOn({2}));
