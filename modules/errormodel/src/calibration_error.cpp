@@ -50,22 +50,9 @@ PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state
 PoseByCalibration CalibrationErrorModel::ofMap(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  const auto directions = shownDirections(update);
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, directions, insertions_);
-  Eigen::Matrix<float, 6, 6> seen;  // rows
-  Eigen::Matrix<float, 6, 6> moved;
-  for (int i = 0; i < 6; ++i)
-  {
-    seen.row(i) = directions[static_cast<std::size_t>(i)].seen.cast<float>();
-    moved.col(i) = directions[static_cast<std::size_t>(i)].moved.cast<float>();
-  }
-  Eigen::Matrix<float, 6, kCalibrationErrorDim> components;
-  components.setZero();
-  for (const Insertion& insertion : insertions_)
-    if (insertion.weights.all > 0.0)
-      components += insertion.weights.shown.cast<float>().asDiagonal() * (seen * insertion.twist);
-  return (moved * components).cast<double>();
+  const ShownDirections directions = shownDirections(update);
+  weighInsertions(groups, directions, insertions_);
+  return meanByDirection(directions, insertions_, &Insertion::twist).cast<double>();
 }
 
 UpdateByCalibration CalibrationErrorModel::update(

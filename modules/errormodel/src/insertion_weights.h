@@ -9,8 +9,6 @@
 #include <fastlio/matching/plane_groups.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,79 +39,58 @@ std::size_t indexOfInsertion(const std::vector<Insertion>& insertions, std::uint
                                     : static_cast<std::size_t>(next - insertions.begin()) - 1;
 }
 
-/** Finds the insertion that created the planes of each group of points. \param insertions ascending
- * by scan; older ones may have been dropped \param found receives an index for each group, or the
- * number of insertions where it is not known */
-template <typename Insertion>
-void findInsertions(
-    const std::vector<PlaneGroup>& groups, const std::vector<Insertion>& insertions,
-    std::vector<std::size_t>& found)
+/** The directions of an update's constraints, and what a twist of the map is along them. */
+struct ShownDirections
 {
-  found.reserve(groups.capacity());  // for scans with more of them, too
-  found.clear();
-  std::uint32_t looked_up = 0;  // no insertion has that number
-  std::size_t index = insertions.size();
-  for (const PlaneGroup& group : groups)
-  {
-    // Neighbours in a scan mostly lie on planes of the same insertion.
-    if (group.created_insertion != looked_up || found.empty())
-    {
-      looked_up = group.created_insertion;
-      index = indexOfInsertion(insertions, looked_up);
-    }
-    found.push_back(index);
-  }
-}
-
-/** A direction of the scan pose, and what a twist of the map is along it. */
-struct ShownDirection
-{
-  Vector6 along;  //!< in the scan pose's coordinates; zero when the update left it alone
-  Vector6 moved;  //!< the twist of the map that moves the scan along it
-  Vector6 seen;   //!< component of a twist along it: seen . moved = 1, 0 with the other directions'
+  using Square = Eigen::Matrix<double, 6, 6>;
+  Square along;  //!< rows, in the scan pose's coordinates; zero where the update left one alone
+  Square moved;  //!< columns: the twist of the map that moves the scan along a direction
+  Square seen;   //!< rows: the component of a twist along a direction; seen * moved = I
 };
 
-/** The directions of an update's constraints. */
-inline std::array<ShownDirection, 6> shownDirections(const LinearizedUpdate& update)
+inline ShownDirections shownDirections(const LinearizedUpdate& update)
 {
   const ScanConstraints& constraints = update.constraints;
-  const Matrix6 L = twistJacobian(update.T_world_scan);
-  const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  std::array<ShownDirection, 6> directions;
-  for (int i = 0; i < 6; ++i)
-  {
-    Vector6 along = constraints.directions.col(i), measured = along;
-    along.head<3>() /= constraints.lever_arm;
-    measured.head<3>() *= constraints.lever_arm;
-    directions[static_cast<std::size_t>(i)] = {along, L * along, L_inverse.transpose() * measured};
-    if (i < constraints.unconstrained) directions[static_cast<std::size_t>(i)].along.setZero();
-  }
+  ShownDirections::Square along = constraints.directions, measured = along;
+  along.topRows<3>() /= constraints.lever_arm;
+  measured.topRows<3>() *= constraints.lever_arm;
+  ShownDirections directions;
+  directions.moved = twistJacobian(update.T_world_scan) * along;
+  directions.seen = measured.transpose() * twistJacobianInverse(update.T_world_scan);
+  along.leftCols(constraints.unconstrained).setZero();
+  directions.along = along.transpose();
   return directions;
 }
 
 /** Sets the weights of each insertion to the fractions of a scan's weight on the planes that it
  * created: of all that the points say, and of what they say about each direction. A direction that
- * no plane shows has the weights of all. \param found from findInsertions() */
+ * no plane shows has the weights of all. \param insertions ascending by scan; older ones may have
+ * been dropped */
 template <typename Insertion>
 void weighInsertions(
-    const std::vector<PlaneGroup>& groups, const std::vector<std::size_t>& found,
-    const std::array<ShownDirection, 6>& directions, std::vector<Insertion>& insertions)
+    const std::vector<PlaneGroup>& groups, const ShownDirections& directions,
+    std::vector<Insertion>& insertions)
 {
   for (Insertion& insertion : insertions)
     insertion.weights = {};
-  Eigen::Matrix<double, 6, 6> along;
-  for (int i = 0; i < 6; ++i)
-    along.row(i) = directions[static_cast<std::size_t>(i)].along;
   InsertionWeights total;
-  for (std::size_t i = 0; i < groups.size(); ++i)
+  std::uint32_t looked_up = 0;  // no insertion has that number
+  std::size_t index = insertions.size();
+  for (const PlaneGroup& group : groups)
   {
-    const PlaneGroup& group = groups[i];
-    const Eigen::Matrix<double, 6, 1> shown = (along * group.g).cwiseAbs2() / group.weight;
+    const Eigen::Matrix<double, 6, 1> shown =
+        (directions.along * group.g).cwiseAbs2() / group.weight;
     total.all += group.weight;
     total.shown += shown;
-    if (found[i] >= insertions.size()) continue;
-    insertions[found[i]].weights.all += group.weight;
-    insertions[found[i]].weights.shown += shown;
+    // Neighbours in a scan mostly lie on planes of the same insertion.
+    if (group.created_insertion != looked_up)
+    {
+      looked_up = group.created_insertion;
+      index = indexOfInsertion(insertions, looked_up);
+    }
+    if (index == insertions.size()) continue;
+    insertions[index].weights.all += group.weight;
+    insertions[index].weights.shown += shown;
   }
   if (!(total.all > 0.0)) return;
   for (Insertion& insertion : insertions)
@@ -124,6 +101,25 @@ void weighInsertions(
     for (int i = 0; i < 6; ++i)
       weights.shown[i] = total.shown[i] > 0.0 ? weights.shown[i] / total.shown[i] : weights.all;
   }
+}
+
+/** Mean over the insertions, by their weights about each direction, of what is linear in a twist:
+ * six rows. */
+template <typename Insertion, typename Quantity>
+Quantity meanByDirection(
+    const ShownDirections& directions, const std::vector<Insertion>& insertions,
+    Quantity Insertion::*quantity)
+{
+  using Scalar = typename Quantity::Scalar;
+  using Square = Eigen::Matrix<Scalar, 6, 6>;
+  using Rows = Eigen::Matrix<Scalar, 6, Quantity::ColsAtCompileTime>;
+  const Square seen = directions.seen.cast<Scalar>(), moved = directions.moved.cast<Scalar>();
+  Rows components = Rows::Zero();
+  for (const Insertion& insertion : insertions)
+    if (insertion.weights.all > 0.0)
+      components += insertion.weights.shown.template cast<Scalar>().asDiagonal() *
+                    (seen * insertion.*quantity);
+  return moved * components;
 }
 
 }  // namespace fastlio

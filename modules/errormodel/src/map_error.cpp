@@ -126,27 +126,23 @@ struct MapErrorModel::CreatingErrors
 MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
     const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
 {
-  const auto directions = shownDirections(update);
-  findInsertions(groups, insertions_, created_by_);
-  weighInsertions(groups, created_by_, directions, insertions_);
+  const ShownDirections directions = shownDirections(update);
+  weighInsertions(groups, directions, insertions_);
   const TwistCovariance mean = meanOfInsertions();
-  Matrix6 scale = Matrix6::Identity(), with_beams = Matrix6::Zero();
+  Matrix6 scale = Matrix6::Identity();
   for (int i = 0; i < 6; ++i)
   {
-    const ShownDirection& d = directions[static_cast<std::size_t>(i)];
-    double variance = varianceAlong(d.seen, i);
-    const double of_mean = d.seen.dot(mean * d.seen);
+    const Vector6 seen = directions.seen.row(i);
+    double variance = varianceAlong(seen, i);
+    const double of_mean = seen.dot(mean * seen);
     // Where nothing showed a weak direction for a while, all planes are wrong along it.
     if (isWeak(update.constraints, i)) variance = std::max(variance, of_mean);
     if (variance > 0.0 && of_mean > 0.0)
-      scale += (std::sqrt(variance / of_mean) - 1.0) * d.moved * d.seen.transpose();
-    Vector6 row = Vector6::Zero();
-    for (const Insertion& insertion : insertions_)
-      if (insertion.weights.all > 0.0)
-        row += insertion.weights.shown[i] * (insertion.with_beams.transpose() * d.seen);
-    with_beams += d.moved * row.transpose();
+      scale += (std::sqrt(variance / of_mean) - 1.0) * directions.moved.col(i) * seen.transpose();
   }
-  return {scale * mean * scale.transpose(), with_beams};
+  return {
+      scale * mean * scale.transpose(),
+      meanByDirection(directions, insertions_, &Insertion::with_beams)};
 }
 
 TwistCovariance MapErrorModel::meanOfInsertions() const

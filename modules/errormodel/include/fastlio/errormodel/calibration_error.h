@@ -22,7 +22,6 @@
 #include <fastlio/filter/propagation.h>
 #include <fastlio/matching/plane_groups.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -84,8 +83,7 @@ class CalibrationErrorModel
       const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
 
   Sensitivity S_ = Sensitivity::Zero();
-  std::vector<Insertion> insertions_;    // ascending by scan
-  std::vector<std::size_t> created_by_;  // of the groups of a scan; storage
+  std::vector<Insertion> insertions_;  // ascending by scan
 };
 
 }  // namespace fastlio

@@ -37,7 +37,6 @@
 #include <fastlio/interface/scan_constraints.h>
 #include <fastlio/matching/plane_groups.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -131,7 +130,6 @@ class MapErrorModel
   StateBy6 Y_poses_ = StateBy6::Zero();         //!< the same of the creating poses'
   double memory_ = 0.0;                         // since the last insertion
   std::vector<Insertion> insertions_;           // ascending by scan
-  std::vector<std::size_t> created_by_;         // of the groups of a scan; storage
 };
 
 }  // namespace fastlio
