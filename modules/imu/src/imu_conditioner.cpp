@@ -247,7 +247,7 @@ std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample&
   const double accel_between = std::max(accel, c.accel.before());
   if (gyro > 0.0 || accel > 0.0) ++report_.saturated;
   const auto last_ns = recent_.newestStamp();
-  c.turning = gyro_between > 0.0 ? c.turning + 1 : 0;
+  c.rates_in_a_row = gyro_between > 0.0 ? c.rates_in_a_row + 1 : 0;
   if (!last_ns || (gyro_between == 0.0 && accel_between == 0.0)) return std::nullopt;
   return NoiseInflation{
       *last_ns,
@@ -255,7 +255,7 @@ std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample&
       kSaturationStd * gyro_between,
       kSaturationStd * accel_between,
       InertialFault::Saturation,
-      std::max(0, c.turning - 1)};
+      std::max(1, c.rates_in_a_row)};
 }
 
 void ImuConditioner::reportClipping(std::int64_t stamp_ns)

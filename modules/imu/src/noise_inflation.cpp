@@ -44,7 +44,7 @@ ImuNoise noiseBetween(
     if (common_ns <= 0) continue;
     const double fraction = static_cast<double>(common_ns) / duration_ns;
     // An error that n inputs share turns n times as far as that of one: n^2 = 1 + 3 + 5 + ...
-    const double shared = 1.0 + 2.0 * inflation.before;
+    const double shared = 2.0 * inflation.in_a_row - 1.0;
     gyro_variance += fraction * shared * inflation.gyro_std * inflation.gyro_std;
     accel_variance += fraction * inflation.accel_std * inflation.accel_std;
   }

@@ -39,7 +39,8 @@ TEST(NoiseInflation, CountsErrorsOfOneSignTogether)
   std::vector<NoiseInflation> turn;
   for (int i = 0; i < 3; ++i)
     turn.push_back(
-        {kBegin + i * kLength, kBegin + (i + 1) * kLength, 0.5, 2.0, InertialFault::Saturation, i});
+        {kBegin + i * kLength, kBegin + (i + 1) * kLength, 0.5, 2.0, InertialFault::Saturation,
+         i + 1});
   const double dt = 1e-9 * static_cast<double>(kLength);
   double turned = 0.0, moved = 0.0;  // variances
   for (int i = 0; i < 3; ++i)

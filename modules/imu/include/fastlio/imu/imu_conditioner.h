@@ -59,11 +59,12 @@ class ImuConditioner
     bool matrices = false;
   };
 
+  /** Looks for clipped readings of both sensors. */
   struct Clipping
   {
     ClippingDetector gyro, accel;
-    ImuSample latest;
-    int turning = 0;  // intervals in a row with a clipped rate
+    ImuSample latest;        // to know one that is held
+    int rates_in_a_row = 0;  // that are clipped: a turn beyond the range is off to one side
   };
 
   void decideAccelUnit();

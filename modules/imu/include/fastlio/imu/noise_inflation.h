@@ -30,7 +30,7 @@ struct NoiseInflation
   double gyro_std = 0.0;   //!< of the angular rate [rad/s]
   double accel_std = 0.0;  //!< of the specific force [m/s^2]
   InertialFault fault = InertialFault::Gap;
-  int before = 0;  //!< inputs right before this one whose rate was off to the same side
+  int in_a_row = 1;  //!< inputs up to this one whose rates share one error
 };
 
 /** The noise densities of an input that holds from begin_ns to end_ns: an error sigma that is
