@@ -42,6 +42,11 @@ double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
   const double lever = std::sqrt(squares / static_cast<double>(points.size()));
   return predicted.gap_rotation_std / std::sqrt(3.0) * lever;
 }
+
+bool hasOpenDirection(const MatchResult& match)
+{
+  return match.constraints.unconstrained > 0;
+}
 }  // namespace
 
 MapSearchResult Estimator::matchWithMap(const Work& work, std::int64_t end_ns)
@@ -87,11 +92,11 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
-    const bool uncertain =
-        !tracking.run.motion_window && needsPullIn(predicted, match.constraints.unconstrained > 0);
+    const bool starting = tracking.run.motion_window.has_value(), open = hasOpenDirection(match);
+    const bool uncertain = !starting && needsPullIn(predicted, open);
     if (uncertain)
       match = pullIn(work, end_ns);
-    else
+    else if (open && !starting)
       match = alongOpenDirections(std::move(match), work, end_ns);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
     const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
@@ -131,7 +136,6 @@ MatchResult Estimator::matchPrediction(const Work& work)
  * direction would stay open. They are looked for as far as the whole covariance reaches. */
 MatchResult Estimator::alongOpenDirections(MatchResult match, const Work& work, std::int64_t end_ns)
 {
-  if (match.constraints.unconstrained == 0 || run().motion_window) return match;
   FilterState start = work.predicted.state;
   const Mat3 systematic =  // the errors of the map have been propagated already
       systematicCovariance({start, ErrorTransition()}).block<3, 3>(kPosition, kPosition);
