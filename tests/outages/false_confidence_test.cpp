@@ -70,6 +70,22 @@ TEST(Stairwell, TheHeightIsNeverSurerThanItIsRight)
   EXPECT_LT(positionError(run, run.scans.back()), 2.0);
 }
 
+// A fast drone drifts by 0.3 m and comes back to its start. Scans then match old and new walls at
+// once, and the pose ends beside both (0.4 m off, at 9 sigma).
+TEST(Loop, IsNeverSurerOfItsEndThanItIsRight)
+{
+  SimulationSettings settings = defaultSettings("uav");
+  settings.seed = 86;
+  settings.speed = 1.5;
+  settings.lidar.stride = 2;
+  settings = realistic(settings);
+  settings.imu.errors.gyro_scale_std = settings.imu.errors.accel_scale_std = 0.005;
+  settings.imu.errors.gyro_misalignment_std = settings.imu.errors.accel_misalignment_std =
+      0.2 / kDegPerRad;
+  const SimulatedRun run = runOdometry(Simulation(settings), matchingParameters(settings));
+  EXPECT_EQ(confidentlyWrong(run), 0);
+}
+
 TEST(Units, ALidarInMillimetresIsReportedAndRead)
 {
   const Simulation simulation(walk("office"));

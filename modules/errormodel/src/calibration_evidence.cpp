@@ -63,7 +63,7 @@ CalibrationEvidence::CalibrationEvidence(const CalibrationOptions& options)
   estimate_ = solve(sums_, prior_);
 }
 
-void CalibrationEvidence::add(
+double CalibrationEvidence::add(
     const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
     const FilterState& predicted, const UpdateResult& update, const Matrix6& map_mismatch)
 {
@@ -72,7 +72,7 @@ void CalibrationEvidence::add(
   const Square6 information = update.last.HtRinvH;
   const Vec6 correction = B * boxminus(update.posterior.x, predicted.x);
   const Eigen::LDLT<Square6> P_ldlt(P), information_ldlt(information);
-  if (!isPositive(P_ldlt) || !isPositive(information_ldlt)) return;
+  if (!isPositive(P_ldlt) || !isPositive(information_ldlt)) return 0.0;
   // The innovation y has the covariance W^-1 = information^-1 + P; the filter corrects by P W y.
   const Vec6 Wy = P_ldlt.solve(correction);
   const Square6 W =
@@ -85,7 +85,9 @@ void CalibrationEvidence::add(
   const double elements = 6.0 + information_of_error.cwiseProduct(estimate_.covariance).sum();
   const double unexplained = squares + by_error.dot(2.0 * Wy + W * by_error);
   // Of a pose that was lost for long, numbers may overflow. They would stay in all sums.
-  if (!information_of_error.allFinite() || !Wy.allFinite() || !std::isfinite(unexplained)) return;
+  if (!information_of_error.allFinite() || !Wy.allFinite() || !std::isfinite(unexplained))
+    return 0.0;
+  const double surprise = unexplained / elements / estimate_.innovation_scale;
   const Vec6 W_unexplained = Wy + W * by_error;  // W y of what is left of y
   watch_.add(
       unexplained / elements, normalizedInnovation(update),
@@ -98,6 +100,7 @@ void CalibrationEvidence::add(
   if (scans_ <= kScansSolvedEach || scans_ % kScansPerSolution == 0)
     estimate_ = solve(sums_, prior_);
   estimate_.innovation_scale = std::max(estimate_.innovation_scale, watch_.worst());
+  return surprise;
 }
 
 std::optional<Vector6> CalibrationEvidence::dueCorrection(std::int64_t now_ns)

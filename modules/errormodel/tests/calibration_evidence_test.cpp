@@ -22,10 +22,12 @@ class RandomScans
 
   /** \param noise standard deviations of the innovations over what the covariance says
    * \param map_mismatch standard deviation that the evidence is told of the map's own errors */
-  void feed(
+  /** \return the mean surprise of the scans */
+  double feed(
       CalibrationEvidence& evidence, const CalibrationErrorVector& theta, int scans, double noise,
       double map_mismatch = 0.0)
   {
+    double surprise = 0.0;
     for (int i = 0; i < scans; ++i)
     {
       const PoseByCalibration C =
@@ -42,10 +44,11 @@ class RandomScans
       StateVector correction = StateVector::Zero();
       correction.head<6>() = P * W_inverse.llt().solve(Eigen::Matrix<double, 6, 1>(y));
       update.posterior.x = boxplus(predicted.x, correction);
-      evidence.add(
+      surprise += evidence.add(
           C, bodyPoseJacobian(), predicted, update,
           map_mismatch * map_mismatch * Matrix6::Identity());
     }
+    return surprise / scans;
   }
 
  private:
@@ -133,6 +136,15 @@ TEST(CalibrationEvidence, HasNoneForWhatIsKnownExactly)
   CalibrationEvidence evidence(options);
   RandomScans(5).feed(evidence, someError(0.003), 50, 1.0);
   EXPECT_EQ(evidence.estimate().second_moment.norm(), 0.0);
+}
+
+TEST(CalibrationEvidence, IsSurprisedByWhatNeitherNoiseNorCalibrationExplains)
+{
+  CalibrationEvidence evidence(CalibrationOptions{});
+  RandomScans scans(7);
+  const CalibrationErrorVector theta = someError(0.003);
+  EXPECT_NEAR(scans.feed(evidence, theta, 200, 1.0), 1.0, 0.2);
+  EXPECT_NEAR(scans.feed(evidence, theta, 5, 5.0), 25.0, 8.0);
 }
 
 // Of a pose that was lost for long. The covariance of all scans after it would be no number.

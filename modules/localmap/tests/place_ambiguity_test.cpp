@@ -48,5 +48,26 @@ TEST(PlaceAmbiguity, IsWhatAnAcceptedSearchCouldNotExclude)
   EXPECT_NEAR(added(ambiguity, x)(kPosition, kPosition), 5.0, 1e-12);
 }
 
+// Old and new walls are in view at once: the pose may end beside both.
+TEST(PlaceAmbiguity, IsACorrectionThatNothingExplains)
+{
+  NavState predicted, corrected;
+  predicted.R = expSO3({0.3, -0.2, 1.1});
+  const Vec3 up = predicted.g.normalized();
+  const Vec3 moved(0.1, -0.2, 0.05);
+  corrected = predicted;
+  corrected.p += moved;
+  corrected.R = expSO3(0.02 * up) * predicted.R;
+  PlaceAmbiguity ambiguity;
+  ambiguity.addCorrection(predicted, corrected, 4.0);
+  EXPECT_EQ(added(ambiguity, corrected).norm(), 0.0);
+
+  ambiguity.addCorrection(predicted, corrected, 20.0);
+  const StateMatrix P = added(ambiguity, corrected);
+  EXPECT_LT((P.block<3, 3>(kPosition, kPosition) - moved * moved.transpose()).norm(), 1e-12);
+  const Mat3 attitude = corrected.R * P.block<3, 3>(kAttitude, kAttitude) * corrected.R.transpose();
+  EXPECT_LT((attitude - 0.0004 * up * up.transpose()).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace fastlio

@@ -66,9 +66,13 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   const ConsideredUpdate considered = map_.considerUpdate(work.deskewed, match, update, beams_);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
   if (match.update.updated && match.constraints.unconstrained == 0)
-    calibration_.add(
+  {
+    const double surprise = calibration_.add(
         considered.by_calibration.innovation, update.by_state, work.predicted.state, match.update,
         considered.map_mismatch);
+    if (!work.outcome.search && !run().motion_window)
+      ambiguity_.addCorrection(work.predicted.state.x, filter.x, surprise);
+  }
   else if (match.constraints.unconstrained > 0)
     calibration_.addDegenerateScan();
   // A start in motion does not know its biases yet, and a given map has errors of its own.

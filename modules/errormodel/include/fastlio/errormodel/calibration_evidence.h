@@ -36,8 +36,10 @@ class CalibrationEvidence
   /** A scan corrected a prediction, and no direction was degenerate.
    * \param innovation C of CalibrationErrorModel::update()
    * \param by_state B of the scan pose
-   * \param map_mismatch of MapErrorModel::update() */
-  void add(
+   * \param map_mismatch of MapErrorModel::update()
+   * \return mean square of the innovation's elements over the covariance that it has by the filter,
+   * by theta and by the innovations so far; about 1. 0: the numbers do not tell */
+  double add(
       const PoseByCalibration& innovation, const ScanPoseJacobian& by_state,
       const FilterState& predicted, const UpdateResult& update,
       const Matrix6& map_mismatch = Matrix6::Zero());
