@@ -21,9 +21,9 @@ PoseSearchResult search(double std, bool accepted)
 
 StateMatrix added(const PlaceAmbiguity& ambiguity, const NavState& x)
 {
-  StateMatrix P = StateMatrix::Zero();
-  ambiguity.addTo(x, P);
-  return P;
+  StateMatrix systematic = StateMatrix::Zero();
+  ambiguity.addTo(x, StateMatrix::Zero(), systematic);
+  return systematic;
 }
 
 TEST(PlaceAmbiguity, IsWhatAnAcceptedSearchCouldNotExclude)
@@ -67,6 +67,32 @@ TEST(PlaceAmbiguity, IsACorrectionThatNothingExplains)
   EXPECT_LT((P.block<3, 3>(kPosition, kPosition) - moved * moved.transpose()).norm(), 1e-12);
   const Mat3 attitude = corrected.R * P.block<3, 3>(kAttitude, kAttitude) * corrected.R.transpose();
   EXPECT_LT((attitude - 0.0004 * up * up.transpose()).norm(), 1e-12);
+}
+
+// Along a corridor the position was lost by a metre; the door that is found may be the next one.
+TEST(PlaceAmbiguity, IsHowFarAPositionWasLostAlongAnOpenDirection)
+{
+  const Vec3 axis = Vec3(1.0, 2.0, 0.0).normalized();
+  PlaceAmbiguity ambiguity;
+  ambiguity.addOpenDirection(axis, 0.04 * Mat3::Identity());
+  EXPECT_EQ(added(ambiguity, NavState()).norm(), 0.0) << "0.2 m tell one door from the next";
+  for (const double variance : {0.3, 1.0, 0.5})
+    ambiguity.addOpenDirection(axis, variance * Mat3::Identity());
+  const Mat3 lost = axis * axis.transpose();
+  EXPECT_LT((added(ambiguity, NavState()).block<3, 3>(kPosition, kPosition) - lost).norm(), 1e-12);
+
+  // It is a lower bound: what is as uncertain anyway stays as it is.
+  StateMatrix P = StateMatrix::Zero(), systematic = StateMatrix::Zero();
+  P.block<3, 3>(kPosition, kPosition) = 0.25 * Mat3::Identity();
+  systematic(kPosition + 2, kPosition + 2) = 4.0;
+  ambiguity.addTo(NavState(), P, systematic);
+  Mat3 expected = 0.75 * lost;
+  expected(2, 2) = 4.0;
+  EXPECT_LT((systematic.block<3, 3>(kPosition, kPosition) - expected).norm(), 1e-9);
+  P.block<3, 3>(kPosition, kPosition) = 2.0 * Mat3::Identity();
+  systematic.setZero();
+  ambiguity.addTo(NavState(), P, systematic);
+  EXPECT_LT(systematic.norm(), 1e-12);
 }
 
 }  // namespace

@@ -80,6 +80,10 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
       calibration_.takeStep() && !run().motion_window && !map_.isGiven();
   if (result.statistics.inertial_step) releaseBiasesAndClock();
   report(result);
+  if (!run().motion_window)
+    for (const MotionDirection& open : unconstrainedMotions(match.constraints))
+      if (!open.is_rotation)
+        ambiguity_.addOpenDirection(open.axis, result.filter.P.block<3, 3>(kPosition, kPosition));
 
   preparation_.describe(work.scan, result.statistics);
   describeMatch(match, result.statistics);
@@ -109,7 +113,7 @@ void Estimator::report(ScanResult& result) const
   result.filter.P *= calibration.innovation_scale;
   const StateMatrix by_calibration = map_.calibrationError().addition(calibration.second_moment);
   StateMatrix systematic = calibration.innovation_scale * map_.error().addition() + by_calibration;
-  ambiguity_.addTo(state_.filter.x, systematic);
+  ambiguity_.addTo(state_.filter.x, result.filter.P, systematic);
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
@@ -151,7 +155,7 @@ StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
       (calibration.innovation_scale - 1.0) * prediction.state.P +
       calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
       map_.calibrationError().additionAfter(prediction.transition, calibration.second_moment);
-  ambiguity_.addTo(prediction.state.x, systematic);
+  ambiguity_.addTo(prediction.state.x, prediction.state.P, systematic);
   return systematic;
 }
 
