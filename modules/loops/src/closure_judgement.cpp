@@ -38,6 +38,8 @@ const char* toString(ClosureVerdict verdict)
       return "accepted";
     case ClosureVerdict::FewPlanes:
       return "few_planes";
+    case ClosureVerdict::Unpredicted:
+      return "unpredicted";
     case ClosureVerdict::LittleOverlap:
       return "little_overlap";
     case ClosureVerdict::PoorFit:

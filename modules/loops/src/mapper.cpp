@@ -199,6 +199,17 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
         limits_.min_planes);
     return closure;
   }
+  const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
+  const double std = largestPositionStd(closure.predicted.covariance);
+  if (std > limits_.max_std_over_range * range)
+  {
+    closure.verdict = ClosureVerdict::Unpredicted;
+    closure.reason = mrpt::format(
+        "the odometry is %.1f m uncertain, more than %.0f %% of the %.1f m in view: a place that "
+        "looks the same may be another one",
+        std, 100.0 * limits_.max_std_over_range, range);
+    return closure;
+  }
   const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
   closure.registration =
       SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);

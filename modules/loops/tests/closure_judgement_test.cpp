@@ -77,6 +77,17 @@ TEST(ClosureJudgement, AnErrorThatTheOdometryKnowsOfIsNone)
   EXPECT_NEAR(closure.registration.motion.T_a_b.p.norm(), 0.0, 0.01);
 }
 
+/** An odometry that was lost by metres excludes neither this floor nor the next one. */
+TEST(ClosureJudgement, WhereTheOdometryWasLostNoPlaceIsRecognised)
+{
+  for (const double height : {0.0, kFloor})
+  {
+    const Closure closure = closureAtHeight(height, 2.0);
+    EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
+    EXPECT_NE(closure.reason.find("4.0 m uncertain"), std::string::npos) << closure.reason;
+  }
+}
+
 /** On the way, the odometry has lost the height and has found it again where it knew it before.
  * What it was unsure of in between says nothing about where it is now. */
 TEST(ClosureJudgement, AFloorIsOutOfReachAfterTheHeightWasLostAndFound)

@@ -30,6 +30,8 @@ const char* wordsOf(ClosureVerdict verdict)
       return "accepted";
     case ClosureVerdict::FewPlanes:
       return "too few surfaces";
+    case ClosureVerdict::Unpredicted:
+      return "the odometry was lost";
     case ClosureVerdict::LittleOverlap:
       return "little in common";
     case ClosureVerdict::PoorFit:
