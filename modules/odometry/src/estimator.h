@@ -132,6 +132,10 @@ class Estimator
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,
       ScanStatistics& statistics);
   void adopt(const MatchResult& match, Work& work, ScanResult& result);
+  double learnFromInnovation(
+      const MatchResult& match, const ConsideredUpdate& considered, const LinearizedUpdate& update,
+      const FilterState& predicted);
+  void noteOpenDirections(const MatchResult& match, const ScanResult& result);
   void releaseBiasesAndClock();
   void report(ScanResult& result) const;
   [[nodiscard]] StateMatrix systematicCovariance(const Prediction& prediction) const;

@@ -65,29 +65,43 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
   const ConsideredUpdate considered = map_.considerUpdate(work.deskewed, match, update, beams_);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
-  if (match.update.updated && match.constraints.unconstrained == 0)
-  {
-    const double surprise = calibration_.add(
-        considered.by_calibration.innovation, update.by_state, work.predicted.state, match.update,
-        considered.map_mismatch);
-    if (!work.outcome.search && !run().motion_window)
-      ambiguity_.addCorrection(work.predicted.state.x, filter.x, surprise);
-  }
-  else if (match.constraints.unconstrained > 0)
-    calibration_.addDegenerateScan();
+  const double surprise = learnFromInnovation(match, considered, update, work.predicted.state);
+  if (!work.outcome.search && !run().motion_window)
+    ambiguity_.addCorrection(work.predicted.state.x, filter.x, surprise);
   // A start in motion does not know its biases yet, and a given map has errors of its own.
   result.statistics.inertial_step =
       calibration_.takeStep() && !run().motion_window && !map_.isGiven();
   if (result.statistics.inertial_step) releaseBiasesAndClock();
   report(result);
-  if (!run().motion_window)
-    for (const MotionDirection& open : unconstrainedMotions(match.constraints))
-      if (!open.is_rotation)
-        ambiguity_.addOpenDirection(open.axis, result.filter.P.block<3, 3>(kPosition, kPosition));
+  if (!run().motion_window) noteOpenDirections(match, result);
 
   preparation_.describe(work.scan, result.statistics);
   describeMatch(match, result.statistics);
   result.statistics.imu_samples = predictor_.inputs().size();
+}
+
+/** Innovations show the errors of the calibration. \return the surprise, of CalibrationEvidence */
+double Estimator::learnFromInnovation(
+    const MatchResult& match, const ConsideredUpdate& considered, const LinearizedUpdate& update,
+    const FilterState& predicted)
+{
+  if (match.constraints.unconstrained > 0)
+  {
+    calibration_.addDegenerateScan();
+    return 0.0;
+  }
+  if (!match.update.updated) return 0.0;
+  return calibration_.add(
+      considered.by_calibration.innovation, update.by_state, predicted, match.update,
+      considered.map_mismatch);
+}
+
+/** The position is lost along them, and what shows them again may be the wrong place. */
+void Estimator::noteOpenDirections(const MatchResult& match, const ScanResult& result)
+{
+  const Mat3 position = result.filter.P.block<3, 3>(kPosition, kPosition);
+  for (const MotionDirection& open : unconstrainedMotions(match.constraints))
+    if (!open.is_rotation) ambiguity_.addOpenDirection(open.axis, position);
 }
 
 /** The inertial sensor has changed, by a shock, by vibration, by heat, or a clock has jumped, and
