@@ -4,10 +4,11 @@
 #
 # Usage: benchmarks/map_table.sh BUILD_DIR OUTPUT_DIR [SCENARIO...]     (default: town facades corridors)
 # SEEDS (default: "1 2") and SETTINGS (for fastlio-sim, default: --set lidar.stride=4) in the environment.
+# GNSS=RATE adds a receiver with 1 m of noise, and the error of the map on the earth.
 set -eu
 
 if [ $# -lt 2 ]; then
-  sed -n '4,6s/^# //p' "$0" >&2
+  sed -n '4,7s/^# //p' "$0" >&2
   exit 2
 fi
 build=$1
@@ -15,7 +16,7 @@ output=$2
 shift 2
 [ $# -gt 0 ] || set -- town facades corridors
 seeds=${SEEDS:-1 2}
-settings=${SETTINGS:---set lidar.stride=4}
+settings="${SETTINGS:---set lidar.stride=4}${GNSS:+ --set gnss.rate=$GNSS}"
 
 program() { echo "$build/bin/$1"; }
 flatten() { awk -f "$(dirname "$0")/flatten_json.awk" "$1"; }
@@ -33,8 +34,15 @@ errors() {
     }'
 }
 
-echo "| scenario | seed | odometry: level [m] | APE [m] | end [m] | NEES | map: level [m] | APE [m] | end [m] | NEES | closures |"
-echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|"
+# on_earth FOLDER: two more columns, horizontal and vertical error.
+on_earth() {
+  [ -z "${GNSS:-}" ] ||
+    echo " $(awk -f "$(dirname "$0")/earth_error.awk" "$1/map/summary.json" "$1/recording/ground_truth.tum" \
+      "$1/map/covariance.csv") |"
+}
+
+echo "| scenario | seed | odometry: level [m] | APE [m] | end [m] | NEES | map: level [m] | APE [m] | end [m] | NEES | closures |${GNSS:+ earth: horizontal [m] | vertical [m] |}"
+echo "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|${GNSS:+--:|--:|}"
 for scenario in "$@"; do
   for seed in $seeds; do
     folder=$output/$scenario-$seed
@@ -46,7 +54,7 @@ for scenario in "$@"; do
       -o "$folder/map" "$folder/recording/recording.rawlog" || true
     truth=$folder/recording/ground_truth.tum
     accepted=$(flatten "$folder/map/summary.json" | awk '$1 == "closures_accepted" { print $2 }')
-    echo "| $scenario | $seed | $(errors "$truth" "$folder/replay") | $(errors "$truth" "$folder/map") | $accepted |"
+    echo "| $scenario | $seed | $(errors "$truth" "$folder/replay") | $(errors "$truth" "$folder/map") | $accepted |$(on_earth "$folder")"
     rm -f "$folder/recording/recording.rawlog"
   done
 done
