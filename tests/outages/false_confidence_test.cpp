@@ -70,6 +70,20 @@ TEST(Stairwell, TheHeightIsNeverSurerThanItIsRight)
   EXPECT_LT(positionError(run, run.scans.back()), 2.0);
 }
 
+// With few beams, scans leave the way along a corridor open for ten seconds. The door that shows it
+// again is the next one of a row (2.8 m off, at 17 sigma).
+TEST(Corridor, ADoorThatIsFoundAgainMayBeTheNextOne)
+{
+  SimulationSettings settings = defaultSettings("corridors");
+  settings.seed = 40;
+  settings.path_start = 110.0;
+  settings.duration = 75.0;
+  settings.lidar.stride = 6;
+  settings = realistic(settings);
+  const SimulatedRun run = runOdometry(Simulation(settings), matchingParameters(settings));
+  EXPECT_EQ(confidentlyWrong(run), 0);
+}
+
 // A fast drone drifts by 0.3 m and comes back to its start. Scans then match old and new walls at
 // once, and the pose ends beside both (0.4 m off, at 9 sigma).
 TEST(Loop, IsNeverSurerOfItsEndThanItIsRight)
