@@ -73,12 +73,14 @@ TrackedPose CMetricMapBuilderLoops::correctedPose(
   imu.filter.x.p = T_world_imu.p;
   imu.filter.P.topLeftCorner<6, 6>() = ofImu(vehicle.covariance);
   imu.map_covariance = ofImu(vehicle.map_covariance);
+  imu.ambiguity_covariance = ofImu(vehicle.ambiguity_covariance);
   imu.motion_by_beams = vehicle.motion_by_beams;
   const PoseEstimate estimate = poseEstimateOf(trajectory.corrected(imu).filter, T_imu_vehicle);
   TrackedPose corrected = vehicle;
   corrected.T_world_body = estimate.T_world_body;
   corrected.covariance = corrected.map_covariance = estimate.covariance;
   corrected.motion_by_beams.setZero();
+  corrected.ambiguity_covariance.setZero();
   return corrected;
 }
 

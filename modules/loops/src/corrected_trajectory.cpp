@@ -90,6 +90,7 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   moved.filter.P.topLeftCorner<6, 6>() = covariance;
   moved.map_covariance = covariance;
   moved.calibration_covariance = by_extrinsic;
+  moved.ambiguity_covariance.setZero();  // the covariance of the graph contains it
   moved.motion_by_beams.setZero();
   return moved;
 }

@@ -127,9 +127,11 @@ void Estimator::report(ScanResult& result) const
   result.filter.P *= calibration.innovation_scale;
   const StateMatrix by_calibration = map_.calibrationError().addition(calibration.second_moment);
   StateMatrix systematic = calibration.innovation_scale * map_.error().addition() + by_calibration;
+  const Matrix6 unambiguous = systematic.topLeftCorner<6, 6>();
   ambiguity_.addTo(state_.filter.x, result.filter.P, systematic);
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
+  result.ambiguity_covariance = result.map_covariance - unambiguous;
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
   result.motion_by_beams = std::sqrt(calibration.innovation_scale) *
                            twistJacobian(state_.filter.x.pose()) * map_.error().poseByBeams();

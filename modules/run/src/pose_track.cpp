@@ -31,8 +31,14 @@ Matrix6 byLatter(const Pose& a)
 /** Of the map's part. */
 TwistCovariance unexplainedByBeams(const TrackedPose& pose)
 {
-  return twistCovariance(pose.map_covariance, pose.T_world_body) -
+  return twistCovariance(pose.map_covariance - pose.ambiguity_covariance, pose.T_world_body) -
          pose.motion_by_beams * pose.motion_by_beams.transpose();
+}
+
+/** What grows and what shrinks are errors of the motion in between alike. */
+TwistCovariance sizeOf(const TwistCovariance& change)
+{
+  return positivePart(change) + positivePart(-change);
 }
 
 void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
@@ -58,8 +64,10 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 by_beams = b.motion_by_beams - a.motion_by_beams;
   // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
   // what had grown on the way.
+  const TwistCovariance ambiguity = twistCovariance(b.ambiguity_covariance, b.T_world_body) -
+                                    twistCovariance(a.ambiguity_covariance, a.T_world_body);
   const TwistCovariance changed =
-      positivePart(growth) + positivePart(-growth) + by_beams * by_beams.transpose();
+      sizeOf(growth) + sizeOf(ambiguity) + by_beams * by_beams.transpose();
   const Matrix6 of_b = own_b + poseCovariance(changed, b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
@@ -76,6 +84,8 @@ void PoseTrack::add(const ScanResult& result)
   pose.covariance = estimate.covariance;
   pose.map_covariance =
       poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
+  pose.ambiguity_covariance =
+      poseEstimateOf(result.filter.x.pose(), result.ambiguity_covariance, T_imu_body).covariance;
   pose.motion_by_beams = result.motion_by_beams;
   if (poses_.empty())
     begin_ns_ = result.begin_ns;
@@ -109,6 +119,8 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
       a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
   pose.covariance = (1.0 - fraction) * before.covariance + fraction * next->covariance;
   pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
+  pose.ambiguity_covariance =
+      (1.0 - fraction) * before.ambiguity_covariance + fraction * next->ambiguity_covariance;
   pose.motion_by_beams =
       (1.0 - fraction) * before.motion_by_beams + fraction * next->motion_by_beams;
   setVelocity(pose, before, *next);

@@ -107,6 +107,19 @@ TEST(RelativePose, ErrorsOfTheBeamsAreTheSameForEveryMetre)
   }
 }
 
+// A pose that was lost by 2 m jumps to a place in the map, which may be the wrong one: the jump is
+// as uncertain as both, though the covariance of the pose stays the same.
+TEST(RelativePose, AJumpToAnAmbiguousPlaceIsUncertain)
+{
+  TrackedPose lost, found;
+  lost.map_covariance(3, 3) = found.map_covariance(3, 3) = 4.0;
+  lost.covariance = lost.map_covariance;
+  found.covariance = found.map_covariance;
+  found.ambiguity_covariance(3, 3) = 3.99;
+  EXPECT_NEAR(relativePose(lost, found).covariance(3, 3), 7.98, 1e-9);
+  EXPECT_NEAR(relativePose(found, found).covariance(3, 3), 0.0, 1e-9);
+}
+
 /** Without a map's part: the two errors are independent, so numerical derivatives check the
  * analytical ones.
  */

@@ -162,6 +162,9 @@ struct ScanResult
   /** The part of map_covariance that comes from the calibration: it moves all poses alike,
    * whichever way leads to them, so closures of loops do not show it. */
   Matrix6 calibration_covariance = Matrix6::Zero();
+  /** The part of map_covariance from places that may be the true one instead: where the map has
+   * determined the pose, it has jumped, and the jump may be wrong. */
+  Matrix6 ambiguity_covariance = Matrix6::Zero();
   /** map_covariance contains B B^T from errors of the lasers and of the sides, which are the same
    * in all scans: column i of B is what the i-th of six independent unit errors makes of the pose,
    * as a rigid motion (phi, rho) of the world. What it changes by between two scans is the error of

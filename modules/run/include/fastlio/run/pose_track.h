@@ -22,7 +22,9 @@ struct TrackedPose
   std::int64_t stamp_ns = 0;
   Pose T_world_body;
   Matrix6 covariance = Matrix6::Zero();
-  Matrix6 map_covariance = Matrix6::Zero();   //!< part of the covariance that neighbours share
+  Matrix6 map_covariance = Matrix6::Zero();  //!< part of the covariance that neighbours share
+  /** Part of map_covariance, see ScanResult. */
+  Matrix6 ambiguity_covariance = Matrix6::Zero();
   Matrix6 motion_by_beams = Matrix6::Zero();  //!< see ScanResult; the same for any body
   Vec3 velocity = Vec3::Zero();               //!< of the body's origin, body frame [m/s]
   Vec3 angular_velocity = Vec3::Zero();       //!< body frame [rad/s]
@@ -38,8 +40,9 @@ struct RelativePose
 
 /** From \a a to \a b. The filter gives the covariance of each pose, not what they have in common;
  * so this is an upper bound: errors of the poses' own count as independent, and of the map's part,
- * which is nearly the same for both, only what it changed by counts. What errors of the beams do is
- * known for both. */
+ * which is nearly the same for both, only what it changed by counts. An ambiguity that appears
+ * between them counts as well as the drift that the same jump corrects. What errors of the beams do
+ * is known for both. */
 [[nodiscard]] RelativePose relativePose(const TrackedPose& a, const TrackedPose& b);
 
 /** Collects the poses of scans that have one. */
