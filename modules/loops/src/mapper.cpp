@@ -68,6 +68,16 @@ TiltFactor tiltOf(const Submap& submap, std::size_t node)
   return tilt;
 }
 
+/** Ceilings are in view: planes that are seen from below. Outdoors, crowns and eaves are 2 % of the
+ * planes; in corridors, ceilings are 9 % and more. */
+bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
+{
+  constexpr double kLevelCosine = 0.9, kCeilings = 0.04;
+  const auto is_ceiling = [&up](const VoxelPlane& plane)
+  { return plane.normal().dot(up) < -kLevelCosine; };
+  const auto ceilings = std::count_if(planes.begin(), planes.end(), is_ceiling);
+  return static_cast<double>(ceilings) > kCeilings * static_cast<double>(planes.size());
+}
 }  // namespace
 
 void Mapper::add(Submap submap)
@@ -199,9 +209,12 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
         limits_.min_planes);
     return closure;
   }
+  const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
+  const bool indoors = isIndoors(target->planes, up) ||
+                       isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
   const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
   const double std = largestPositionStd(closure.predicted.covariance);
-  if (std > limits_.max_std_over_range * range)
+  if (indoors && std > limits_.max_std_over_range * range)
   {
     closure.verdict = ClosureVerdict::Unpredicted;
     closure.reason = mrpt::format(
@@ -210,7 +223,6 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
         std, 100.0 * limits_.max_std_over_range, range);
     return closure;
   }
-  const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
   closure.registration =
       SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
   judge(closure);

@@ -17,22 +17,20 @@ namespace
 {
 constexpr double kFloor = 3.2;  // from one to the next that looks the same [m]
 
-/** What is seen of rooms in a few seconds. */
-Submap roomsAround()
+/** What is seen in a few seconds. */
+Submap surroundings(const char* scenario)
 {
-  SimulationSettings settings = defaultSettings("office");
+  SimulationSettings settings = defaultSettings(scenario);
   settings.duration = 5.0;
   settings.lidar.stride = 4;
   constexpr double kLong = 100.0;  // [m]: one submap holds all
   return testing::submapsOf(Simulation(settings), {kLong}).at(0);
 }
 
-/** A submap of these rooms after so much travel.
+/** The same submap after so much travel.
  * \param height by the odometry [m] \param height_std how well it knows, by its map [m] */
-Submap roomsAt(double height, double height_std, double travel)
+Submap submapAt(Submap submap, double height, double height_std, double travel)
 {
-  static const Submap rooms = roomsAround();
-  Submap submap = rooms;
   submap.reference.T_world_body.p.z() += height;
   submap.reference.stamp_ns += toNanoseconds(travel);  // at 1 m/s
   submap.reference.map_covariance.setZero();
@@ -41,6 +39,12 @@ Submap roomsAt(double height, double height_std, double travel)
   submap.travel += travel;
   submap.gravity = std::nullopt;  // the accelerometer does not tell heights
   return submap;
+}
+
+Submap roomsAt(double height, double height_std, double travel)
+{
+  static const Submap rooms = surroundings("office");
+  return submapAt(rooms, height, height_std, travel);
 }
 
 /** The one closure of these submaps. */
@@ -86,6 +90,15 @@ TEST(ClosureJudgement, WhereTheOdometryWasLostNoPlaceIsRecognised)
     EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
     EXPECT_NE(closure.reason.find("4.0 m uncertain"), std::string::npos) << closure.reason;
   }
+}
+
+/** Streets have no floors, and a long ride drifts by metres before it comes back. */
+TEST(ClosureJudgement, OutdoorsALongRideMayComeBack)
+{
+  const Submap street = surroundings("campus");
+  const Closure closure =
+      closureOf({submapAt(street, 0.0, 0.0, 0.0), submapAt(street, 3.0, 5.0, 60.0)});
+  EXPECT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
 }
 
 /** On the way, the odometry has lost the height and has found it again where it knew it before.

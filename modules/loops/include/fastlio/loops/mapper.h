@@ -71,9 +71,8 @@ struct ClosureLimits
   /** Standard deviations of the odometry count so many times: real sensors have errors that it does
    * not know of. */
   double odometry_std_factor = 2.0;
-  /** Largest standard deviation of the prediction, as a part of the median range of the submaps.
-   * What is seen repeats at about its own size: doors along a corridor, facades along a street, the
-   * floors of a building. */
+  /** Largest standard deviation of the prediction indoors, as a part of the median range of the
+   * submaps. What is seen there repeats at about its own size: rooms, doors, floors. */
   double max_std_over_range = 0.5;
   /** From the prediction, in these deviations. What repeats fits perfectly where the odometry is
    * worst, on another floor for example: nothing else than its distance tells it apart. */
