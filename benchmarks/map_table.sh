@@ -37,8 +37,8 @@ errors() {
 # on_earth FOLDER: two more columns, horizontal and vertical error.
 on_earth() {
   [ -z "${GNSS:-}" ] ||
-    echo " $(awk -f "$(dirname "$0")/earth_error.awk" "$1/map/summary.json" "$1/recording/ground_truth.tum" \
-      "$1/map/covariance.csv") |"
+    echo " $(awk -f "$(dirname "$0")/earth_error.awk" "$1/recording/scenario.json" "$1/map/summary.json" \
+      "$1/recording/ground_truth.tum" "$1/map/covariance.csv") |"
 }
 
 echo "| scenario | seed | odometry: level [m] | APE [m] | end [m] | NEES | map: level [m] | APE [m] | end [m] | NEES | closures |${GNSS:+ earth: horizontal [m] | vertical [m] |}"

@@ -68,8 +68,9 @@ TiltFactor tiltOf(const Submap& submap, std::size_t node)
   return tilt;
 }
 
-/** Ceilings are in view: planes that are seen from below. Outdoors, crowns and eaves are 2 % of the
- * planes; in corridors, ceilings are 9 % and more. */
+/** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
+ * are up to 2.4 % of a submap's planes; in corridors, ceilings are 9 % or more in nine of ten
+ * submaps. */
 bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
 {
   constexpr double kLevelCosine = 0.9, kCeilings = 0.04;
@@ -210,11 +211,11 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
     return closure;
   }
   const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
-  const bool indoors = isIndoors(target->planes, up) ||
-                       isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
   const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
   const double std = largestPositionStd(closure.predicted.covariance);
-  if (indoors && std > limits_.max_std_over_range * range)
+  const bool is_lost = std > limits_.max_std_over_range * range;
+  if (is_lost && (isIndoors(target->planes, up) ||
+                  isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ())))
   {
     closure.verdict = ClosureVerdict::Unpredicted;
     closure.reason = mrpt::format(
