@@ -11,11 +11,11 @@
 
 namespace fastlio
 {
-std::size_t MappingResult::accepted() const
+std::size_t MappingResult::countOf(ClosureVerdict verdict) const
 {
   return static_cast<std::size_t>(std::count_if(
       closures.begin(), closures.end(),
-      [](const Closure& c) { return c.verdict == ClosureVerdict::Accepted; }));
+      [verdict](const Closure& c) { return c.verdict == verdict; }));
 }
 
 bool MappingResult::moves(std::size_t session) const

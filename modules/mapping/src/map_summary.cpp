@@ -224,8 +224,12 @@ double largestMove(const MappingResult& result)
 std::string mapSentence(const MapAccount& account)
 {
   const MappingResult& result = account.map.result;
-  const std::string looked = std::to_string(result.submaps.size()) + " submaps, " +
-                             std::to_string(result.closures.size()) + " possible closures: ";
+  const std::size_t lost = result.countOf(ClosureVerdict::Unpredicted);
+  const std::string looked =
+      std::to_string(result.submaps.size()) + " submaps, " +
+      std::to_string(result.closures.size()) + " possible closures" +
+      (lost > 0 ? " (" + std::to_string(lost) + " not compared, as the odometry was lost)" : "") +
+      ": ";
   if (result.accepted() == 0 && result.corrected)
     return looked + "none was accepted; GNSS or wheel odometry moved poses by up to " +
            fixedText(largestMove(result), 3) + " m";

@@ -127,6 +127,16 @@ TEST(MapReport, ClosuresAreToldInWords)
   EXPECT_FALSE(has(html, "out_of_reach"));
 }
 
+TEST(MapReport, PlacesWhereTheOdometryWasLostAreToldInTheFirstSentence)
+{
+  BuiltMap map = twoSessions();
+  EXPECT_FALSE(has(mapSentence(accountOf(map)), "lost"));
+  map.result.closures[0].verdict = ClosureVerdict::Unpredicted;
+  const std::string sentence = mapSentence(accountOf(map));
+  EXPECT_TRUE(has(sentence, "closures (1 not compared, as the odometry was lost): none"))
+      << sentence;
+}
+
 TEST(MapReport, SessionsAreToldApart)
 {
   const std::string html = mapReportHtml(accountOf(twoSessions()));

@@ -104,7 +104,8 @@ struct MappingResult
   std::vector<Matrix6> extrinsic_moments;  //!< of the sessions, as far as they are known
   bool corrected = false;                  //!< false: nothing was added to what the odometry knows
 
-  [[nodiscard]] std::size_t accepted() const;
+  [[nodiscard]] std::size_t countOf(ClosureVerdict verdict) const;
+  [[nodiscard]] std::size_t accepted() const { return countOf(ClosureVerdict::Accepted); }
   /** Whether poses of a session are not those of its odometry: something corrects them, or the
    * session was placed in the map of those before. */
   [[nodiscard]] bool moves(std::size_t session) const;
