@@ -6,6 +6,7 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,24 @@ bool openWeakDirection(RelativePose& motion)
   const Vec3 direction = system.vectors.col(2);
   motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * direction * direction.transpose();
   return true;
+}
+
+/** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
+ * are up to 2.4 % of a submap's planes; in corridors, ceilings are 9 % or more in nine of ten
+ * submaps. */
+bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
+{
+  constexpr double kLevelCosine = 0.9, kCeilings = 0.04;
+  const auto is_ceiling = [&up](const VoxelPlane& plane)
+  { return plane.normal().dot(up) < -kLevelCosine; };
+  const auto ceilings = std::count_if(planes.begin(), planes.end(), is_ceiling);
+  return static_cast<double>(ceilings) > kCeilings * static_cast<double>(planes.size());
+}
+
+void refuse(Closure& closure, std::string reason)
+{
+  closure.verdict = ClosureVerdict::Unpredicted;
+  closure.reason = std::move(reason);
 }
 }  // namespace
 
@@ -132,6 +151,48 @@ void Mapper::judge(Closure& closure) const
       mrpt::format(
           "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s", moved, 100.0 * found.score,
           found.residual_rms, is_open ? "; one direction stays open" : ""));
+}
+
+Closure Mapper::compared(std::size_t a, std::size_t b) const
+{
+  Closure closure;
+  closure.a = a;
+  closure.b = b;
+  closure.predicted = predictedMotion(a, b);
+  const auto target = result_.submaps[a].surfaces.get(), source = result_.submaps[b].surfaces.get();
+  if (std::min(target->planes.size(), source->planes.size()) < limits_.min_planes)
+  {
+    closure.reason = mrpt::format(
+        "%zu and %zu planes: at least %zu are needed", target->planes.size(), source->planes.size(),
+        limits_.min_planes);
+    return closure;
+  }
+  const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
+  const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
+  const double std = largestPositionStd(closure.predicted.covariance);
+  const bool indoors = isIndoors(target->planes, up) ||
+                       isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
+  if (indoors && std > limits_.max_std_over_range * range)
+  {
+    refuse(
+        closure, mrpt::format(
+                     "the odometry is %.1f m uncertain, more than %.0f %% of the %.1f m in view: a "
+                     "place that looks the same may be another one",
+                     std, 100.0 * limits_.max_std_over_range, range));
+    return closure;
+  }
+  closure.registration =
+      SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
+  judge(closure);
+  const Mat3 position = closure.predicted.covariance.bottomRightCorner<3, 3>();
+  const double height_std = std::sqrt(up.dot(position * up));
+  const bool next_floor_too = limits_.max_deviation * height_std > limits_.least_storey;
+  if (indoors && next_floor_too && closure.verdict == ClosureVerdict::Accepted)
+    refuse(
+        closure, mrpt::format(
+                     "the odometry is %.1f m uncertain in height: the next floor may look the same",
+                     height_std));
+  return closure;
 }
 
 }  // namespace fastlio

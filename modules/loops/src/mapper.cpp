@@ -4,8 +4,6 @@
 #include "mapper_parts.h"
 #include <fastlio/loops/mapper.h>
 
-#include <mrpt/core/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -66,18 +64,6 @@ TiltFactor tiltOf(const Submap& submap, std::size_t node)
   tilt.covariance = submap.gravity->covariance / (magnitude * magnitude) +
                     kTiltFloor * kTiltFloor * Mat3::Identity();
   return tilt;
-}
-
-/** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
- * are up to 2.4 % of a submap's planes; in corridors, ceilings are 9 % or more in nine of ten
- * submaps. */
-bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
-{
-  constexpr double kLevelCosine = 0.9, kCeilings = 0.04;
-  const auto is_ceiling = [&up](const VoxelPlane& plane)
-  { return plane.normal().dot(up) < -kLevelCosine; };
-  const auto ceilings = std::count_if(planes.begin(), planes.end(), is_ceiling);
-  return static_cast<double>(ceilings) > kCeilings * static_cast<double>(planes.size());
 }
 }  // namespace
 
@@ -194,40 +180,6 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     if (chosen.size() == limits_.candidates) break;
   }
   return chosen;
-}
-
-Closure Mapper::compared(std::size_t a, std::size_t b) const
-{
-  Closure closure;
-  closure.a = a;
-  closure.b = b;
-  closure.predicted = predictedMotion(a, b);
-  const auto target = result_.submaps[a].surfaces.get(), source = result_.submaps[b].surfaces.get();
-  if (std::min(target->planes.size(), source->planes.size()) < limits_.min_planes)
-  {
-    closure.reason = mrpt::format(
-        "%zu and %zu planes: at least %zu are needed", target->planes.size(), source->planes.size(),
-        limits_.min_planes);
-    return closure;
-  }
-  const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
-  const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
-  const double std = largestPositionStd(closure.predicted.covariance);
-  const bool is_lost = std > limits_.max_std_over_range * range;
-  if (is_lost && (isIndoors(target->planes, up) ||
-                  isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ())))
-  {
-    closure.verdict = ClosureVerdict::Unpredicted;
-    closure.reason = mrpt::format(
-        "the odometry is %.1f m uncertain, more than %.0f %% of the %.1f m in view: a place that "
-        "looks the same may be another one",
-        std, 100.0 * limits_.max_std_over_range, range);
-    return closure;
-  }
-  closure.registration =
-      SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
-  judge(closure);
-  return closure;
 }
 
 /** Where b is as seen from a, and how well that is known: by the graph or by the odometry alone,

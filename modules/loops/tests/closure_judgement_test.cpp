@@ -92,6 +92,15 @@ TEST(ClosureJudgement, WhereTheOdometryWasLostNoPlaceIsRecognised)
   }
 }
 
+/** Less than half of what is in view, and the next floor is still within 2.5 deviations. */
+TEST(ClosureJudgement, AFloorIsNotRecognisedWhereTheHeightIsUncertain)
+{
+  const Closure closure = closureAtHeight(kFloor, 0.7);
+  ASSERT_TRUE(closure.registration.converged);
+  EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
+  EXPECT_NE(closure.reason.find("1.4 m uncertain in height"), std::string::npos) << closure.reason;
+}
+
 /** Streets have no floors, and a long ride drifts by metres before it comes back. */
 TEST(ClosureJudgement, OutdoorsALongRideMayComeBack)
 {

@@ -74,6 +74,9 @@ struct ClosureLimits
   /** Largest standard deviation of the prediction indoors, as a part of the median range of the
    * submaps. What is seen there repeats at about its own size: rooms, doors, floors. */
   double max_std_over_range = 0.5;
+  /** Nor may the height be so uncertain that the next floor, so far away [m], is within
+   * max_deviation. */
+  double least_storey = 3.0;
   /** From the prediction, in these deviations. What repeats fits perfectly where the odometry is
    * worst, on another floor for example: nothing else than its distance tells it apart. */
   double max_deviation = 2.5;
