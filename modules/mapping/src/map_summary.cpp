@@ -228,8 +228,7 @@ std::string mapSentence(const MapAccount& account)
   const std::string looked =
       std::to_string(result.submaps.size()) + " submaps, " +
       std::to_string(result.closures.size()) + " possible closures" +
-      (lost > 0 ? " (" + std::to_string(lost) + " refused, as the odometry was lost)" : "") +
-      ": ";
+      (lost > 0 ? " (" + std::to_string(lost) + " refused, as the odometry was lost)" : "") + ": ";
   if (result.accepted() == 0 && result.corrected)
     return looked + "none was accepted; GNSS or wheel odometry moved poses by up to " +
            fixedText(largestMove(result), 3) + " m";

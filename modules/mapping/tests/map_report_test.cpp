@@ -133,8 +133,7 @@ TEST(MapReport, PlacesWhereTheOdometryWasLostAreToldInTheFirstSentence)
   EXPECT_FALSE(has(mapSentence(accountOf(map)), "lost"));
   map.result.closures[0].verdict = ClosureVerdict::Unpredicted;
   const std::string sentence = mapSentence(accountOf(map));
-  EXPECT_TRUE(has(sentence, "closures (1 refused, as the odometry was lost): none"))
-      << sentence;
+  EXPECT_TRUE(has(sentence, "closures (1 refused, as the odometry was lost): none")) << sentence;
 }
 
 TEST(MapReport, SessionsAreToldApart)
