@@ -11,8 +11,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio::testing
@@ -52,12 +54,13 @@ struct CastWalk
 };
 
 /** walk(scenario), cast once for all tests of a process: casting takes half of their time. */
-inline const CastWalk& castWalk(const std::string& scenario)
+inline const CastWalk& castWalk(std::string_view scenario)
 {
-  static std::map<std::string, CastWalk> walks;
+  static std::map<std::string, CastWalk, std::less<>> walks;
   const auto known = walks.find(scenario);
-  return known != walks.end() ? known->second
-                              : walks.try_emplace(scenario, walk(scenario)).first->second;
+  if (known != walks.end()) return known->second;
+  const std::string name(scenario);
+  return walks.try_emplace(name, walk(name)).first->second;
 }
 
 inline double positionError(const SimulatedRun& run, const JudgedScan& scan)
