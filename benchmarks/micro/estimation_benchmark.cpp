@@ -73,7 +73,8 @@ void measurePoints(benchmark::State& state)
   for (auto _ : state)
   {
     measure(matched, workers, scan);
-    benchmark::DoNotOptimize(scan.sums());
+    InformationSums sums = scan.sums();
+    benchmark::DoNotOptimize(sums);
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
