@@ -42,6 +42,21 @@ std::string asSystem(const std::string& definition)
   const bool has_type = definition.find("+type=crs") != std::string::npos;
   return is_proj_string && !has_type ? definition + " +type=crs" : definition;
 }
+
+/** Is there a transformation whose grids are all here? PROJ 9.6 makes one without its grid, too,
+ * which fails at every place. */
+bool isReachable(PJ_CONTEXT* context, const PJ* from, const PJ* to)
+{
+  const ProjOperations how(proj_create_operation_factory_context(context, nullptr));
+  if (!how) return false;
+  proj_operation_factory_context_set_allow_ballpark_transformations(context, how.get(), 0);
+  proj_operation_factory_context_set_spatial_criterion(
+      context, how.get(), PROJ_SPATIAL_CRITERION_PARTIAL_INTERSECTION);
+  proj_operation_factory_context_set_grid_availability_use(
+      context, how.get(), PROJ_GRID_AVAILABILITY_DISCARD_OPERATION_IF_MISSING_GRID);
+  const ProjList found(proj_create_operations(context, from, to, how.get()));
+  return found && proj_list_get_count(found.get()) > 0;
+}
 }  // namespace
 
 struct ReferenceSystem::Proj
@@ -147,9 +162,10 @@ void ReferenceSystem::Proj::connect(const std::string& definition)
   // A transformation that leaves out a datum or a geoid whose grid is missing is off by metres.
   const std::array<const char*, 2> options = {"ALLOW_BALLPARK=NO", nullptr};
   ProjObject raw(
-      wgs84 ? proj_create_crs_to_crs_from_pj(
-                  context.get(), wgs84.get(), system.get(), nullptr, options.data())
-            : nullptr);
+      wgs84 && isReachable(context.get(), wgs84.get(), system.get())
+          ? proj_create_crs_to_crs_from_pj(
+                context.get(), wgs84.get(), system.get(), nullptr, options.data())
+          : nullptr);
   if (raw) from_wgs84.reset(proj_normalize_for_visualization(context.get(), raw.get()));
   if (!from_wgs84)
     throw std::runtime_error(
