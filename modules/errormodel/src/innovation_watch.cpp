@@ -18,6 +18,10 @@ constexpr double kUnevenness = 2.5;
 // of 0.5 m/s^2 of an accelerometer makes it 100. One scan that went wrong is none, so each of them
 // has to show it.
 constexpr double kStep = 45.0, kLeastOfEach = kStep / 3.0;
+// The mean of the last two scans that a third one is expected to continue. After a step of an
+// accelerometer by 0.5 m/s^2 they are 10 and 26; from 60 on the ground is beyond the gate. Of
+// healthy sensors, 9 is rare.
+constexpr double kStandsOut = 9.0, kEachStandsOut = kStandsOut / 3.0;
 // A second of most LiDARs: a view along a wall opens piece by piece.
 constexpr int kScansAfterDegeneracy = 10;
 }  // namespace
@@ -27,6 +31,7 @@ void InnovationWatch::add(double square, double residuals, double beyond_map)
   ++scans_;
   recent_ += (square - recent_) / std::min(scans_, kRecentScans);
   residuals_ += (residuals - residuals_) / std::min(scans_, kRecentScans);
+  latest_ = {square / std::max(residuals_, 1.0), latest_[0]};
   if (scans_ >= kRecentScans) worst_ = std::max(worst_, recent_ / kUnevenness);
   if (pause_ > 0)
     --pause_;
@@ -46,7 +51,15 @@ bool InnovationWatch::takeStep()
   if (sum < kStep * static_cast<double>(last_.size())) return false;
   if (*std::min_element(last_.begin(), last_.end()) < kLeastOfEach) return false;
   last_ = {};
+  latest_ = {};  // from now on the covariance contains it
   return true;
+}
+
+double InnovationWatch::expected() const
+{
+  const double mean = 0.5 * (latest_[0] + latest_[1]);
+  const bool both = std::min(latest_[0], latest_[1]) > kEachStandsOut;
+  return both && mean > kStandsOut ? mean : 1.0;
 }
 
 }  // namespace fastlio

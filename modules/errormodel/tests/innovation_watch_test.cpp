@@ -75,6 +75,50 @@ TEST(InnovationWatch, WhatFollowsADegenerateDirectionIsNoStep)
   EXPECT_TRUE(watch.takeStep());
 }
 
+TEST(InnovationWatch, TwoScansThatStandOutAnnounceAThird)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  EXPECT_EQ(watch.expected(), 1.0);
+  watch.add(10.0, 1.0);
+  EXPECT_EQ(watch.expected(), 1.0) << "one scan says little";
+  watch.add(26.0, 1.0);
+  EXPECT_DOUBLE_EQ(watch.expected(), 18.0);
+  watch.add(1.0, 1.0);
+  EXPECT_EQ(watch.expected(), 1.0);
+}
+
+TEST(InnovationWatch, OneWildScanOrNoMatchAnnouncesNothing)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  watch.add(1000.0, 1.0);
+  EXPECT_EQ(watch.expected(), 1.0);
+  watch.add(1000.0, 1.0);
+  EXPECT_GT(watch.expected(), 1.0);
+  watch.addUnmatched();
+  EXPECT_EQ(watch.expected(), 1.0);
+}
+
+TEST(InnovationWatch, AfterAStepTheCovarianceContainsIt)
+{
+  InnovationWatch watch;
+  addMany(watch, 1.0, 50);
+  addMany(watch, 100.0, 3);
+  EXPECT_GT(watch.expected(), 1.0);
+  EXPECT_TRUE(watch.takeStep());
+  EXPECT_EQ(watch.expected(), 1.0);
+}
+
+/** Among leaves all residuals are large, and scans contradict the inertial data without a step. */
+TEST(InnovationWatch, ScansThatDoNotFitTheMapAnnounceNothing)
+{
+  InnovationWatch watch;
+  for (int i = 0; i < 50; ++i)
+    watch.add(20.0, 5.0);
+  EXPECT_EQ(watch.expected(), 1.0);
+}
+
 TEST(InnovationWatch, TheFirstScanInAMapIsNoStep)
 {
   InnovationWatch watch;

@@ -167,7 +167,8 @@ MatchResult ScanMatcher::match(
   strongest_planes_.reserve(points);
   MatchResult result;
   const FilterState& start = options.start ? *options.start : predicted;
-  result.model = residualModelOf(options.measurement, scanPoseCovariance(start, scan.compensation));
+  result.model = residualModelOf(
+      options.measurement, options.gate_factor * scanPoseCovariance(start, scan.compensation));
   const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
   result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;

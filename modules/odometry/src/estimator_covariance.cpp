@@ -90,7 +90,11 @@ double Estimator::learnFromInnovation(
     calibration_.addDegenerateScan();
     return 0.0;
   }
-  if (!match.update.updated) return 0.0;
+  if (!match.update.updated)
+  {
+    calibration_.addUnmatchedScan();
+    return 0.0;
+  }
   return calibration_.add(
       considered.by_calibration.innovation, update.by_state, predicted, match.update,
       considered.map_mismatch);

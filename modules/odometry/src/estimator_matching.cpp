@@ -43,6 +43,10 @@ double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
   return predicted.gap_rotation_std / std::sqrt(3.0) * lever;
 }
 
+// Mean z^2/r of a scan with a wider gate: more is trouble for its health, too, so the wider gate
+// has let in what does not belong to the planes.
+constexpr double kMostMisfit = 3.0;
+
 bool hasOpenDirection(const MatchResult& match)
 {
   return match.constraints.unconstrained > 0;
@@ -116,6 +120,9 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
   return search;
 }
 
+/** Where scans contradict their predictions more than these admit, as after a step of the inertial
+ * sensor, the next prediction will be as wrong. The gate would lose the planes that show it, the
+ * ground first, and the pose would follow the sensor for ever. */
 MatchResult Estimator::matchPrediction(const Work& work)
 {
   const std::optional<MotionWindow>& window = run().motion_window;
@@ -128,7 +135,16 @@ MatchResult Estimator::matchPrediction(const Work& work)
     how.at_start = true;
   }
   how.deskew_std = deskewStd(work.deskewed, work.predicted);
-  return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how);
+  how.gate_factor = window ? 1.0 : calibration_.expectedInnovation();
+  const auto match = [&]
+  { return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how); };
+  const MatchResult as_expected = match();
+  if (how.gate_factor == 1.0) return as_expected;
+  if (normalizedInnovation(as_expected.update) < kMostMisfit &&
+      isConvincing(as_expected, work.deskewed, map_))
+    return as_expected;
+  how.gate_factor = 1.0;
+  return match();
 }
 
 /** Where scans leave a direction open, the position drifts along it: planes that show it again then

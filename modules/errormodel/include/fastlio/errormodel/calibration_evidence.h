@@ -58,6 +58,11 @@ class CalibrationEvidence
   /** A scan had a degenerate direction: it is no evidence, and what follows at once shows no step.
    */
   void addDegenerateScan() { watch_.interrupt(); }
+  /** A scan did not correct the prediction. */
+  void addUnmatchedScan() { watch_.addUnmatched(); }
+
+  /** By how much the next scan will contradict its prediction: see InnovationWatch::expected(). */
+  [[nodiscard]] double expectedInnovation() const { return watch_.expected(); }
 
   /** The last scans contradict their predictions so much that the inertial sensor cannot be what it
    * was. \return true once for the scans that show it */

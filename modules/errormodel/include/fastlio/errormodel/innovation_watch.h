@@ -33,12 +33,20 @@ class InnovationWatch
    * was. \return true once for the scans that show it */
   [[nodiscard]] bool takeStep();
 
+  /** How many times its covariance the square of the next innovation will be: as many as those of
+   * the last two scans, where both stand out. Else 1. */
+  [[nodiscard]] double expected() const;
+
+  /** The scan did not match, so it says nothing about the next one. */
+  void addUnmatched() { latest_ = {}; }
+
  private:
   int scans_ = 0;
   double recent_ = 0.0, worst_ = 1.0;
-  double residuals_ = 0.0;        // of the recent scans
-  std::array<double, 3> last_{};  // the latest first
-  int pause_ = 0;                 // so many scans to come show no step
+  double residuals_ = 0.0;          // of the recent scans
+  std::array<double, 3> last_{};    // the latest first
+  std::array<double, 2> latest_{};  // the same, with what the map explains
+  int pause_ = 0;                   // so many scans to come show no step
 };
 
 }  // namespace fastlio

@@ -34,6 +34,8 @@ struct MatchOptions
   /** How far deskewing may have moved the points beside the sensor's noise, all of them together
    * [m]. */
   double deskew_std = 0.0;
+  /** The gate takes the prediction to be so much less certain, as a factor of its covariance. */
+  double gate_factor = 1.0;
 };
 
 /** As the options say: for a prediction that is near. */
