@@ -1,6 +1,5 @@
 #!/bin/sh
-# mrpt_fastlio: simulated rigs with realistic sensors, before and after fastlio-calibrate, as markdown tables: each rig,
-# and means over the rigs of a scenario.
+# mrpt_fastlio: simulated rigs with realistic sensors, before and after fastlio-calibrate: two markdown tables.
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Usage: benchmarks/calibration_table.sh BUILD_DIR OUTPUT_DIR [SCENARIO...]     (default: office campus park)
@@ -8,7 +7,7 @@
 set -eu
 
 if [ $# -lt 2 ]; then
-  sed -n '5,7s/^# //p' "$0" >&2
+  sed -n '4,6s/^# //p' "$0" >&2
   exit 2
 fi
 build=$1
