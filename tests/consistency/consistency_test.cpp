@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
     Scenario, Consistency, ::testing::ValuesIn(kCases),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// The measure sees what it shall see: a filter that does not know of 20 ms between the clocks is
+// The measure sees what it shall see: a filter that does not know of 30 ms between the clocks is
 // overconfident.
 TEST(ConsistencyGates, FailWhenTheClocksDisagree)
 {
@@ -179,7 +179,7 @@ TEST(ConsistencyGates, FailWhenTheClocksDisagree)
   {
     SimulationSettings settings = settingsOf(c, seed);
     settings.duration = 6.0;
-    settings.lidar.time_offset = 0.02;
+    settings.lidar.time_offset = 0.03;
     OdometryOptions parameters = parametersOf(settings);
     parameters.lidar.time_offset = 0.0;
     parameters.calibration.estimate_time_offset = false;
