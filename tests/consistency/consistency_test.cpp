@@ -50,7 +50,7 @@ constexpr ConsistencyCase kCases[] = {
 double pathStart(const ConsistencyCase& c, std::uint64_t seed)
 {
   const double whole = Simulation(defaultSettings(c.scenario)).settings().duration;
-  const double fraction = static_cast<double>(seed - 1) / static_cast<double>(kRuns);
+  const double fraction = static_cast<double>((seed - 1) % kRuns) / static_cast<double>(kRuns);
   return fraction * (whole - kDuration);
 }
 
@@ -169,17 +169,18 @@ INSTANTIATE_TEST_SUITE_P(
     Scenario, Consistency, ::testing::ValuesIn(kCases),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// The measure sees what it shall see: a filter that does not know of 30 ms between the clocks is
-// overconfident.
+// The measure sees what it shall see: a filter that does not know of 10 ms between the clocks is
+// overconfident. The mean of sixty runs shows it.
 TEST(ConsistencyGates, FailWhenTheClocksDisagree)
 {
+  constexpr std::uint64_t kRunsThatShowIt = 3 * kRuns;
   const ConsistencyCase c{"office", "office", LidarKind::Vlp16, 8};
   std::vector<double> attitude, position;
-  for (std::uint64_t seed = 1; seed <= kRuns; ++seed)
+  for (std::uint64_t seed = 1; seed <= kRunsThatShowIt; ++seed)
   {
     SimulationSettings settings = settingsOf(c, seed);
     settings.duration = 6.0;
-    settings.lidar.time_offset = 0.03;
+    settings.lidar.time_offset = 0.01;
     OdometryOptions parameters = parametersOf(settings);
     parameters.lidar.time_offset = 0.0;
     parameters.calibration.estimate_time_offset = false;
