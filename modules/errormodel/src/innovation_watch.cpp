@@ -31,34 +31,35 @@ void InnovationWatch::add(double square, double residuals, double beyond_map)
   ++scans_;
   recent_ += (square - recent_) / std::min(scans_, kRecentScans);
   residuals_ += (residuals - residuals_) / std::min(scans_, kRecentScans);
-  latest_ = {square / std::max(residuals_, 1.0), latest_[0]};
+  const double misfit = std::max(residuals_, 1.0);
+  squares_ = {square / misfit, squares_[0]};
   if (scans_ >= kRecentScans) worst_ = std::max(worst_, recent_ / kUnevenness);
   if (pause_ > 0)
     --pause_;
   else
-    last_ = {beyond_map / std::max(residuals_, 1.0), last_[0], last_[1]};
+    beyond_map_ = {beyond_map / misfit, beyond_map_[0], beyond_map_[1]};
 }
 
 void InnovationWatch::interrupt()
 {
   pause_ = kScansAfterDegeneracy;
-  last_ = {};
+  beyond_map_ = {};
 }
 
 bool InnovationWatch::takeStep()
 {
-  const double sum = std::accumulate(last_.begin(), last_.end(), 0.0);
-  if (sum < kStep * static_cast<double>(last_.size())) return false;
-  if (*std::min_element(last_.begin(), last_.end()) < kLeastOfEach) return false;
-  last_ = {};
-  latest_ = {};  // from now on the covariance contains it
+  const double sum = std::accumulate(beyond_map_.begin(), beyond_map_.end(), 0.0);
+  if (sum < kStep * static_cast<double>(beyond_map_.size())) return false;
+  if (*std::min_element(beyond_map_.begin(), beyond_map_.end()) < kLeastOfEach) return false;
+  beyond_map_ = {};
+  squares_ = {};  // from now on the covariance contains it
   return true;
 }
 
 double InnovationWatch::expected() const
 {
-  const double mean = 0.5 * (latest_[0] + latest_[1]);
-  const bool both = std::min(latest_[0], latest_[1]) > kEachStandsOut;
+  const double mean = 0.5 * (squares_[0] + squares_[1]);
+  const bool both = std::min(squares_[0], squares_[1]) > kEachStandsOut;
   return both && mean > kStandsOut ? mean : 1.0;
 }
 

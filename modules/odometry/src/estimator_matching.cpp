@@ -4,6 +4,7 @@
 // How the estimator matches a scan in each of its modes.
 
 #include "estimator.h"
+#include <fastlio/matching/match_evidence.h>
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
 
@@ -42,10 +43,6 @@ double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
   const double lever = std::sqrt(squares / static_cast<double>(points.size()));
   return predicted.gap_rotation_std / std::sqrt(3.0) * lever;
 }
-
-// Mean z^2/r of a scan with a wider gate: more is trouble for its health, too, so the wider gate
-// has let in what does not belong to the planes.
-constexpr double kMostMisfit = 3.0;
 
 bool hasOpenDirection(const MatchResult& match)
 {
@@ -138,13 +135,18 @@ MatchResult Estimator::matchPrediction(const Work& work)
   how.gate_factor = window ? 1.0 : calibration_.expectedInnovation();
   const auto match = [&]
   { return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how); };
-  const MatchResult as_expected = match();
-  if (how.gate_factor == 1.0) return as_expected;
-  if (normalizedInnovation(as_expected.update) < kMostMisfit &&
-      isConvincing(as_expected, work.deskewed, map_))
-    return as_expected;
-  how.gate_factor = 1.0;
-  return match();
+  MatchResult result = match();
+  const auto fits = [&]
+  {
+    return normalizedInnovation(result.update) <= kMaxInnovation &&
+           isConvincing(result, work.deskewed, map_);
+  };
+  if (how.gate_factor > 1.0 && !fits())
+  {
+    how.gate_factor = 1.0;  // the wider gate has let in what does not belong to the planes
+    result = match();
+  }
+  return result;
 }
 
 /** Where scans leave a direction open, the position drifts along it: planes that show it again then

@@ -38,15 +38,15 @@ class InnovationWatch
   [[nodiscard]] double expected() const;
 
   /** The scan did not match, so it says nothing about the next one. */
-  void addUnmatched() { latest_ = {}; }
+  void addUnmatched() { squares_ = {}; }
 
  private:
   int scans_ = 0;
   double recent_ = 0.0, worst_ = 1.0;
-  double residuals_ = 0.0;          // of the recent scans
-  std::array<double, 3> last_{};    // the latest first
-  std::array<double, 2> latest_{};  // the same, with what the map explains
-  int pause_ = 0;                   // so many scans to come show no step
+  double residuals_ = 0.0;              // of the recent scans
+  std::array<double, 3> beyond_map_{};  // the latest first
+  std::array<double, 2> squares_{};     // the same, with what the map explains
+  int pause_ = 0;                       // so many scans to come show no step
 };
 
 }  // namespace fastlio
