@@ -99,25 +99,11 @@ AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 }
 }  // namespace
 
-/** The error of the poses that created the planes in view: own eta_a + by_beams eta_b, of unit
- * vectors eta_a, and eta_b of the beams. */
+/** The error of the poses that created the planes in view: by_beams eta_b + others eta_a, of unit
+ * vectors eta_b of the beams, and eta_a. */
 struct MapErrorModel::CreatingErrors
 {
-  AlignedMatrix6 own, by_beams;
-
-  /** \param covariance A \param with_beams cov(error, eta_b) */
-  CreatingErrors(const AlignedMatrix6& covariance, const AlignedMatrix6& with_beams)
-      : own(squareRoot(covariance)), by_beams(with_beams)
-  {
-    if (with_beams.isZero(0.0)) return;
-    const AlignedMatrix6 explained = own.triangularView<Eigen::Lower>().solve(with_beams);
-    // Rounding and bounds of A must not let the beams explain more than there is.
-    const AlignedMatrix6 square = productByTransposed(explained, explained);
-    const Eigen::SelfAdjointEigenSolver<AlignedMatrix6> share(square, Eigen::EigenvaluesOnly);
-    const double most = std::max(share.eigenvalues().maxCoeff(), 1.0);
-    by_beams /= std::sqrt(most);
-    own = own * squareRoot(AlignedMatrix6::Identity() - square / most);
-  }
+  AlignedMatrix6 by_beams, others;
 };
 
 /** The planes that show one direction may be of other insertions than those that show another one:
@@ -141,10 +127,12 @@ MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
       scale += (std::sqrt(variance / of_mean) - 1.0) * directions.moved.col(i) * seen.transpose();
   }
   return {
-      scale * mean * scale.transpose(),
-      meanByDirection(directions, insertions_, &Insertion::with_beams)};
+      meanByDirection(directions, insertions_, &Insertion::by_beams),
+      squareRoot(scale * mean * scale.transpose())};
 }
 
+/** Of the errors that are not of the beams: it is not known how far insertions share them, so they
+ * count as the same for all. */
 TwistCovariance MapErrorModel::meanOfInsertions() const
 {
   TwistCovariance mean = TwistCovariance::Zero();
@@ -206,12 +194,13 @@ Matrix6 MapErrorModel::mismatch(
 {
   const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
   const Aligned6ByState B = update.by_state;
-  const AlignedMatrix6 own = L_inverse * creating.own, by_beams = L_inverse * creating.by_beams;
+  const AlignedMatrix6 by_beams = L_inverse * creating.by_beams,
+                       others = L_inverse * creating.others;
   const AlignedMatrix6 common =
-      productByTransposed(product(B, AlignedStateBy6(Y_poses_)), own) +
+      productByTransposed(product(B, AlignedStateBy6(Y_poses_)), others) +
       productByTransposed(product(B, AlignedStateBy6(Y_beams_)), by_beams);
   return productByTransposed(product(B, AlignedStateMatrix(addition_)), B) - common -
-         common.transpose() + productByTransposed(own, own) +
+         common.transpose() + productByTransposed(others, others) +
          productByTransposed(by_beams, by_beams);
 }
 
@@ -236,7 +225,7 @@ Matrix6 MapErrorModel::update(
   const AlignedStateMatrix half =
       addShared(Y_planes_, scan.persistence * keep.times(Y_planes_), G * C_planes) +
       addShared(Y_beams_, keep.times(Y_beams_), by_beams) +
-      addShared(Y_poses_, keep.times(Y_poses_), G * (M * creating.own)) -
+      addShared(Y_poses_, keep.times(Y_poses_), G * (M * creating.others)) -
       productByTransposed(AlignedStateBy6(0.5 * gain * scan.shared_noise), gain);
   addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
   return of_innovation;
@@ -264,12 +253,14 @@ void MapErrorModel::recordInsertion(
     const ScanPoseJacobian& by_state)
 {
   if (insertions_.size() >= kMaxInsertions) thinOut();
-  const AlignedMatrix6 with_beams = product(Aligned6ByState(by_state), AlignedStateBy6(Y_beams_));
+  const Matrix6 by_beams = product(Aligned6ByState(by_state), AlignedStateBy6(Y_beams_));
+  // The noise that is taken off, and rounding, must not let the beams explain more than there is.
+  const Matrix6 others = positivePart(pose_error.inherited - by_beams * by_beams.transpose());
   insertions_.push_back(
       {scan,
-       twistCovariance(pose_error.inherited, T_world_scan),
+       twistCovariance(others, T_world_scan),
        twistCovariance(pose_error.own, T_world_scan),
-       twistJacobian(T_world_scan) * with_beams,
+       twistJacobian(T_world_scan) * by_beams,
        memory_,
        {}});
   memory_ = 1.0;

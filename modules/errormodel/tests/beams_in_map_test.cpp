@@ -78,5 +78,26 @@ TEST(MapError, OfTheSensorAddsUpWhereTheMapIsNew)
   for (const std::uint32_t scans : {1U, 2U, 5U, 50U})
     EXPECT_NEAR(std::sqrt(varianceOnNewGround(scans)), scans * 2e-3, scans * 1e-8) << scans;
 }
+
+// A scan that lies on planes of several insertions has the mean of their errors. These differ, but
+// they are all of the beams: nothing of them is left that the beams do not explain.
+TEST(MapError, OfTheSensorExplainsThatOfPlanesOfAllAges)
+{
+  MapErrorModel model;
+  const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
+  for (std::uint32_t scan = 1; scan <= 200; ++scan)
+  {
+    InsertionError error;
+    error.inherited = poseAddition(model);
+    model.recordInsertion(scan, error, {});
+    const auto older = [scan](std::uint32_t by) { return scan > by ? scan - by : 1; };
+    model.update(
+        fullTrust(), scanOn({scan, older(10), older(20)}),
+        std::pow(kScanInformation * 2e-3, 2) * along);
+  }
+  const double explained = std::pow(model.poseByBeams()(3, 3), 2);
+  EXPECT_GT(std::sqrt(explained), 0.03);
+  EXPECT_NEAR(poseAddition(model)(3, 3), explained, 1e-6 * explained);
+}
 }  // namespace
 }  // namespace fastlio::testing

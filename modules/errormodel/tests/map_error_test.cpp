@@ -148,9 +148,10 @@ class DenseRecursion
     Y_poses_ = Phi * Y_poses_;
   }
 
+  /** \param insertion covariance of the creating poses by all that is not of the beams */
   void update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& insertion,
-      const Matrix6& insertion_with_beams, const Matrix6& beam_errors)
+      const Matrix6& insertion_by_beams, const Matrix6& beam_errors)
   {
     const StateBy6 G = update.gain;
     const StateMatrix keep =
@@ -161,10 +162,8 @@ class DenseRecursion
       planes += group.shared_variance * group.g * group.g.transpose();
     const StateBy6 in_planes = G * squareRoot(planes);
     const StateBy6 in_beams =
-        G * squareRoot(beam_errors) + G * scan.information * insertion_with_beams;
-    const StateBy6 in_poses =
-        G * scan.information *
-        squareRoot(insertion - insertion_with_beams * insertion_with_beams.transpose());
+        G * squareRoot(beam_errors) + G * scan.information * insertion_by_beams;
+    const StateBy6 in_poses = G * scan.information * squareRoot(insertion);
     const StateMatrix cross = scan.persistence * keep * Y_planes_ * in_planes.transpose() +
                               keep * Y_beams_ * in_beams.transpose() +
                               keep * Y_poses_ * in_poses.transpose();
@@ -179,7 +178,7 @@ class DenseRecursion
 
   [[nodiscard]] StateMatrix addition() const { return E_ - D_; }
   [[nodiscard]] Matrix6 poseError() const { return E_.topLeftCorner<6, 6>(); }
-  [[nodiscard]] Matrix6 poseWithBeams() const { return Y_beams_.topRows<6>(); }
+  [[nodiscard]] Matrix6 poseByBeams() const { return Y_beams_.topRows<6>(); }
 
  private:
   using StateBy6 = Eigen::Matrix<double, kStateDim, 6>;
@@ -203,7 +202,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
   MapErrorModel model;
   model.recordInsertion(1, insertion, {});
   DenseRecursion dense;
-  Matrix6 creating = insertion.inherited, creating_with_beams = Matrix6::Zero();
+  Matrix6 creating = insertion.inherited, creating_by_beams = Matrix6::Zero();
   std::uint32_t newest = 1;
   for (int i = 0; i < 30; ++i)
   {
@@ -212,9 +211,10 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
       InsertionError second;
       second.inherited = dense.poseError() + randomCovariance(1e-6);
       model.recordInsertion(newest = 2, second, {});
-      creating = 0.5 * (insertion.inherited + second.inherited);
-      creating_with_beams = 0.5 * dense.poseWithBeams();
-      ASSERT_GT(creating_with_beams.norm(), 0.0);
+      const Matrix6 by_beams = dense.poseByBeams();
+      creating = 0.5 * (insertion.inherited + second.inherited - by_beams * by_beams.transpose());
+      creating_by_beams = 0.5 * by_beams;
+      ASSERT_GT(creating_by_beams.norm(), 0.0);
     }
     ErrorTransition transition;
     transition.by_state += 0.02 * MotionRows::Random();
@@ -242,7 +242,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     update.gain.bottomRows<kCalibrationDim>().setZero();
     const Matrix6 beam_errors = randomCovariance(1e-4 * kScanInformation);
     model.update(update, scan, beam_errors);
-    dense.update(update, scan, creating, creating_with_beams, beam_errors);
+    dense.update(update, scan, creating, creating_by_beams, beam_errors);
     const StateMatrix expected = dense.addition();
     ASSERT_GT(expected.norm(), 0.0);
     EXPECT_LT((model.addition() - expected).norm(), 1e-9 * expected.norm()) << "update " << i;

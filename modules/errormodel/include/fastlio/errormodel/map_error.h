@@ -106,9 +106,9 @@ class MapErrorModel
   struct Insertion
   {
     std::uint32_t scan = 0;
-    TwistCovariance inherited = TwistCovariance::Zero();
+    TwistCovariance inherited = TwistCovariance::Zero();  // without what the beams explain
     TwistCovariance own = TwistCovariance::Zero();
-    Matrix6 with_beams = Matrix6::Zero();  // cov(error, eta of the beams)
+    Matrix6 by_beams = Matrix6::Zero();  // cov(error, eta of the beams)
     double memory = 0.0;  // how much of the own error of the insertion before is in this one's
     InsertionWeights weights;
   };
