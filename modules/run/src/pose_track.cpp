@@ -35,10 +35,20 @@ TwistCovariance unexplainedByBeams(const TrackedPose& pose)
          pose.motion_by_beams * pose.motion_by_beams.transpose();
 }
 
-/** What grows and what shrinks are errors of the motion in between alike. */
-TwistCovariance sizeOf(const TwistCovariance& change)
+// An angle counts as what it moves at this distance.
+constexpr double kLeverArm = 10.0;  // [m]
+
+/** What grows and what shrinks are errors of the motion in between alike: covariance of the pose
+ * \a at. They are told apart as seen from there. A twist turns about the origin of the world; far
+ * from it, a little of the one and of the other are both large. */
+Matrix6 sizeOf(const TwistCovariance& change, const Pose& at)
 {
-  return positivePart(change) + positivePart(-change);
+  Vector6 lengths = Vector6::Ones();
+  lengths.head<3>().setConstant(kLeverArm);
+  const Matrix6 moved = lengths.asDiagonal() * poseCovariance(change, at) * lengths.asDiagonal();
+  const Matrix6 size = positivePart(moved) + positivePart(-moved);
+  const Vector6 angles = lengths.cwiseInverse();
+  return angles.asDiagonal() * size * angles.asDiagonal();
 }
 
 void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
@@ -66,9 +76,8 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   // what had grown on the way.
   const TwistCovariance ambiguity = twistCovariance(b.ambiguity_covariance, b.T_world_body) -
                                     twistCovariance(a.ambiguity_covariance, a.T_world_body);
-  const TwistCovariance changed =
-      sizeOf(growth) + sizeOf(ambiguity) + by_beams * by_beams.transpose();
-  const Matrix6 of_b = own_b + poseCovariance(changed, b.T_world_body);
+  const Matrix6 of_b = own_b + sizeOf(growth, b.T_world_body) + sizeOf(ambiguity, b.T_world_body) +
+                       poseCovariance(by_beams * by_beams.transpose(), b.T_world_body);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
   return relative;
 }

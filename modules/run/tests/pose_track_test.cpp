@@ -162,6 +162,24 @@ TEST(RelativePose, WhatBothShareDoesNotCount)
   EXPECT_GT(grown.trace(), same.trace() + 1e-3);
 }
 
+/** Where somebody has put the origin of the world says nothing about a motion. */
+TEST(RelativePose, DoesNotDependOnTheOriginOfTheWorld)
+{
+  TrackedPose a = tracked({expSO3({0.3, -0.2, 0.9}), {1.0, -2.0, 0.5}}, 1.0, 50.0);
+  TrackedPose b = tracked({expSO3({-0.1, 0.4, 1.2}), {2.0, -1.0, 0.7}}, 1.0, 60.0);
+  for (Matrix6* covariance : {&b.map_covariance, &b.covariance})
+  {
+    (*covariance)(0, 0) -= 0.01;  // attitude and height change in opposite ways
+    (*covariance)(5, 5) += 0.01;
+  }
+  const Matrix6 near = relativePose(a, b).covariance;
+  const Vec3 away(3000.0, -1000.0, 50.0);
+  a.T_world_body.p += away;
+  b.T_world_body.p += away;
+  const Matrix6 far = relativePose(a, b).covariance;
+  EXPECT_LT((far - near).norm(), 1e-3 * near.norm());
+}
+
 /** Back in an older part of the map, the motion corrects what had grown on the way: then it is not
  * known better than that. */
 TEST(RelativePose, AMapErrorThatShrinksCounts)
