@@ -25,8 +25,8 @@
  * averaged direction by direction with the information of the planes about it. Errors that the
  * points of a beam share add a third part, Q_b. Q = C C^T makes q = C eta of a unit vector eta,
  * which persists: the creating poses' and the beams' wholly, the planes' own as far as the same
- * planes stay in view. The same beams have been at work in the creating poses: what of A they
- * explain has the eta of the beams. With Y = cov(e, eta), E = cov(e) follows without any
+ * planes stay in view. The same beams have been at work in the creating poses: what they explain is
+ * no part of A, it has the eta of the beams. With Y = cov(e, eta), E = cov(e) follows without any
  * approximation. The part D of it that the filter has counted as noise of the points is taken off.
  * See docs/covariance.md. */
 #pragma once
