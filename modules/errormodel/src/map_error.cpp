@@ -6,7 +6,6 @@
 #include <fastlio/matching/degeneracy.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include <algorithm>
