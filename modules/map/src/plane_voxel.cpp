@@ -150,8 +150,9 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
       for (int i = 0; i < 3; ++i)
         sums[i] *= 0.5F;
   }
+  if (fitted_count_ == 0.0F) plane_.created_insertion = scan;
+  const bool had_plane = plane_.inverse_count > 0.0F;
   fitted_count_ = count_;
-  const bool was_valid = plane_.valid();
   plane_.variance = -1;
   if (count_ < rules.min_points) return;
 
@@ -190,7 +191,8 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   plane_.roughness = static_cast<float>(across - noise_across);
   plane_.inverse_count = 1.0F / count_;
   plane_.leverage = leverageOf(spread, direction, n);
-  if (!was_valid && plane_.created_insertion == 0) plane_.created_insertion = scan;
+  // The points of the first plane are of the scans from the first one that met the voxel to this.
+  if (!had_plane) plane_.created_insertion += (scan - plane_.created_insertion) / 2;
 }
 
 }  // namespace fastlio

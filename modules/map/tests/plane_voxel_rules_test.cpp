@@ -22,7 +22,28 @@ TEST(PlaneVoxel, HasNoPlaneFromTooFewPoints)
   addPatch(voxel, planeAcross(Vector3d::UnitX()), 1, 0.4, 0.0, random);
   voxel.fit(Vector3f::Zero(), rules, 2);
   EXPECT_TRUE(voxel.plane().valid());
-  EXPECT_EQ(voxel.plane().created_insertion, 2U);
+}
+
+// The pose errors of all scans that made it are in the plane, so it counts as made in their midst.
+TEST(PlaneVoxel, IsMadeByTheScansSinceTheFirstPoint)
+{
+  Random random(7);
+  PlaneRules rules;
+  rules.min_points = 6.0F;
+  PlaneVoxel voxel;
+  for (std::uint32_t scan = 3; scan <= 9; ++scan)
+  {
+    EXPECT_FALSE(voxel.plane().valid()) << scan;
+    addPatch(voxel, planeAcross(Vector3d::UnitX()), scan == 9 ? 4 : 1, 0.4, 0.0, random);
+    voxel.fit(Vector3f::Zero(), rules, scan - 1);
+    if (voxel.plane().valid()) break;
+  }
+  const std::uint32_t made = voxel.plane().created_insertion;
+  EXPECT_TRUE(voxel.plane().valid());
+  EXPECT_EQ(made, 4U);
+  addPatch(voxel, planeAcross(Vector3d::UnitX()), 10, 0.4, 0.0, random);
+  voxel.fit(Vector3f::Zero(), rules, 20);
+  EXPECT_EQ(voxel.plane().created_insertion, made) << "the first plane counts";
 }
 
 TEST(PlaneVoxel, HasNoPlaneFromALine)

@@ -29,7 +29,7 @@ struct VoxelPlane
   float roughness = 0;              //!< part of it that the noise along the beams leaves over [m^2]
   float inverse_count = 0;          //!< 1 / number of points
   std::array<float, 6> leverage{};  //!< (e1 e1^T/l1 + e2 e2^T/l2)/n: xx xy xz yy yz zz [1/m^2]
-  std::uint32_t created_insertion = 0;  //!< scan whose points made the first plane here
+  std::uint32_t created_insertion = 0;  //!< scan in the middle of those that made the first plane
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
   /** -n . q [m] */

@@ -36,8 +36,9 @@ struct PlaneMatch
   float variance = -1;           //!< of the plane's offset at the point [m^2]; negative: no match
   float shared_variance = 0;     //!< part of variance that all points on the plane share [m^2]
   std::uint32_t plane = 0;       //!< which plane: points with the same number share its error
-  std::uint32_t created_insertion =
-      0;                      //!< insertion (1, 2, ...) that created the plane; 0: not known
+  /** Insertion (1, 2, ...) that created the plane, in the middle of those that gave it its first
+   * points; 0: not known. */
+  std::uint32_t created_insertion = 0;
   float normal_variance = 0;  //!< of the normal, summed over its two free directions [rad^2]
 
   [[nodiscard]] bool valid() const { return variance >= 0.0F; }
