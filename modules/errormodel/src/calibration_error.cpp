@@ -46,13 +46,18 @@ PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state
   return of_scan;
 }
 
-/** Direction by direction, as the errors of the creating poses (MapErrorModel). */
+/** As a change of the scan pose, with the weights of the errors of the creating poses. */
 PoseByCalibration CalibrationErrorModel::ofMap(
-    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
+    const Pose& T_world_scan, const GroupedMeasurements& scan)
 {
-  const ShownDirections directions = shownDirections(update);
-  weighInsertions(groups, directions, insertions_);
-  return meanByDirection(directions, insertions_, &Insertion::twist).cast<double>();
+  using SixFloats = Eigen::Matrix<float, 6, 6>;
+  const Matrix6 mean = weighInsertions(scan, insertions_);
+  const Matrix6 L_inverse = twistJacobianInverse(T_world_scan);
+  Twist sum = Twist::Zero();
+  for (const Insertion& insertion : insertions_)
+    if (insertion.weights.all > 0.0)
+      sum += SixFloats((insertion.weights.shown * L_inverse).cast<float>()) * insertion.twist;
+  return product(mean, PoseByCalibration(sum.cast<double>()));
 }
 
 UpdateByCalibration CalibrationErrorModel::update(
@@ -60,9 +65,7 @@ UpdateByCalibration CalibrationErrorModel::update(
 {
   UpdateByCalibration by_calibration;
   if (scan.groups.empty()) return by_calibration;
-  const Matrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  by_calibration.innovation =
-      ofScan(update.by_state) - product(L_inverse, ofMap(update, scan.groups));
+  by_calibration.innovation = ofScan(update.by_state) - ofMap(update.T_world_scan, scan);
   const Matrix6 information =
       update.constraints.projection.transpose() * scan.information * update.constraints.projection;
   const Sensitivity correction =

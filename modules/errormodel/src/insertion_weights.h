@@ -5,8 +5,9 @@
 #pragma once
 
 #include <fastlio/errormodel/map_error.h>
-#include <fastlio/errormodel/twist.h>
 #include <fastlio/matching/plane_groups.h>
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
@@ -39,87 +40,49 @@ std::size_t indexOfInsertion(const std::vector<Insertion>& insertions, std::uint
                                     : static_cast<std::size_t>(next - insertions.begin()) - 1;
 }
 
-/** The directions of an update's constraints, and what a twist of the map is along them. */
-struct ShownDirections
+/** Sets the weights of each insertion to what the points on its planes say: W_i = sum of g g^T / w
+ * over its planes, which takes a plane's points as one. A direction that no plane shows like this,
+ * a turn about the only one, counts as all that the points say.
+ * \param insertions ascending by scan; older ones may have been dropped
+ * \return (sum of W_i)^-1: the error of the scan pose by the map is the mean of those of the
+ * insertions with these weights */
+template <typename Insertion>
+Matrix6 weighInsertions(const GroupedMeasurements& scan, std::vector<Insertion>& insertions)
 {
   using Square = Eigen::Matrix<double, 6, 6>;
-  Square along;  //!< rows, in the scan pose's coordinates; zero where the update left one alone
-  Square moved;  //!< columns: the twist of the map that moves the scan along a direction
-  Square seen;   //!< rows: the component of a twist along a direction; seen * moved = I
-};
-
-inline ShownDirections shownDirections(const LinearizedUpdate& update)
-{
-  const ScanConstraints& constraints = update.constraints;
-  ShownDirections::Square along = constraints.directions, measured = along;
-  along.topRows<3>() /= constraints.lever_arm;
-  measured.topRows<3>() *= constraints.lever_arm;
-  ShownDirections directions;
-  directions.moved = twistJacobian(update.T_world_scan) * along;
-  directions.seen = measured.transpose() * twistJacobianInverse(update.T_world_scan);
-  along.leftCols(constraints.unconstrained).setZero();
-  directions.along = along.transpose();
-  return directions;
-}
-
-/** Sets the weights of each insertion to the fractions of a scan's weight on the planes that it
- * created: of all that the points say, and of what they say about each direction. A direction that
- * no plane shows has the weights of all. \param insertions ascending by scan; older ones may have
- * been dropped */
-template <typename Insertion>
-void weighInsertions(
-    const std::vector<PlaneGroup>& groups, const ShownDirections& directions,
-    std::vector<Insertion>& insertions)
-{
+  // The part of such a direction's weight, against those that the planes show.
+  constexpr double kNotShown = 1e-3;
+  constexpr double kFloor = 1e-12;  // keeps the sum regular where nothing shows a direction at all
   for (Insertion& insertion : insertions)
-    insertion.weights = {};
-  InsertionWeights total;
+    if (insertion.weights.all > 0.0) insertion.weights = {};  // few of them: most are out of sight
+  InsertionWeights of_unknown;
+  double all = 0.0;
   std::uint32_t looked_up = 0;  // no insertion has that number
-  std::size_t index = insertions.size();
-  for (const PlaneGroup& group : groups)
+  InsertionWeights* weights = &of_unknown;
+  for (const PlaneGroup& group : scan.groups)
   {
-    const Eigen::Matrix<double, 6, 1> shown =
-        (directions.along * group.g).cwiseAbs2() / group.weight;
-    total.all += group.weight;
-    total.shown += shown;
     // Neighbours in a scan mostly lie on planes of the same insertion.
     if (group.created_insertion != looked_up)
     {
       looked_up = group.created_insertion;
-      index = indexOfInsertion(insertions, looked_up);
+      const std::size_t index = indexOfInsertion(insertions, looked_up);
+      weights = index == insertions.size() ? &of_unknown : &insertions[index].weights;
     }
-    if (index == insertions.size()) continue;
-    insertions[index].weights.all += group.weight;
-    insertions[index].weights.shown += shown;
+    all += group.weight;
+    weights->all += group.weight;
+    weights->shown += (1.0 / group.weight) * group.g * group.g.transpose();
   }
-  if (!(total.all > 0.0)) return;
+  Square sum = of_unknown.shown + kNotShown * scan.information;
   for (Insertion& insertion : insertions)
   {
-    InsertionWeights& weights = insertion.weights;
-    if (weights.all == 0.0) continue;  // most of them: long out of sight
-    weights.all /= total.all;
-    for (int i = 0; i < 6; ++i)
-      weights.shown[i] = total.shown[i] > 0.0 ? weights.shown[i] / total.shown[i] : weights.all;
+    InsertionWeights& of = insertion.weights;
+    if (of.all == 0.0) continue;
+    of.all /= all;
+    sum += of.shown;
+    of.shown += kNotShown * of.all * scan.information;
   }
-}
-
-/** Mean over the insertions, by their weights about each direction, of what is linear in a twist:
- * six rows. */
-template <typename Insertion, typename Quantity>
-Quantity meanByDirection(
-    const ShownDirections& directions, const std::vector<Insertion>& insertions,
-    Quantity Insertion::*quantity)
-{
-  using Scalar = typename Quantity::Scalar;
-  using Square = Eigen::Matrix<Scalar, 6, 6>;
-  using Rows = Eigen::Matrix<Scalar, 6, Quantity::ColsAtCompileTime>;
-  const Square seen = directions.seen.cast<Scalar>(), moved = directions.moved.cast<Scalar>();
-  Rows components = Rows::Zero();
-  for (const Insertion& insertion : insertions)
-    if (insertion.weights.all > 0.0)
-      components += insertion.weights.shown.template cast<Scalar>().asDiagonal() *
-                    (seen * insertion.*quantity);
-  return moved * components;
+  sum.diagonal().array() += kFloor * sum.trace();
+  return sum.inverse();
 }
 
 }  // namespace fastlio

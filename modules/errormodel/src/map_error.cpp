@@ -1,24 +1,20 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "insertion_weights.h"
 #include <fastlio/errormodel/map_error.h>
-#include <fastlio/matching/degeneracy.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace fastlio
 {
 namespace
 {
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
-using AlignedStateMatrix = Eigen::Matrix<double, kStateDim, kStateDim>;
-using AlignedStateBy6 = Eigen::Matrix<double, kStateDim, 6>;
-using Aligned6ByState = Eigen::Matrix<double, 6, kStateDim>;
+using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
+using SixByNavigation = Eigen::Matrix<double, 6, kNavigationDim>;
 
 /** C with C C^T = m for a positive semi-definite m. */
 AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
@@ -32,42 +28,27 @@ AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
                                       : AlignedMatrix6(AlignedMatrix6::Zero());
 }
 
-/** The gain with which the map's errors are passed on: they reach the scan pose and with it the
- * body's pose, while the calibration, which all scans determine together, is taken as it is. */
-AlignedStateBy6 gainOf(const LinearizedUpdate& update)
+/** Rows of attitude and position with which all rows together move the scan pose by \a scan_pose,
+ * without those of the calibration: all scans determine it together, so it is taken as it is. */
+NavigationBy6 withoutCalibration(
+    const ScanPoseJacobian& by_state, const Matrix6& scan_pose, const StateBy6& rows)
 {
-  const Eigen::Matrix<double, 6, kStateDim> B = update.by_state;
-  AlignedStateBy6 gain = update.gain;
-  const AlignedMatrix6 scan_pose = product(B, gain);
-  gain.topRows<6>() = AlignedMatrix6(B.leftCols<6>()).partialPivLu().solve(scan_pose);
-  gain.bottomRows<kCalibrationDim>().setZero();
-  return gain * update.constraints.projection.transpose();
+  constexpr int kOthers = kNavigationDim - 6;
+  NavigationBy6 of = rows.topRows<kNavigationDim>();
+  const AlignedMatrix6 by_others = by_state.middleCols<kOthers>(6) * of.bottomRows<kOthers>();
+  of.topRows<6>() =
+      AlignedMatrix6(by_state.leftCols<6>()).partialPivLu().solve(scan_pose - by_others);
+  return of;
 }
 
-/** I - K H = I - G (S B): what an update leaves of an error, as a change of rank six. */
-struct Keeping
+/** The filter's gain of the sums of a scan along the directions that it has updated. */
+NavigationBy6 gainOf(const LinearizedUpdate& update)
 {
-  AlignedStateBy6 G;
-  Aligned6ByState SB;
-
-  [[nodiscard]] AlignedStateBy6 times(const AlignedStateBy6& m) const
-  {
-    const AlignedMatrix6 seen = product(SB, m);
-    return m - G * seen;
-  }
-
-  [[nodiscard]] AlignedStateMatrix onBothSidesOf(const AlignedStateMatrix& m) const
-  {
-    const AlignedStateMatrix left = m - product(G, product(SB, m));
-    return left - productByTransposed(productByTransposed(left, SB), G);
-  }
-
-  /** Of the rows and columns of the pose. */
-  [[nodiscard]] double poseTrace() const
-  {
-    return 6.0 - (G.topRows<6>() * SB.leftCols<6>()).trace();
-  }
-};
+  const Matrix6 scan_pose = product(update.by_state, update.gain);
+  return product(
+      withoutCalibration(update.by_state, scan_pose, update.gain),
+      Matrix6(update.constraints.projection.transpose()));
+}
 
 /** A square root of the covariance of q by errors of the sensor. It is taken in the axes of the
  * body: there it changes little from scan to scan, so that eta stays what it is in a turn. */
@@ -78,16 +59,6 @@ AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
   return turn * squareRoot(turn.transpose() * covariance * turn);
 }
 
-/** Goes on with Y = cov(e, eta) of one kind of error. \param kept what is left of Y
- * \param in what the scan adds to it
- * \return one half of what comes into cov(e); its transpose is the other */
-AlignedStateMatrix addShared(
-    Eigen::Ref<AlignedStateBy6> Y, const AlignedStateBy6& kept, const AlignedStateBy6& in)
-{
-  Y = kept + in;
-  return productByTransposed(AlignedStateBy6(kept + 0.5 * in), in);
-}
-
 /** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
 AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
 {
@@ -96,150 +67,88 @@ AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
     Q.noalias() += group.shared_variance * group.g * group.g.transpose();
   return Q;
 }
+
+/** R of eta_p <- R eta_p + what is new, for C eta_p of a scan with C C^T = sum s g g^T.
+ * \param shared sum s g g'^T with the scan before */
+Matrix6 persistence(const Matrix6& shared, const Matrix6& C, const Matrix6& C_before)
+{
+  if (shared.isZero(0.0) || C.isZero(0.0) || C_before.isZero(0.0)) return Matrix6::Zero();
+  const AlignedMatrix6 left = C.triangularView<Eigen::Lower>().solve(shared);
+  return C_before.triangularView<Eigen::Lower>().solve(left.transpose()).transpose();
+}
+
+/** T A T^T with T = I but for its first rows. */
+template <int Rows>
+NavigationMatrix withRows(
+    NavigationMatrix A, const Eigen::Matrix<double, Rows, kNavigationDim>& rows)
+{
+  A.template topRows<Rows>() = product(rows, A);
+  A.template leftCols<Rows>() = productByTransposed(A, rows);
+  return A;
+}
 }  // namespace
-
-/** The error of the poses that created the planes in view: by_beams eta_b + others eta_a, of unit
- * vectors eta_b of the beams, and eta_a. */
-struct MapErrorModel::CreatingErrors
-{
-  AlignedMatrix6 by_beams, others;
-};
-
-/** The planes that show one direction may be of other insertions than those that show another one:
- * walls of the start keep the position while new ground drifts in height. So the weights count
- * direction by direction. */
-MapErrorModel::CreatingErrors MapErrorModel::creatingErrors(
-    const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups)
-{
-  const ShownDirections directions = shownDirections(update);
-  weighInsertions(groups, directions, insertions_);
-  const TwistCovariance mean = meanOfInsertions();
-  Matrix6 scale = Matrix6::Identity();
-  for (int i = 0; i < 6; ++i)
-  {
-    const Vector6 seen = directions.seen.row(i);
-    double variance = varianceAlong(seen, i);
-    const double of_mean = seen.dot(mean * seen);
-    // Where nothing showed a weak direction for a while, all planes are wrong along it.
-    if (isWeak(update.constraints, i)) variance = std::max(variance, of_mean);
-    if (variance > 0.0 && of_mean > 0.0)
-      scale += (std::sqrt(variance / of_mean) - 1.0) * directions.moved.col(i) * seen.transpose();
-  }
-  return {
-      meanByDirection(directions, insertions_, &Insertion::by_beams),
-      squareRoot(scale * mean * scale.transpose())};
-}
-
-/** Of the errors that are not of the beams: it is not known how far insertions share them, so they
- * count as the same for all. */
-TwistCovariance MapErrorModel::meanOfInsertions() const
-{
-  TwistCovariance mean = TwistCovariance::Zero();
-  TwistCovariance remembered = TwistCovariance::Zero();  // cov(own error, those of scans before)
-  for (const Insertion& insertion : insertions_)
-  {
-    const double part = insertion.weights.all;
-    remembered *= insertion.memory;
-    if (part == 0.0) continue;  // most of them: long out of sight
-    mean += part * (insertion.inherited + part * insertion.own + 2.0 * remembered);
-    remembered += part * insertion.own;
-  }
-  return mean;
-}
-
-/** The same along a direction, with the weights of the planes that show it. */
-double MapErrorModel::varianceAlong(const Vector6& seen, int direction) const
-{
-  double variance = 0.0, remembered = 0.0;
-  for (const Insertion& insertion : insertions_)
-  {
-    const double part = insertion.weights.shown[direction];
-    remembered *= insertion.memory;
-    if (part == 0.0) continue;
-    const double own = seen.dot(insertion.own * seen);
-    variance += part * (seen.dot(insertion.inherited * seen) + part * own + 2.0 * remembered);
-    remembered += part * own;
-  }
-  return variance;
-}
-
-void MapErrorModel::thinOut()
-{
-  for (std::size_t i = 2; i < insertions_.size(); i += 2)
-    insertions_[i].memory *= insertions_[i - 1].memory;
-  keepEverySecond(insertions_);
-}
 
 void MapErrorModel::propagate(const ErrorTransition& transition)
 {
-  addition_ = transition.onBothSidesOf(addition_);
-  Y_planes_ = transition.times(Y_planes_);
-  Y_beams_ = transition.times(Y_beams_);
-  Y_poses_ = transition.times(Y_poses_);
+  addition_ = withRows<kMotionDim>(addition_, transition.by_state.leftCols<kNavigationDim>());
+  considered_.propagate(transition);
 }
 
 void MapErrorModel::correct(const StateMatrix& kept)
 {
-  addition_ = transformedCovariance(kept, addition_);
-  Y_planes_ = product(kept, Y_planes_);
-  Y_beams_ = product(kept, Y_beams_);
-  Y_poses_ = product(kept, Y_poses_);
-}
-
-/** Of B e - L^-1 a, with a the error of the creating poses. Where these are those of the scans just
- * before, both have the same error, and little is left of the difference. */
-Matrix6 MapErrorModel::mismatch(
-    const LinearizedUpdate& update, const CreatingErrors& creating) const
-{
-  const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  const Aligned6ByState B = update.by_state;
-  const AlignedMatrix6 by_beams = L_inverse * creating.by_beams,
-                       others = L_inverse * creating.others;
-  const AlignedMatrix6 common =
-      productByTransposed(product(B, AlignedStateBy6(Y_poses_)), others) +
-      productByTransposed(product(B, AlignedStateBy6(Y_beams_)), by_beams);
-  return productByTransposed(product(B, AlignedStateMatrix(addition_)), B) - common -
-         common.transpose() + productByTransposed(others, others) +
-         productByTransposed(by_beams, by_beams);
+  const NavigationMatrix of_navigation = kept.topLeftCorner<kNavigationDim, kNavigationDim>();
+  addition_ = transformedCovariance(of_navigation, addition_);
+  considered_.correct(of_navigation);
 }
 
 Matrix6 MapErrorModel::update(
     const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
 {
   if (scan.groups.empty()) return Matrix6::Zero();
-  const AlignedMatrix6 L = twistJacobian(update.T_world_scan);
-  const AlignedMatrix6 L_inverse = twistJacobianInverse(update.T_world_scan);
-  const AlignedMatrix6 M = L_inverse.transpose() * scan.information * L_inverse;
-  const AlignedMatrix6 C_planes =
-      squareRoot(L_inverse.transpose() * planeErrors(scan.groups) * L_inverse);
-  const CreatingErrors creating = creatingErrors(update, scan.groups);
-  Matrix6 of_innovation = mismatch(update, creating);
+  const Matrix6 of_planes = squareRoot(planeErrors(scan.groups));
+  considered_.renewPlanes(persistence(scan.shared_before, of_planes, of_planes_));
+  of_planes_ = of_planes;
+  using Sources = ConsideredErrors::Sources;
+  const Sources s = considered_.sourcesOf(update.T_world_scan, scan);
+  const SixByNavigation B = update.by_state.leftCols<kNavigationDim>();
 
-  const AlignedStateBy6 gain = gainOf(update);
-  const Keeping keep{gain, scan.information * (update.constraints.projection * update.by_state)};
-  memory_ *= std::clamp(keep.poseTrace() / 6.0, 0.0, 1.0);
-  const AlignedStateBy6 G = gain * L.transpose();
-  const AlignedStateBy6 by_beams =
-      gain * sensorErrors(beam_errors, update.T_world_scan.R) + G * (M * creating.by_beams);
-  const AlignedStateMatrix half =
-      addShared(Y_planes_, scan.persistence * keep.times(Y_planes_), G * C_planes) +
-      addShared(Y_beams_, keep.times(Y_beams_), by_beams) +
-      addShared(Y_poses_, keep.times(Y_poses_), G * (M * creating.others)) -
-      productByTransposed(AlignedStateBy6(0.5 * gain * scan.shared_noise), gain);
-  addition_ = keep.onBothSidesOf(addition_) + half + half.transpose();
-  return of_innovation;
+  // Of B e - x. Where the planes are those of the scans just before, both have the same error.
+  const Matrix6 common = B * s.with_state.rightCols<6>();
+  const Matrix6 mismatch = productByTransposed(product(B, addition_), B) - common -
+                           common.transpose() + s.covariance.bottomRightCorner<6, 6>();
+
+  // e <- e - G (M B e - K s)
+  const Matrix6 M = scan.information * update.constraints.projection;
+  Eigen::Matrix<double, 6, Sources::kSize> K;
+  K << sensorErrors(beam_errors, update.T_world_scan.R), of_planes, M;
+  const NavigationBy6 G = gainOf(update);
+  const SixByNavigation MB = M * B;
+  const NavigationBy6 with_n = productByTransposed(s.with_state, K);
+  const NavigationBy6 kept_with_n = with_n - G * (MB * with_n);
+  const Matrix6 cov_n = K * s.covariance * K.transpose() - scan.shared_noise;
+  const NavigationMatrix half =
+      productByTransposed(NavigationBy6(kept_with_n + 0.5 * G * cov_n), G);
+  addition_ -= product(G, SixByNavigation(product(MB, addition_)));
+  addition_ -= productByTransposed(NavigationBy6(productByTransposed(addition_, MB)), G);
+  addition_ += half + half.transpose();
+  considered_.update(G, MB, productByTransposed(s.with_considered, K));
+  if (update.gain.isZero(0.0)) return mismatch;
+  considered_.takeEvidence(
+      update, update.covariance.topLeftCorner<kNavigationDim, kNavigationDim>(), addition_);
+  return mismatch;
 }
 
 void MapErrorModel::forgetMap()
 {
-  Y_planes_.setZero();
-  Y_poses_.setZero();
-  insertions_.clear();
+  considered_.forgetPlanes();
 }
 
 StateMatrix MapErrorModel::addition() const
 {
-  return 0.5 * (addition_ + addition_.transpose());
+  StateMatrix of_state = StateMatrix::Zero();
+  of_state.topLeftCorner<kNavigationDim, kNavigationDim>() =
+      0.5 * (addition_ + addition_.transpose());
+  return of_state;
 }
 
 StateMatrix MapErrorModel::additionAfter(const ErrorTransition& transition) const
@@ -248,21 +157,19 @@ StateMatrix MapErrorModel::additionAfter(const ErrorTransition& transition) cons
 }
 
 void MapErrorModel::recordInsertion(
-    std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan,
+    std::uint32_t insertion, const InsertionError& error, const Pose& T_world_scan,
     const ScanPoseJacobian& by_state)
 {
-  if (insertions_.size() >= kMaxInsertions) thinOut();
-  const Matrix6 by_beams = product(Aligned6ByState(by_state), AlignedStateBy6(Y_beams_));
-  // The noise that is taken off, and rounding, must not let the beams explain more than there is.
-  const Matrix6 others = positivePart(pose_error.inherited - by_beams * by_beams.transpose());
-  insertions_.push_back(
-      {scan,
-       twistCovariance(others, T_world_scan),
-       twistCovariance(pose_error.own, T_world_scan),
-       twistJacobian(T_world_scan) * by_beams,
-       memory_,
-       {}});
-  memory_ = 1.0;
+  const Matrix6 L = twistJacobian(T_world_scan);
+  const SixByNavigation B = by_state.leftCols<kNavigationDim>();
+  StateBy6 with_scan_pose = error.filter.lazyProduct(by_state.transpose());
+  with_scan_pose.topRows<kNavigationDim>() += addition_.lazyProduct(B.transpose());
+  const Matrix6 of_scan_pose = by_state.lazyProduct(with_scan_pose);
+  const NavigationBy6 with_pose =
+      product(withoutCalibration(by_state, of_scan_pose, with_scan_pose), Matrix6(L.transpose()));
+  considered_.addPose(
+      insertion, with_pose, L * (of_scan_pose + error.distortion) * L.transpose(), T_world_scan.p,
+      L * B);
 }
 
 }  // namespace fastlio

@@ -27,7 +27,6 @@ double varianceOfThreeScans(const std::array<Mat3, 3>& R_world_scan)
   {
     GroupedMeasurements scan = scanOn({1});
     scan.groups[0].shared_variance = 0.0;
-    scan.persistence = 0.0;
     update.T_world_scan.R = R;
     const Vec3 forward = kScanInformation * R.col(0);
     Matrix6 beam_errors = Matrix6::Zero();
@@ -63,9 +62,7 @@ double varianceOnNewGround(std::uint32_t scans)
   const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
   for (std::uint32_t scan = 1; scan <= scans; ++scan)
   {
-    InsertionError error;
-    error.inherited = poseAddition(model);
-    model.recordInsertion(scan, error, {});
+    model.recordInsertion(scan, {}, {});
     model.update(fullTrust(), scanOn({scan}), std::pow(kScanInformation * 2e-3, 2) * along);
   }
   return poseAddition(model)(3, 3);
@@ -87,9 +84,7 @@ TEST(MapError, OfTheSensorExplainsThatOfPlanesOfAllAges)
   const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
   for (std::uint32_t scan = 1; scan <= 200; ++scan)
   {
-    InsertionError error;
-    error.inherited = poseAddition(model);
-    model.recordInsertion(scan, error, {});
+    model.recordInsertion(scan, {}, {});
     const auto older = [scan](std::uint32_t by) { return scan > by ? scan - by : 1; };
     model.update(
         fullTrust(), scanOn({scan, older(10), older(20)}),

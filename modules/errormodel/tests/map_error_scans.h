@@ -36,11 +36,17 @@ inline LinearizedUpdate fullTrust()
   return update;
 }
 
-inline InsertionError ownError(double variance)
+/** The filter knows the pose like this when planes are created. */
+inline InsertionError poseError(const Matrix6& covariance)
 {
   InsertionError error;
-  error.own = variance * Matrix6::Identity();
+  error.filter.topLeftCorner<6, 6>() = covariance;
   return error;
+}
+
+inline InsertionError poseError(double variance)
+{
+  return poseError(Matrix6(variance * Matrix6::Identity()));
 }
 
 inline Matrix6 poseAddition(const MapErrorModel& model)

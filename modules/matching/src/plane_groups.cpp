@@ -4,6 +4,7 @@
 #include "information_lanes.h"
 #include <fastlio/matching/plane_groups.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace fastlio
@@ -45,7 +46,7 @@ void PlaneGrouping::addPoints(const MeasuredScan& scan, const std::vector<PlaneM
           if (plane == groups.size())  // they are numbered in this order
           {
             groups.emplace_back().created_insertion = match.created_insertion;
-            groups.back().seen_before = planes_before_.contains(match.plane);
+            groups.back().before = planes_before_.find(match.plane);
           }
           PlaneGroup& group = groups[plane];
           const PointMeasurement point = block.point(l);
@@ -58,20 +59,23 @@ void PlaneGrouping::addPoints(const MeasuredScan& scan, const std::vector<PlaneM
 
 void PlaneGrouping::finishGroups()
 {
-  double total = 0.0, before = 0.0;
+  result_.shared_before.setZero();
   for (PlaneGroup& group : result_.groups)
   {
     group.shared_variance /= group.weight;
-    total += group.weight;
-    before += group.seen_before ? group.weight : 0.0;
+    if (group.before == PlaneNumbers::kNone) continue;
+    const PlaneGroup& before = groups_before_[group.before];
+    // A plane's error changes where points join it. What is left of it is the smaller one.
+    const double shared = std::min(group.shared_variance, before.shared_variance);
+    result_.shared_before += shared * group.g * before.g.transpose();
   }
-  result_.persistence = total > 0.0 ? before / total : 0.0;
 }
 
 const GroupedMeasurements& PlaneGrouping::group(
     const Workers& workers, const MeasuredScan& scan, const std::vector<PlaneMatch>& matches)
 {
   std::swap(planes_, planes_before_);
+  std::swap(result_.groups, groups_before_);
   planes_.assign(scan, matches);
   makeRoom(chunk_noise_, scan.chunks());
   chunk_noise_.resize(scan.chunks());

@@ -25,7 +25,7 @@ void PlaneNumbers::assign(const MeasuredScan& scan, const std::vector<PlaneMatch
   slots_.assign(slotsFor(matches.size()), Slot{});
   numbers_.resize(scan.blockNumbers() * kLanes);
   count_ = 0;
-  std::uint32_t plane = 0, of_plane = kFree;
+  std::uint32_t plane = 0, of_plane = kNone;
   scan.forEachBlock(
       [&](const MeasurementBlock& block, std::size_t number)
       {
@@ -35,11 +35,11 @@ void PlaneNumbers::assign(const MeasuredScan& scan, const std::vector<PlaneMatch
           mine = 0;
           if (block.weight[l] == 0.0) continue;
           const std::uint32_t found = matches[block.index[l]].plane;
-          if (found != plane || of_plane == kFree)  // neighbours in a scan often share one
+          if (found != plane || of_plane == kNone)  // neighbours in a scan often share one
           {
             plane = found;
             Slot& slot = slots_[slotOf(plane)];
-            if (slot.number == kFree) slot = {plane, count_++};
+            if (slot.number == kNone) slot = {plane, count_++};
             of_plane = slot.number;
           }
           mine = of_plane;
@@ -52,14 +52,14 @@ std::size_t PlaneNumbers::slotOf(std::uint32_t plane) const
   constexpr std::uint32_t kGoldenRatio = 0x9E3779B9U;  // spreads numbers that lie close together
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = (plane * kGoldenRatio >> 7U) & mask;
-  while (slots_[slot].number != kFree && slots_[slot].plane != plane)
+  while (slots_[slot].number != kNone && slots_[slot].plane != plane)
     slot = (slot + 1) & mask;
   return slot;
 }
 
-bool PlaneNumbers::contains(std::uint32_t plane) const
+std::uint32_t PlaneNumbers::find(std::uint32_t plane) const
 {
-  return !slots_.empty() && slots_[slotOf(plane)].number != kFree;
+  return slots_.empty() ? kNone : slots_[slotOf(plane)].number;
 }
 
 }  // namespace fastlio

@@ -113,17 +113,23 @@ TEST(PlaneGrouping, GivesEachPlaneItsPointsInTheOrderOfTheFirst)
   }
 }
 
-TEST(PlaneGrouping, KnowsWhichPlanesTheScanBeforeHadSeen)
+// The planes' errors come into the sums of two scans alike where these see the same planes alike.
+TEST(PlaneGrouping, KnowsWhatTheErrorsOfTheScanBeforeHaveInCommon)
 {
   const ResidualModel model = narrow();
   const Matching m = onFewPlanes(4, 400);
   PlaneGrouping grouping;
-  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 0.0);
-  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 1.0);
+  const auto again = [&](const std::vector<PlaneMatch>& matches) -> const GroupedMeasurements&
+  { return grouping.group(Workers(1), measured(m.x.pose(), m.body, matches, model), matches); };
+  EXPECT_EQ(again(m.matches).shared_before.norm(), 0.0);
+  const GroupedMeasurements& same = again(m.matches);
+  Matrix6 of_planes = Matrix6::Zero();
+  for (const PlaneGroup& group : same.groups)
+    of_planes += group.shared_variance * group.g * group.g.transpose();
+  EXPECT_LT((same.shared_before - of_planes).norm(), 1e-12 * of_planes.norm());
   const std::vector<PlaneMatch> none(m.matches.size());
-  EXPECT_EQ(
-      grouping.group(Workers(1), measured(m.x.pose(), m.body, none, model), none).persistence, 0.0);
-  EXPECT_EQ(grouping.group(Workers(1), measured(m, model), m.matches).persistence, 0.0);
+  EXPECT_EQ(again(none).shared_before.norm(), 0.0);
+  EXPECT_EQ(again(m.matches).shared_before.norm(), 0.0);
 }
 
 TEST(PlaneGrouping, LeavesOutWhatIsNoNumber)

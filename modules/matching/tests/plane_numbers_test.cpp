@@ -22,7 +22,7 @@ TEST(PlaneNumbers, CountInTheOrderOfTheFirstPoints)
                                     : static_cast<std::uint32_t>(i / 2) * 4096U;
   const MeasuredScan scan = measured(m, wideOpen());
   PlaneNumbers numbers;
-  EXPECT_FALSE(numbers.contains(0));
+  EXPECT_EQ(numbers.find(0), PlaneNumbers::kNone);
   for (int repetition = 0; repetition < 2; ++repetition)
   {
     numbers.assign(scan, m.matches);
@@ -39,8 +39,8 @@ TEST(PlaneNumbers, CountInTheOrderOfTheFirstPoints)
           }
         });
     EXPECT_EQ(numbers.count(), expected.size());
-    EXPECT_TRUE(numbers.contains(expected.begin()->first));
-    EXPECT_FALSE(numbers.contains(4097));
+    EXPECT_EQ(numbers.find(expected.begin()->first), expected.begin()->second);
+    EXPECT_EQ(numbers.find(4097), PlaneNumbers::kNone);
   }
 }
 }  // namespace

@@ -25,17 +25,6 @@ ScanOutcome::Place placeOf(const Mode& mode)
   if (std::holds_alternative<Relocalizing>(mode)) return ScanOutcome::Place::Reinitialised;
   return ScanOutcome::Place::InMap;
 }
-
-/** Along a degenerate direction no scan corrects the error of the pose, so that the scans share it,
- * as they share an error of the map. \param constrained projection on the other directions */
-InsertionError insertionError(const Matrix6& own, const Matrix6& constrained)
-{
-  const Matrix6 open = Matrix6::Identity() - constrained;
-  InsertionError error;
-  error.own = constrained * own * constrained.transpose();
-  error.inherited = open * own * open.transpose();
-  return error;
-}
 }  // namespace
 
 void RegisteredScan::clear()
@@ -236,11 +225,9 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   const auto transform = [&](std::size_t, std::size_t first, std::size_t last)
   { transformToWorld(points, T_world_scan, first, last, registered_.points); };
   workers_->forEachChunk(points.size(), transform);
-  InsertionError error = insertionError(
-      scanPoseCovariance(filter, compensation), result.statistics.constraints.projection);
-  error.inherited += scanPoseCovariance({filter.x, map_.error().addition()}, compensation);
+  InsertionError error{filter.P, Matrix6::Zero()};
   if (run.motion_window && state_.stamp_ns <= run.motion_window->end_ns)
-    error.inherited += run.motion_window->insertion_covariance;
+    error.distortion = run.motion_window->insertion_covariance;
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
       scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);

@@ -35,6 +35,7 @@ LinearizedUpdate linearized(
   update.by_state = scanPoseJacobian(posterior, compensation);
   update.constraints = match.constraints;
   update.gain = match.update.gain;
+  update.covariance = match.update.posterior.P;
   return update;
 }
 

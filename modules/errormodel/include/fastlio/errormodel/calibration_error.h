@@ -79,8 +79,7 @@ class CalibrationErrorModel
   using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
 
   [[nodiscard]] PoseByCalibration ofScan(const ScanPoseJacobian& by_state) const;
-  [[nodiscard]] PoseByCalibration ofMap(
-      const LinearizedUpdate& update, const std::vector<PlaneGroup>& groups);
+  [[nodiscard]] PoseByCalibration ofMap(const Pose& T_world_scan, const GroupedMeasurements& scan);
 
   Sensitivity S_ = Sensitivity::Zero();
   std::vector<Insertion> insertions_;  // ascending by scan

@@ -22,8 +22,8 @@ struct PlaneGroup
   Vector6 g = Vector6::Zero();   //!< sum of w h
   double shared_variance = 0.0;  //!< of the plane's offset, weighted mean over the points [m^2]
   double weight = 0.0;           //!< sum of w
-  std::uint32_t created_insertion = 0;  //!< insertion that created the plane
-  bool seen_before = false;             //!< the scan before had points on it, too
+  std::uint32_t created_insertion = 0;         //!< insertion that created the plane
+  std::uint32_t before = PlaneNumbers::kNone;  //!< number of its group in the scan before
 };
 
 /** A scan's measurements by plane. */
@@ -31,11 +31,13 @@ struct GroupedMeasurements
 {
   Matrix6 information = Matrix6::Zero();   //!< sum of w h h^T
   Matrix6 shared_noise = Matrix6::Zero();  //!< sum of w^2 s h h^T, s the points' shared variance
-  double persistence = 0.0;                //!< fraction of the weight on planes seen before
-  std::vector<PlaneGroup> groups;          //!< in the order of their first point
+  /** Sum of s g g'^T over the planes that the scan before has seen, too, with its g': what the
+   * planes' errors in the sums of both have in common. */
+  Matrix6 shared_before = Matrix6::Zero();
+  std::vector<PlaneGroup> groups;  //!< in the order of their first point
 };
 
-/** Groups scan after scan; remembers which planes the scan before has seen. */
+/** Groups scan after scan; remembers what the scan before has seen. */
 class PlaneGrouping
 {
  public:
@@ -48,6 +50,7 @@ class PlaneGrouping
   void finishGroups();
 
   GroupedMeasurements result_;
+  std::vector<PlaneGroup> groups_before_;  // of the scan before
   std::vector<Matrix6> chunk_noise_;
   PlaneNumbers planes_, planes_before_;  // of the scan and of the one before
 };

@@ -30,17 +30,17 @@ class PlaneNumbers
   {
     return numbers_[block * kLanes + lane];
   }
-  /** Whether the scan has points on a plane of the map. */
-  [[nodiscard]] bool contains(std::uint32_t plane) const;
+  /** Number of a plane of the map; kNone: the scan has no points on it. */
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  [[nodiscard]] std::uint32_t find(std::uint32_t plane) const;
 
  private:
   /** Where a plane has its number, if it has one. */
   struct Slot
   {
     std::uint32_t plane = 0;
-    std::uint32_t number = kFree;
+    std::uint32_t number = kNone;  // the slot is free
   };
-  static constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
   /** How many slots a scan of so many points needs. */
   [[nodiscard]] static std::size_t slotsFor(std::size_t points);

@@ -1,0 +1,131 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file considered_errors.h The errors that the filter considers, and what the state's error has in
+ * common with them. */
+#pragma once
+
+#include <fastlio/errormodel/twist.h>
+#include <fastlio/filter/propagation.h>
+#include <fastlio/filter/update.h>
+#include <fastlio/interface/scan_constraints.h>
+#include <fastlio/matching/plane_groups.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace fastlio
+{
+/** The last update of the filter, linearised. */
+struct LinearizedUpdate
+{
+  Pose T_world_scan;                               //!< scan pose of the posterior
+  ScanPoseJacobian by_state = bodyPoseJacobian();  //!< B there
+  ScanConstraints constraints;                     //!< which directions were updated
+  ScanGain gain = ScanGain::Zero();                //!< G of the filter's gain
+  StateMatrix covariance = StateMatrix::Zero();    //!< the filter's own after the update
+};
+
+/** What a scan's points on the planes of an insertion say about its pose. */
+struct InsertionWeights
+{
+  double all = 0.0;                 //!< the part of the scan's weight
+  Matrix6 shown = Matrix6::Zero();  //!< information by the scan pose
+};
+
+/** Errors of the state without those of the calibration: attitude, position, ..., gravity. */
+using NavigationMatrix = Eigen::Matrix<double, kNavigationDim, kNavigationDim, Eigen::DontAlign>;
+using NavigationBy6 = Eigen::Matrix<double, kNavigationDim, 6, Eigen::DontAlign>;
+
+/** The covariance of e, the error of the navigation state, with c = (eta_b, eta_p, x_1, ..., x_N),
+ * and of c. eta_b and eta_p are unit vectors of what the points of a beam share, and of the planes'
+ * own errors. x_i is the mean error, as a motion of the world, of the poses from which a group of
+ * planes was created; a group is that of insertions one after the other. None of these is
+ * estimated, but e depends on them. */
+class ConsideredErrors
+{
+ public:
+  /** So many groups of insertions are kept. With 64 of them the NEES of long rides is up to a tenth
+   * smaller, and the cost grows with the square. */
+  static constexpr int kMaxGroups = 12;
+  static constexpr int kSize = 12 + 6 * kMaxGroups;  //!< elements of c
+  using BySix = Eigen::Matrix<double, kSize, 6, Eigen::DontAlign>;
+
+  /** The errors that move a scan: s = (eta_b, eta_p, x), x being the error of the planes in view by
+   * the poses that created them, as a change of the scan pose. */
+  struct Sources
+  {
+    static constexpr int kSize = 18, kBeams = 0, kPlanes = 6, kPoses = 12;
+    Eigen::Matrix<double, ConsideredErrors::kSize, kSize, Eigen::DontAlign> with_considered;
+    Eigen::Matrix<double, kNavigationDim, kSize, Eigen::DontAlign> with_state;
+    Eigen::Matrix<double, kSize, kSize, Eigen::DontAlign> covariance;
+  };
+
+  ConsideredErrors();
+
+  /** e <- Phi e. */
+  void propagate(const ErrorTransition& transition);
+  /** e <- kept e. */
+  void correct(const NavigationMatrix& kept);
+  /** e <- e - G (MB e - n). \param cov_n cov(c, n) */
+  void update(
+      const NavigationBy6& G, const Eigen::Matrix<double, 6, kNavigationDim>& MB,
+      const BySix& cov_n);
+
+  /** Other planes are in view than before, and others matter: eta_p <- R eta_p + what is new. */
+  void renewPlanes(const Matrix6& R);
+
+  /** The sources of a scan's errors. */
+  [[nodiscard]] Sources sourcesOf(const Pose& T_world_scan, const GroupedMeasurements& scan);
+
+  /** The planes that a scan has found agree with its pose, and so with each other, whatever else is
+   * known. It matters after a direction was open for a while: where planes of before are found
+   * again together with planes that were created in between, these were not that far off.
+   * \param update whose weights sourcesOf() has taken \param filter cov(e) that the filter counts
+   * \param addition what cov(e) is more; the evidence reduces it */
+  void takeEvidence(
+      const LinearizedUpdate& update, const NavigationMatrix& filter, NavigationMatrix& addition);
+
+  /** Planes are created from a pose with error x = J e. \param insertion ascending
+   * \param with_state cov(e, x) by all that e consists of \param covariance of x
+   * \param place where \param J derivative of x by e */
+  void addPose(
+      std::uint32_t insertion, const NavigationBy6& with_state, const TwistCovariance& covariance,
+      const Vec3& place, const Eigen::Matrix<double, 6, kNavigationDim>& J);
+
+  /** There are no planes any more. */
+  void forgetPlanes();
+
+  /** cov(pose, eta_b). */
+  [[nodiscard]] Matrix6 poseByBeams() const { return with_state_.topLeftCorner<6, 6>(); }
+
+ private:
+  struct Group
+  {
+    std::uint32_t scan = 0;  // first insertion
+    int column = 0;          // of x in c
+    double seen = 0.0;       // mean weight in the scans of late
+    Vec3 place = Vec3::Zero();
+    InsertionWeights weights;
+  };
+
+  /** by_state^T e + by_pose^T x, x in that column. */
+  struct Difference
+  {
+    Eigen::Matrix<double, kNavigationDim, 1, Eigen::DontAlign> by_state;
+    Vector6 by_pose;
+    int column = 0;
+  };
+  void agree(
+      const Difference& difference, const NavigationMatrix& filter, NavigationMatrix& addition);
+  [[nodiscard]] double difference(const Group& a, const Group& b) const;
+  int mergeMostAlike();
+
+  Eigen::Matrix<double, kNavigationDim, Eigen::Dynamic> with_state_;  // cov(e, c)
+  Eigen::MatrixXd among_;                                             // cov(c)
+  std::vector<Group> groups_;                                         // ascending by scan
+};
+
+}  // namespace fastlio

@@ -1,0 +1,186 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file map_error_recursion_test.cpp The map's error against the joint covariance of everything. */
+
+#include "map_error_scans.h"
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+namespace fastlio::testing
+{
+namespace
+{
+Matrix6 squareRoot(const Matrix6& m)
+{
+  return m.llt().matrixL();
+}
+
+/** C with C C^T the covariance of a scan's sums by the planes' own errors. */
+Matrix6 rootOfPlanes(const GroupedMeasurements& scan)
+{
+  Matrix6 planes = Matrix6::Zero();
+  for (const PlaneGroup& group : scan.groups)
+    planes += group.shared_variance * group.g * group.g.transpose();
+  return squareRoot(planes);
+}
+
+/** The joint covariance of the state's error, eta_b, eta_p and the errors of all creating poses as
+ * one dense matrix, and that of the noise that the filter counts. */
+class DenseRecursion
+{
+ public:
+  void propagate(const NavigationMatrix& Phi)
+  {
+    Eigen::MatrixXd T = identity();
+    T.topLeftCorner<kNavigationDim, kNavigationDim>() = Phi;
+    joint_ = T * joint_ * T.transpose();
+  }
+
+  void insert(const StateMatrix& filter)
+  {
+    const Eigen::Index n = joint_.rows();
+    Eigen::MatrixXd T(n + 6, n);
+    T << identity(), identity().topRows(6);
+    Eigen::MatrixXd with_filter = joint_;
+    with_filter.topLeftCorner<kNavigationDim, kNavigationDim>() +=
+        filter.topLeftCorner<kNavigationDim, kNavigationDim>();
+    const Eigen::MatrixXd addition = joint_.topLeftCorner<kNavigationDim, kNavigationDim>();
+    joint_ = T * with_filter * T.transpose();
+    joint_.topLeftCorner<kNavigationDim, kNavigationDim>() = addition;
+  }
+
+  /** \param R of eta_p <- R eta_p + what is new
+   * \param parts of the planes by insertion, in all directions alike */
+  void update(
+      const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& R,
+      const std::vector<double>& parts, const Matrix6& beam_errors)
+  {
+    // eta_p is partly new: what it has in common with all others fades.
+    Eigen::MatrixXd fade = identity();
+    fade.block<6, 6>(kPlanes, kPlanes) = R;
+    joint_ = fade * joint_ * fade.transpose();
+    joint_.block<6, 6>(kPlanes, kPlanes) += Matrix6::Identity() - R * R.transpose();
+
+    const Matrix6 M = scan.information;
+    const Eigen::Matrix<double, kNavigationDim, 6> G = update.gain.topRows<kNavigationDim>();
+    Eigen::MatrixXd T = identity();
+    T.topLeftCorner(kNavigationDim, 6) -= G * M;
+    T.block(0, kBeams, kNavigationDim, 6) = G * squareRoot(beam_errors);
+    T.block(0, kPlanes, kNavigationDim, 6) = G * rootOfPlanes(scan);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      T.block(0, kPoses + 6 * static_cast<Eigen::Index>(i), kNavigationDim, 6) = parts[i] * G * M;
+    joint_ = T * joint_ * T.transpose();
+    joint_.topLeftCorner<kNavigationDim, kNavigationDim>() -= G * scan.shared_noise * G.transpose();
+  }
+
+  [[nodiscard]] Eigen::MatrixXd addition() const
+  {
+    return joint_.topLeftCorner<kNavigationDim, kNavigationDim>();
+  }
+
+ private:
+  static constexpr int kBeams = kNavigationDim, kPlanes = kBeams + 6, kPoses = kPlanes + 6;
+
+  [[nodiscard]] Eigen::MatrixXd identity() const
+  {
+    return Eigen::MatrixXd::Identity(joint_.rows(), joint_.rows());
+  }
+  static Eigen::MatrixXd start()
+  {
+    Eigen::MatrixXd joint = Eigen::MatrixXd::Identity(kPoses, kPoses);
+    joint.topLeftCorner<kNavigationDim, kNavigationDim>().setZero();
+    return joint;
+  }
+
+  Eigen::MatrixXd joint_ = start();
+};
+
+Matrix6 randomCovariance(double scale)
+{
+  const Matrix6 m = Matrix6::Random();
+  return scale * (m * m.transpose() + 0.1 * Matrix6::Identity());
+}
+
+StateMatrix randomFilterCovariance()
+{
+  const StateMatrix m = StateMatrix::Random();
+  StateMatrix filter = 1e-7 * m * m.transpose();
+  filter.bottomRows<kCalibrationDim>().setZero();
+  filter.rightCols<kCalibrationDim>().setZero();
+  return filter;
+}
+
+/** Half of the weight on planes of each insertion, which show all directions alike. */
+GroupedMeasurements randomScan(std::uint32_t newest)
+{
+  GroupedMeasurements scan =
+      scanOn({1, 1, 1, 1, 1, 1, newest, newest, newest, newest, newest, newest});
+  scan.information = randomCovariance(kScanInformation);
+  scan.shared_noise = randomCovariance(1e-3 * kScanInformation);
+  for (std::size_t k = 0; k < scan.groups.size(); ++k)
+  {
+    scan.groups[k].g = k < 6 ? Vector6(100.0 * Vector6::Random()) : scan.groups[k - 6].g;
+    scan.groups[k].shared_variance = 1e-6;
+  }
+  return scan;
+}
+
+TEST(MapError, IsTheRecursionWithDenseMatrices)
+{
+  std::srand(1);  // of Eigen's random matrices
+  MapErrorModel model;
+  DenseRecursion dense;
+  std::vector<double> parts = {1.0};
+  Matrix6 before = Matrix6::Zero();  // of the planes of the scan before
+  const auto insert = [&](std::uint32_t number)
+  {
+    InsertionError error;
+    error.filter = randomFilterCovariance();
+    model.recordInsertion(number, error, {});
+    dense.insert(error.filter);
+  };
+  insert(1);
+  for (int i = 0; i < 30; ++i)
+  {
+    if (i == 15)
+    {
+      insert(2);
+      parts = {0.5, 0.5};
+    }
+    ErrorTransition transition;
+    transition.by_state.leftCols<kNavigationDim>() +=
+        0.02 * Eigen::Matrix<double, kMotionDim, kNavigationDim>::Random();
+    NavigationMatrix Phi = NavigationMatrix::Identity();
+    Phi.topRows<kMotionDim>() = transition.by_state.leftCols<kNavigationDim>();
+    model.propagate(transition);
+    dense.propagate(Phi);
+    StateMatrix kept = StateMatrix::Identity();
+    kept.topLeftCorner<kNavigationDim, kNavigationDim>() += 0.02 * NavigationMatrix::Random();
+    model.correct(kept);
+    dense.propagate(kept.topLeftCorner<kNavigationDim, kNavigationDim>());
+
+    GroupedMeasurements scan = randomScan(i < 15 ? 1 : 2);
+    const Matrix6 root = rootOfPlanes(scan);
+    const Matrix6 R = i == 0 ? Matrix6(Matrix6::Zero()) : Matrix6(0.3 * Matrix6::Random());
+    scan.shared_before = root * R * before.transpose();
+    before = root;
+    LinearizedUpdate update;
+    update.gain = 0.2 / kScanInformation * ScanGain::Random();
+    update.gain.bottomRows<kCalibrationDim>().setZero();
+    const Matrix6 beam_errors = randomCovariance(1e-4 * kScanInformation);
+    model.update(update, scan, beam_errors);
+    dense.update(update, scan, R, parts, beam_errors);
+    const Eigen::MatrixXd expected = dense.addition();
+    ASSERT_GT(expected.norm(), 0.0);
+    const auto added = model.addition().topLeftCorner<kNavigationDim, kNavigationDim>();
+    EXPECT_LT((added - expected).norm(), 1e-8 * expected.norm()) << "update " << i;
+  }
+}
+
+}  // namespace
+}  // namespace fastlio::testing
