@@ -81,7 +81,7 @@ void LocalMap::correctError(const StateMatrix& kept)
 
 ConsideredUpdate LocalMap::considerUpdate(
     const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
-    BeamErrors& beams)
+    BeamErrors& beams, bool beams_learn)
 {
   const MeasuredScan& measured = *match.measured;
   const GroupedMeasurements* grouped = nullptr;
@@ -91,7 +91,8 @@ ConsideredUpdate LocalMap::considerUpdate(
   workers_->alongside(
       [&]
       {
-        if (weight == 1.0) beams.add(update.T_world_scan, scan, measured, *match.matches);
+        if (beams_learn && weight == 1.0)
+          beams.add(update.T_world_scan, scan, measured, *match.matches);
       },
       [&] { grouped = &groups_.group(*workers_, measured, *match.matches); });
   ConsideredUpdate considered;

@@ -64,7 +64,9 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
-  const ConsideredUpdate considered = map_.considerUpdate(work.deskewed, match, update, beams_);
+  const bool agrees = calibration_.expectedInnovation() == 1.0;
+  const ConsideredUpdate considered =
+      map_.considerUpdate(work.deskewed, match, update, beams_, agrees);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
   const double surprise = learnFromInnovation(match, considered, update, work.predicted.state);
   if (!work.outcome.search && !run().motion_window)

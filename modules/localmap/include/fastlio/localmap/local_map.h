@@ -78,10 +78,11 @@ class LocalMap
   /** The same through an update without a scan. \param kept I - K H */
   void correctError(const StateMatrix& kept);
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
-   * \param beams learn from the scan's residuals */
+   * \param beams of the sensor \param beams_learn from the scan's residuals: those of a scan that
+   * contradicts its prediction may be of a pose that is wrong */
   ConsideredUpdate considerUpdate(
       const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
-      BeamErrors& beams);
+      BeamErrors& beams, bool beams_learn);
 
   /** The scan matches as scans usually match this map. While the map consists of a few scans, any
    * ratio is usual. */
