@@ -13,7 +13,7 @@ namespace
 {
 using Square6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kBeams = 0, kPlanes = 6, kFirstGroup = 12;
+constexpr int kPlanes = 6, kFirstGroup = 12;  // columns of c, after those of eta_b
 
 // So many scans decide which planes are in view.
 constexpr double kScansInView = 100.0;

@@ -114,8 +114,8 @@ Matrix6 MapErrorModel::update(
 
   // Of B e - x. Where the planes are those of the scans just before, both have the same error.
   const Matrix6 common = B * s.with_state.rightCols<6>();
-  const Matrix6 mismatch = productByTransposed(product(B, addition_), B) - common -
-                           common.transpose() + s.covariance.bottomRightCorner<6, 6>();
+  Matrix6 mismatch = productByTransposed(product(B, addition_), B) - common - common.transpose() +
+                     s.covariance.bottomRightCorner<6, 6>();
 
   // e <- e - G (M B e - K s)
   const Matrix6 M = scan.information * update.constraints.projection;
@@ -132,9 +132,9 @@ Matrix6 MapErrorModel::update(
   addition_ -= productByTransposed(NavigationBy6(productByTransposed(addition_, MB)), G);
   addition_ += half + half.transpose();
   considered_.update(G, MB, productByTransposed(s.with_considered, K));
-  if (update.gain.isZero(0.0)) return mismatch;
-  considered_.takeEvidence(
-      update, update.covariance.topLeftCorner<kNavigationDim, kNavigationDim>(), addition_);
+  if (!update.gain.isZero(0.0))
+    considered_.takeEvidence(
+        update, update.covariance.topLeftCorner<kNavigationDim, kNavigationDim>(), addition_);
   return mismatch;
 }
 

@@ -57,7 +57,7 @@ class ConsideredErrors
    * the poses that created them, as a change of the scan pose. */
   struct Sources
   {
-    static constexpr int kSize = 18, kBeams = 0, kPlanes = 6, kPoses = 12;
+    static constexpr int kSize = 18;
     Eigen::Matrix<double, ConsideredErrors::kSize, kSize, Eigen::DontAlign> with_considered;
     Eigen::Matrix<double, kNavigationDim, kSize, Eigen::DontAlign> with_state;
     Eigen::Matrix<double, kSize, kSize, Eigen::DontAlign> covariance;

@@ -72,10 +72,10 @@ class MapErrorModel
   /** The part of addition() by the errors of the beams: B B^T with B = cov(e, eta), pose rows. */
   [[nodiscard]] Matrix6 poseByBeams() const { return considered_.poseByBeams(); }
 
-  /** Remembers how well the scan pose was known when insertion number \a scan was made.
-   * \param by_state Jacobian of the scan pose by the state */
+  /** Remembers how well the scan pose was known when that insertion was made.
+   * \param insertion its number, ascending \param by_state Jacobian of the scan pose by the state */
   void recordInsertion(
-      std::uint32_t scan, const InsertionError& pose_error, const Pose& T_world_scan,
+      std::uint32_t insertion, const InsertionError& error, const Pose& T_world_scan,
       const ScanPoseJacobian& by_state = bodyPoseJacobian());
 
  private:
