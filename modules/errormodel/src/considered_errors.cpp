@@ -94,6 +94,7 @@ ConsideredErrors::Sources ConsideredErrors::sourcesOf(
   Eigen::Matrix<double, kNavigationDim, 6> state_with_poses;
   state_with_poses.setZero();
   std::array<Square6, kMaxGroups> X;  // x = sum of X_i x_i
+  X.fill(Square6::Zero());
   for (std::size_t i = 0; i < groups_.size(); ++i)
   {
     Group& group = groups_[i];
@@ -105,8 +106,7 @@ ConsideredErrors::Sources ConsideredErrors::sourcesOf(
   }
   Square6 of_poses = Square6::Zero();
   for (std::size_t i = 0; i < groups_.size(); ++i)
-    if (groups_[i].weights.all > 0.0)
-      of_poses += X[i] * with_poses.middleRows<6>(groups_[i].column);
+    of_poses += X[i] * with_poses.middleRows<6>(groups_[i].column);
 
   Sources sources;
   sources.with_considered << among_.leftCols<kFirstGroup>(), with_poses;
