@@ -177,7 +177,7 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     dense.update(update, scan, R, parts, beam_errors);
     const Eigen::MatrixXd expected = dense.addition();
     ASSERT_GT(expected.norm(), 0.0);
-    const auto added = model.addition().topLeftCorner<kNavigationDim, kNavigationDim>();
+    const NavigationMatrix added = model.addition().topLeftCorner<kNavigationDim, kNavigationDim>();
     EXPECT_LT((added - expected).norm(), 1e-8 * expected.norm()) << "update " << i;
   }
 }
