@@ -116,8 +116,7 @@ ConsideredErrors::Sources ConsideredErrors::sourcesOf(
   return sources;
 }
 
-void ConsideredErrors::takeEvidence(
-    const LinearizedUpdate& update, const NavigationMatrix& filter, NavigationMatrix& addition)
+void ConsideredErrors::takeEvidence(const LinearizedUpdate& update, NavigationMatrix& addition)
 {
   const ScanConstraints& constraints = update.constraints;
   Square6 along = constraints.directions, measured = along;
@@ -126,21 +125,20 @@ void ConsideredErrors::takeEvidence(
   const Square6 by_pose = measured.transpose() * twistJacobianInverse(update.T_world_scan);
   const Eigen::Matrix<double, 6, kNavigationDim> by_state =
       measured.transpose() * update.by_state.leftCols<kNavigationDim>();
-  const auto shownAlong = [&along](const Group& group) -> Vector6
-  { return (along.transpose() * group.weights.shown * along).diagonal(); };
-  Vector6 shown = Vector6::Zero();
-  for (const Group& group : groups_)
-    if (group.weights.all > 0.0) shown += shownAlong(group);
-  for (const Group& group : groups_)
+  const NavigationMatrix filter = update.covariance.topLeftCorner<kNavigationDim, kNavigationDim>();
+  std::array<Vector6, kMaxGroups> shown;  // about each direction
+  Vector6 by_all = Vector6::Zero();
+  for (std::size_t k = 0; k < groups_.size(); ++k)
   {
-    if (group.weights.all == 0.0) continue;
-    const Vector6 by_group = shownAlong(group);
-    for (int i = constraints.unconstrained; i < 6; ++i)
-      if (by_group[i] > kLeastShown * shown[i])
-        agree(
-            {by_state.row(i).transpose(), -by_pose.row(i).transpose(), group.column}, filter,
-            addition);
+    shown[k] = (along.transpose() * groups_[k].weights.shown * along).diagonal();
+    by_all += shown[k];
   }
+  for (std::size_t k = 0; k < groups_.size(); ++k)
+    for (int i = constraints.unconstrained; i < 6; ++i)
+      if (shown[k][i] > kLeastShown * by_all[i])
+        agree(
+            {by_state.row(i).transpose(), -by_pose.row(i).transpose(), groups_[k].column}, filter,
+            addition);
 }
 
 /** The difference between the pose and planes along a direction is at most kMostDisagreement. */
@@ -165,8 +163,8 @@ void ConsideredErrors::agree(
   among_.noalias() -= part * with_considered * with_considered.transpose();
 }
 
-/** Variance of the difference, as a motion of the place between. */
-double ConsideredErrors::difference(const Group& a, const Group& b) const
+/** Variance of the difference of their errors, as a motion of the place between [m^2]. */
+double ConsideredErrors::varianceBetween(const Group& a, const Group& b) const
 {
   const Square6 covariance =
       among_.block<6, 6>(a.column, a.column) + among_.block<6, 6>(b.column, b.column) -
@@ -185,7 +183,7 @@ int ConsideredErrors::mergeMostAlike()
   for (std::size_t i = 0; i + 1 < groups_.size(); ++i)
   {
     const Group &a = groups_[i], &b = groups_[i + 1];
-    const double cost = difference(a, b) * (a.seen + b.seen + kOutOfView);
+    const double cost = varianceBetween(a, b) * (a.seen + b.seen + kOutOfView);
     if (!(cost < least)) continue;
     least = cost;
     best = i;

@@ -4,7 +4,7 @@
 /** \file insertion_weights.h Which scans created the planes in view. */
 #pragma once
 
-#include <fastlio/errormodel/map_error.h>
+#include <fastlio/errormodel/considered_errors.h>
 #include <fastlio/matching/plane_groups.h>
 
 #include <Eigen/LU>

@@ -6,8 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include <vector>
-
 namespace fastlio
 {
 namespace
@@ -50,8 +48,9 @@ NavigationBy6 gainOf(const LinearizedUpdate& update)
       Matrix6(update.constraints.projection.transpose()));
 }
 
-/** A square root of the covariance of q by errors of the sensor. It is taken in the axes of the
- * body: there it changes little from scan to scan, so that eta stays what it is in a turn. */
+/** C_b, a square root of the covariance of the sums by errors of the beams. It is taken in the axes
+ * of the body: there it changes little from scan to scan, so that eta stays what it is in a turn.
+ */
 AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
 {
   AlignedMatrix6 turn = AlignedMatrix6::Identity();
@@ -59,38 +58,22 @@ AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
   return turn * squareRoot(turn.transpose() * covariance * turn);
 }
 
-/** Covariance of q by the planes' own errors, in the scan pose's coordinates. */
-AlignedMatrix6 planeErrors(const std::vector<PlaneGroup>& groups)
+/** R of eta_p <- R eta_p + what is new. \param with_before GroupedMeasurements::plane_errors_before
+ * \param C C_p of the scan */
+Matrix6 persistence(const Matrix6& with_before, const Matrix6& C, const Matrix6& C_before)
 {
-  AlignedMatrix6 Q = AlignedMatrix6::Zero();
-  for (const PlaneGroup& group : groups)
-    Q.noalias() += group.shared_variance * group.g * group.g.transpose();
-  return Q;
-}
-
-/** R of eta_p <- R eta_p + what is new, for C eta_p of a scan with C C^T = sum s g g^T.
- * \param shared sum s g g'^T with the scan before */
-Matrix6 persistence(const Matrix6& shared, const Matrix6& C, const Matrix6& C_before)
-{
-  if (shared.isZero(0.0) || C.isZero(0.0) || C_before.isZero(0.0)) return Matrix6::Zero();
-  const AlignedMatrix6 left = C.triangularView<Eigen::Lower>().solve(shared);
+  if (with_before.isZero(0.0) || C.isZero(0.0) || C_before.isZero(0.0)) return Matrix6::Zero();
+  const AlignedMatrix6 left = C.triangularView<Eigen::Lower>().solve(with_before);
   return C_before.triangularView<Eigen::Lower>().solve(left.transpose()).transpose();
-}
-
-/** T A T^T with T = I but for its first rows. */
-template <int Rows>
-NavigationMatrix withRows(
-    NavigationMatrix A, const Eigen::Matrix<double, Rows, kNavigationDim>& rows)
-{
-  A.template topRows<Rows>() = product(rows, A);
-  A.template leftCols<Rows>() = productByTransposed(A, rows);
-  return A;
 }
 }  // namespace
 
 void MapErrorModel::propagate(const ErrorTransition& transition)
 {
-  addition_ = withRows<kMotionDim>(addition_, transition.by_state.leftCols<kNavigationDim>());
+  const Eigen::Matrix<double, kMotionDim, kNavigationDim> Phi =
+      transition.by_state.leftCols<kNavigationDim>();
+  addition_.topRows<kMotionDim>() = product(Phi, addition_);
+  addition_.leftCols<kMotionDim>() = productByTransposed(addition_, Phi);
   considered_.propagate(transition);
 }
 
@@ -105,11 +88,10 @@ Matrix6 MapErrorModel::update(
     const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
 {
   if (scan.groups.empty()) return Matrix6::Zero();
-  const Matrix6 of_planes = squareRoot(planeErrors(scan.groups));
-  considered_.renewPlanes(persistence(scan.shared_before, of_planes, of_planes_));
+  const Matrix6 of_planes = squareRoot(scan.plane_errors);
+  considered_.renewPlanes(persistence(scan.plane_errors_before, of_planes, of_planes_));
   of_planes_ = of_planes;
-  using Sources = ConsideredErrors::Sources;
-  const Sources s = considered_.sourcesOf(update.T_world_scan, scan);
+  const ConsideredErrors::Sources s = considered_.sourcesOf(update.T_world_scan, scan);
   const SixByNavigation B = update.by_state.leftCols<kNavigationDim>();
 
   // Of B e - x. Where the planes are those of the scans just before, both have the same error.
@@ -119,7 +101,7 @@ Matrix6 MapErrorModel::update(
 
   // e <- e - G (M B e - K s)
   const Matrix6 M = scan.information * update.constraints.projection;
-  Eigen::Matrix<double, 6, Sources::kSize> K;
+  Eigen::Matrix<double, 6, ConsideredErrors::kSources> K;
   K << sensorErrors(beam_errors, update.T_world_scan.R), of_planes, M;
   const NavigationBy6 G = gainOf(update);
   const SixByNavigation MB = M * B;
@@ -132,9 +114,7 @@ Matrix6 MapErrorModel::update(
   addition_ -= productByTransposed(NavigationBy6(productByTransposed(addition_, MB)), G);
   addition_ += half + half.transpose();
   considered_.update(G, MB, productByTransposed(s.with_considered, K));
-  if (!update.gain.isZero(0.0))
-    considered_.takeEvidence(
-        update, update.covariance.topLeftCorner<kNavigationDim, kNavigationDim>(), addition_);
+  if (!update.gain.isZero(0.0)) considered_.takeEvidence(update, addition_);
   return mismatch;
 }
 
@@ -168,8 +148,8 @@ void MapErrorModel::recordInsertion(
   const NavigationBy6 with_pose =
       product(withoutCalibration(by_state, of_scan_pose, with_scan_pose), Matrix6(L.transpose()));
   considered_.addPose(
-      insertion, with_pose, L * (of_scan_pose + error.distortion) * L.transpose(), T_world_scan.p,
-      L * B);
+      insertion, with_pose, twistCovariance(of_scan_pose + error.distortion, T_world_scan),
+      T_world_scan.p, L * B);
 }
 
 }  // namespace fastlio

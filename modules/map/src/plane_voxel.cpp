@@ -150,7 +150,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
       for (int i = 0; i < 3; ++i)
         sums[i] *= 0.5F;
   }
-  if (fitted_count_ == 0.0F) plane_.created_insertion = scan;
+  if (plane_.created_insertion == 0) plane_.created_insertion = scan;
   const bool had_plane = plane_.inverse_count > 0.0F;
   fitted_count_ = count_;
   plane_.variance = -1;

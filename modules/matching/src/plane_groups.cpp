@@ -59,15 +59,17 @@ void PlaneGrouping::addPoints(const MeasuredScan& scan, const std::vector<PlaneM
 
 void PlaneGrouping::finishGroups()
 {
-  result_.shared_before.setZero();
+  result_.plane_errors.setZero();
+  result_.plane_errors_before.setZero();
   for (PlaneGroup& group : result_.groups)
   {
     group.shared_variance /= group.weight;
+    result_.plane_errors += group.shared_variance * group.g * group.g.transpose();
     if (group.before == PlaneNumbers::kNone) continue;
     const PlaneGroup& before = groups_before_[group.before];
     // A plane's error changes where points join it. What is left of it is the smaller one.
     const double shared = std::min(group.shared_variance, before.shared_variance);
-    result_.shared_before += shared * group.g * before.g.transpose();
+    result_.plane_errors_before += shared * group.g * before.g.transpose();
   }
 }
 

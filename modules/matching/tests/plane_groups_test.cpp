@@ -121,15 +121,16 @@ TEST(PlaneGrouping, KnowsWhatTheErrorsOfTheScanBeforeHaveInCommon)
   PlaneGrouping grouping;
   const auto again = [&](const std::vector<PlaneMatch>& matches) -> const GroupedMeasurements&
   { return grouping.group(Workers(1), measured(m.x.pose(), m.body, matches, model), matches); };
-  EXPECT_EQ(again(m.matches).shared_before.norm(), 0.0);
+  EXPECT_EQ(again(m.matches).plane_errors_before.norm(), 0.0);
   const GroupedMeasurements& same = again(m.matches);
   Matrix6 of_planes = Matrix6::Zero();
   for (const PlaneGroup& group : same.groups)
     of_planes += group.shared_variance * group.g * group.g.transpose();
-  EXPECT_LT((same.shared_before - of_planes).norm(), 1e-12 * of_planes.norm());
+  EXPECT_LT((same.plane_errors - of_planes).norm(), 1e-12 * of_planes.norm());
+  EXPECT_LT((same.plane_errors_before - of_planes).norm(), 1e-12 * of_planes.norm());
   const std::vector<PlaneMatch> none(m.matches.size());
-  EXPECT_EQ(again(none).shared_before.norm(), 0.0);
-  EXPECT_EQ(again(m.matches).shared_before.norm(), 0.0);
+  EXPECT_EQ(again(none).plane_errors_before.norm(), 0.0);
+  EXPECT_EQ(again(m.matches).plane_errors_before.norm(), 0.0);
 }
 
 TEST(PlaneGrouping, LeavesOutWhatIsNoNumber)

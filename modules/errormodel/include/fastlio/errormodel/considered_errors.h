@@ -51,16 +51,16 @@ class ConsideredErrors
    * smaller, and the cost grows with the square. */
   static constexpr int kMaxGroups = 12;
   static constexpr int kSize = 12 + 6 * kMaxGroups;  //!< elements of c
+  static constexpr int kSources = 18;                //!< elements of s, see Sources
   using BySix = Eigen::Matrix<double, kSize, 6, Eigen::DontAlign>;
 
   /** The errors that move a scan: s = (eta_b, eta_p, x), x being the error of the planes in view by
    * the poses that created them, as a change of the scan pose. */
   struct Sources
   {
-    static constexpr int kSize = 18;
-    Eigen::Matrix<double, ConsideredErrors::kSize, kSize, Eigen::DontAlign> with_considered;
-    Eigen::Matrix<double, kNavigationDim, kSize, Eigen::DontAlign> with_state;
-    Eigen::Matrix<double, kSize, kSize, Eigen::DontAlign> covariance;
+    Eigen::Matrix<double, kSize, kSources, Eigen::DontAlign> with_considered;      //!< cov(c, s)
+    Eigen::Matrix<double, kNavigationDim, kSources, Eigen::DontAlign> with_state;  //!< cov(e, s)
+    Eigen::Matrix<double, kSources, kSources, Eigen::DontAlign> covariance;        //!< of s
   };
 
   ConsideredErrors();
@@ -83,10 +83,9 @@ class ConsideredErrors
   /** The planes that a scan has found agree with its pose, and so with each other, whatever else is
    * known. It matters after a direction was open for a while: where planes of before are found
    * again together with planes that were created in between, these were not that far off.
-   * \param update whose weights sourcesOf() has taken \param filter cov(e) that the filter counts
-   * \param addition what cov(e) is more; the evidence reduces it */
-  void takeEvidence(
-      const LinearizedUpdate& update, const NavigationMatrix& filter, NavigationMatrix& addition);
+   * \param update of the scan that sourcesOf() has weighed \param addition what cov(e) is more than
+   * the filter's own; the evidence reduces it */
+  void takeEvidence(const LinearizedUpdate& update, NavigationMatrix& addition);
 
   /** Planes are created from a pose with error x = J e. \param insertion ascending
    * \param with_state cov(e, x) by all that e consists of \param covariance of x
@@ -120,7 +119,7 @@ class ConsideredErrors
   };
   void agree(
       const Difference& difference, const NavigationMatrix& filter, NavigationMatrix& addition);
-  [[nodiscard]] double difference(const Group& a, const Group& b) const;
+  [[nodiscard]] double varianceBetween(const Group& a, const Group& b) const;
   int mergeMostAlike();
 
   Eigen::Matrix<double, kNavigationDim, Eigen::Dynamic> with_state_;  // cov(e, c)

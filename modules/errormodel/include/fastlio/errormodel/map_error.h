@@ -21,7 +21,7 @@
  * that E = cov(e) follows without any approximation. The part D of it that the filter has counted
  * as noise of the points is taken off.
  *
- * h_j is by a rigid motion (phi, rho) of the world, p -> p + rho + phi x p, where errors persist:
+ * The errors of creating poses are rigid motions (phi, rho) of the world, p -> p + rho + phi x p:
  * in these coordinates an error of the map stays what it is while the sensor moves. See
  * docs/covariance.md. */
 #pragma once
@@ -69,7 +69,7 @@ class MapErrorModel
   /** The same, some way after the last scan. */
   [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
-  /** The part of addition() by the errors of the beams: B B^T with B = cov(e, eta), pose rows. */
+  /** Y = cov(e, eta_b), pose rows: Y Y^T is the part of addition() by the errors of the beams. */
   [[nodiscard]] Matrix6 poseByBeams() const { return considered_.poseByBeams(); }
 
   /** Remembers how well the scan pose was known when that insertion was made.

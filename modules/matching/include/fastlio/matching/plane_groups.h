@@ -31,9 +31,10 @@ struct GroupedMeasurements
 {
   Matrix6 information = Matrix6::Zero();   //!< sum of w h h^T
   Matrix6 shared_noise = Matrix6::Zero();  //!< sum of w^2 s h h^T, s the points' shared variance
-  /** Sum of s g g'^T over the planes that the scan before has seen, too, with its g': what the
-   * planes' errors in the sums of both have in common. */
-  Matrix6 shared_before = Matrix6::Zero();
+  /** Covariance of the sums by the planes' own errors: sum of s g g^T over the planes. */
+  Matrix6 plane_errors = Matrix6::Zero();
+  /** The same with those of the scan before: s g g'^T over the planes that both have seen. */
+  Matrix6 plane_errors_before = Matrix6::Zero();
   std::vector<PlaneGroup> groups;  //!< in the order of their first point
 };
 
