@@ -9,12 +9,12 @@
  *
  *     S_0: gravity as the accelerometer saw it gave tilt and bias at the start,
  *     S <- Phi S + Psi                                       on the way from scan to scan,
- *     C  = B S + B_c - L^-1 V,   S <- S - G Lambda C         in an update with the gain G,
+ *     C  = B S + B_c - L^-1 V,   S <- S - G M C              in an update with the gain G,
  *
- * where B_c moves the scan with the extrinsic, and V says how the planes in view lie wrong, as a
- * rigid motion of the world: the map is made of scans that had the same error. C is how far the
- * innovation of the scan depends on theta, so the innovations determine theta
- * (CalibrationEvidence). */
+ * where M = sum_j w_j h_j h_j^T is the scan's information, B_c moves the scan with the extrinsic,
+ * and V says how the planes in view lie wrong, as a rigid motion of the world: the map is made of
+ * scans that had the same error. C is how far the innovation of the scan depends on theta, so the
+ * innovations determine theta (CalibrationEvidence). */
 #pragma once
 
 #include <fastlio/errormodel/calibration_sums.h>
@@ -34,7 +34,7 @@ using PoseByCalibration = Eigen::Matrix<double, 6, kCalibrationErrorDim, Eigen::
 struct UpdateByCalibration
 {
   PoseByCalibration innovation = PoseByCalibration::Zero();  //!< C
-  PoseByCalibration correction = PoseByCalibration::Zero();  //!< of the body's pose: -G Lambda C
+  PoseByCalibration correction = PoseByCalibration::Zero();  //!< of the body's pose: -G M C
 };
 
 /** Tracks how the state's error depends on theta. */
