@@ -82,6 +82,19 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   return relative;
 }
 
+RelativePose reversed(const RelativePose& motion)
+{
+  const Mat3& R = motion.T_a_b.R;
+  RelativePose back;
+  back.T_a_b = motion.T_a_b.inverse();
+  Matrix6 J = Matrix6::Zero();
+  J.topLeftCorner<3, 3>() = -R;
+  J.bottomLeftCorner<3, 3>() = skew(back.T_a_b.p);
+  J.bottomRightCorner<3, 3>() = -R.transpose();
+  back.covariance = J * motion.covariance * J.transpose();
+  return back;
+}
+
 void PoseTrack::add(const ScanResult& result)
 {
   if (!hasPose(result.status)) return;

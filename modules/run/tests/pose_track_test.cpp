@@ -150,6 +150,28 @@ TEST(RelativePose, CovarianceIsThatOfTheErrorsOfBoth)
   EXPECT_LT((relative.covariance - expected).norm(), 1e-5 * expected.norm());
 }
 
+TEST(RelativePose, ReversedItHasTheSameErrors)
+{
+  const TrackedPose a = tracked({expSO3({0.3, -0.2, 0.9}), {1.0, -2.0, 0.5}}, 1.0, 0.0);
+  const TrackedPose b = tracked({expSO3({-0.1, 0.4, 1.2}), {2.0, -1.0, 0.7}}, 2.0, 0.0);
+  const RelativePose there = relativePose(a, b), back = reversed(there);
+  EXPECT_LT((back.T_a_b * there.T_a_b).p.norm(), 1e-12);
+  constexpr double kStep = 1e-6;
+  Matrix6 J;
+  for (int i = 0; i < 6; ++i)
+  {
+    Eigen::Matrix<double, 6, 1> e = Eigen::Matrix<double, 6, 1>::Zero();
+    e[i] = kStep;
+    const Pose now =
+        Pose{there.T_a_b.R * expSO3(e.head<3>()), there.T_a_b.p + e.tail<3>()}.inverse();
+    J.block<3, 1>(0, i) = logSO3(back.T_a_b.R.transpose() * now.R) / kStep;
+    J.block<3, 1>(3, i) = (now.p - back.T_a_b.p) / kStep;
+  }
+  const Matrix6 expected = J * there.covariance * J.transpose();
+  EXPECT_LT((back.covariance - expected).norm(), 1e-5 * expected.norm());
+  EXPECT_LT((reversed(back).covariance - there.covariance).norm(), 1e-9);
+}
+
 /** An error that moves the whole world changes no motion within it. */
 TEST(RelativePose, WhatBothShareDoesNotCount)
 {

@@ -38,6 +38,9 @@ struct RelativePose
   Matrix6 covariance = Matrix6::Zero();
 };
 
+/** From b to a. */
+[[nodiscard]] RelativePose reversed(const RelativePose& motion);
+
 /** From \a a to \a b. The filter gives the covariance of each pose, not what they have in common;
  * so this is an upper bound: errors of the poses' own count as independent, and of the map's part,
  * which is nearly the same for both, only what it changed by counts. An ambiguity that appears
