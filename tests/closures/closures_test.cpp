@@ -115,8 +115,13 @@ struct Tally
   void add(const MappingResult& map, const Simulation& simulation)
   {
     std::vector<Pose> truth;
+    std::vector<double> travel;  // of the truth: an odometry that is lost may travel anywhere
     for (const Submap& submap : map.submaps)
-      truth.push_back(simulation.truth(submap.reference.stamp_ns).T_world_imu);
+    {
+      const Pose pose = simulation.truth(submap.reference.stamp_ns).T_world_imu;
+      travel.push_back(truth.empty() ? 0.0 : travel.back() + (pose.p - truth.back().p).norm());
+      truth.push_back(pose);
+    }
     std::vector<bool> is_closed(truth.size(), false);
     for (const Closure& closure : map.closures)
     {
@@ -136,7 +141,7 @@ struct Tally
       bool is_revisit = false;
       const double t = simulation.secondsSinceStart(map.submaps[b].reference.stamp_ns);
       for (std::size_t a = 0; a < b && !is_revisit; ++a)
-        is_revisit = map.submaps[b].travel - map.submaps[a].travel > kLeastTravel &&
+        is_revisit = travel[b] - travel[a] > kLeastTravel &&
                      isInSight(simulation.world(), truth[a].p, truth[b].p, t);
       revisits += is_revisit ? 1 : 0;
       recognised += is_revisit && is_closed[b] ? 1 : 0;
