@@ -42,9 +42,9 @@ bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
   return static_cast<double>(ceilings) > kCeilings * static_cast<double>(planes.size());
 }
 
-void refuse(Closure& closure, std::string reason)
+void decide(Closure& closure, ClosureVerdict verdict, std::string reason)
 {
-  closure.verdict = ClosureVerdict::Unpredicted;
+  closure.verdict = verdict;
   closure.reason = std::move(reason);
 }
 }  // namespace
@@ -123,14 +123,9 @@ ClosureLimits Mapper::limitsFor(const RelativePose& predicted) const
 
 void Mapper::judge(Closure& closure) const
 {
-  const auto decide = [&closure](ClosureVerdict verdict, std::string reason)
-  {
-    closure.verdict = verdict;
-    closure.reason = std::move(reason);
-  };
   const ClosureLimits limits = limitsFor(closure.predicted);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
-    return decide(shortcoming->verdict, std::move(shortcoming->reason));
+    return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
   const RegistrationEvidence& found = closure.registration.evidence;
   GraphEdge edge{0, 1, closure.registration.motion, true};
   // Along an open direction the odometry decides alone.
@@ -141,13 +136,13 @@ void Mapper::judge(Closure& closure) const
   const double moved = (closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
   if (deviation > limits.max_deviation)
     return decide(
-        ClosureVerdict::OutOfReach,
+        closure, ClosureVerdict::OutOfReach,
         mrpt::format(
             "%.2f m from where the odometry has it: %.1f standard deviations, at most %.1f are "
-            "allowed (a standard deviation here is %g times that of the odometry)",
-            moved, deviation, limits.max_deviation, limits.odometry_std_factor));
+            "allowed",
+            moved, deviation, limits.max_deviation));
   decide(
-      ClosureVerdict::Accepted,
+      closure, ClosureVerdict::Accepted,
       mrpt::format(
           "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s", moved, 100.0 * found.score,
           found.residual_rms, is_open ? "; one direction stays open" : ""));
@@ -169,30 +164,50 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   }
   const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
   const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
-  const double std = largestPositionStd(closure.predicted.covariance);
   const bool indoors = isIndoors(target->planes, up) ||
                        isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
-  if (indoors && std > limits_.max_std_over_range * range)
-  {
-    refuse(
-        closure, mrpt::format(
-                     "the odometry is %.1f m uncertain, more than %.0f %% of the %.1f m in view: a "
-                     "place that looks the same may be another one",
-                     std, 100.0 * limits_.max_std_over_range, range));
-    return closure;
-  }
   closure.registration =
       SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
   judge(closure);
+  if (indoors && closure.verdict == ClosureVerdict::Accepted) judgeIndoors(closure, up, range);
+  return closure;
+}
+
+/** Indoors, what has been found may be the next room or floor that looks the same. */
+void Mapper::judgeIndoors(Closure& closure, const Vec3& up, double range) const
+{
   const Mat3 position = closure.predicted.covariance.bottomRightCorner<3, 3>();
   const double height_std = std::sqrt(up.dot(position * up));
-  const bool next_floor_too = limits_.max_deviation * height_std > limits_.least_storey;
-  if (indoors && next_floor_too && closure.verdict == ClosureVerdict::Accepted)
-    refuse(
-        closure, mrpt::format(
-                     "the odometry is %.1f m uncertain in height: the next floor may look the same",
-                     height_std));
-  return closure;
+  if (limits_.alike_deviation * height_std > limits_.least_storey)
+    return decide(
+        closure, ClosureVerdict::Unpredicted,
+        mrpt::format(
+            "the odometry is %.1f m uncertain in height: the next floor may look the same",
+            height_std));
+  const Vec3 moved = closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p;
+  if (std::abs(up.dot(moved)) > limits_.least_storey)
+    return decide(
+        closure, ClosureVerdict::OutOfReach,
+        mrpt::format(
+            "%.1f m above or below where the odometry has it: another floor may look the same",
+            std::abs(up.dot(moved))));
+  const double std = largestPositionStd(closure.predicted.covariance);
+  const double max_std = limits_.maxStd(range);
+  closure.needs_agreement = std > max_std;
+  if (closure.needs_agreement)
+    return decide(
+        closure, ClosureVerdict::Unpredicted,
+        mrpt::format(
+            "the odometry is %.1f m uncertain, more than %.1f m, with %.1f m in view: a place that "
+            "looks the same may be another one, and no other closure agrees",
+            std, max_std, range));
+  if (moved.norm() > limits_.alike_over_range * range)
+    decide(
+        closure, ClosureVerdict::OutOfReach,
+        mrpt::format(
+            "%.1f m from where the odometry has it, with %.1f m in view: another place may look "
+            "the same",
+            moved.norm(), range));
 }
 
 }  // namespace fastlio

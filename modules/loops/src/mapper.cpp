@@ -13,7 +13,8 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kWidestReach = 8.0;   // of the search beyond ClosureLimits::distance [m]
+constexpr double kWidestReach = 8.0;  // of the search beyond ClosureLimits::distance [m]
+constexpr double kReachDeviations = 2.0;
 constexpr std::size_t kApart = 3;      // candidates of one pass are so many submaps apart
 constexpr double kTiltFloor = 0.0003;  // [rad]
 // The graph is optimised anew when it has grown by this part.
@@ -94,12 +95,11 @@ void Mapper::join(Submap submap)
   const std::size_t b = result_.submaps.size() - 1;
   for (const std::size_t a : candidatesOf(b))
   {
-    Closure closure = compared(a, b);
+    result_.closures.push_back(compared(a, b));
+    const Closure& closure = result_.closures.back();
     if (closure.verdict == ClosureVerdict::Accepted)
-    {
       result_.graph.edges.push_back({a, b, closure.registration.motion, true});
-    }
-    result_.closures.push_back(std::move(closure));
+    if (closure.needs_agreement) acceptAgreeing(closure);
   }
   const auto grown = static_cast<double>(result_.submaps.size() - settled_submaps_);
   if (grown >= kGrowth * static_cast<double>(settled_submaps_)) settle();
@@ -164,9 +164,8 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     if (same_pass) continue;
     const double squared = (poses_[a].p - poses_[b].p).squaredNorm();
     if (squared >= widest * widest) continue;
-    const double std =
-        limits_.odometry_std_factor * largestPositionStd(covariances_[b] + covariances_[a]);
-    const double reach = limits_.distance + std::min(kWidestReach, std);
+    const double std = largestPositionStd(covariances_[b] + covariances_[a]);
+    const double reach = limits_.distance + std::min(kWidestReach, kReachDeviations * std);
     if (squared < reach * reach) near.emplace_back(squared, a);
   }
   std::sort(near.begin(), near.end());
@@ -187,7 +186,6 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
  * a way in common; their sum is an upper bound. */
 RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 {
-  const double factor2 = limits_.odometry_std_factor * limits_.odometry_std_factor;
   Matrix6 turn = Matrix6::Identity();
   turn.bottomRightCorner<3, 3>() = poses_[a].R.transpose();
   RelativePose motion{
@@ -196,7 +194,7 @@ RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
   const std::optional<RelativePose> alone = odometryMotion(a, b);
   if (alone && largestPositionStd(alone->covariance) < largestPositionStd(motion.covariance))
     motion = *alone;
-  motion.covariance = withFloor(factor2 * motion.covariance);
+  motion.covariance = withFloor(motion.covariance);
   return motion;
 }
 

@@ -10,6 +10,9 @@
 
 #include <initializer_list>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace fastlio
 {
@@ -71,7 +74,7 @@ TEST(ClosureJudgement, AFloorThatLooksTheSameIsOutOfReach)
   const Closure closure = closureAtHeight(kFloor, 0.53);
   EXPECT_EQ(closure.verdict, ClosureVerdict::OutOfReach) << closure.reason;
   EXPECT_NEAR(closure.registration.motion.T_a_b.p.norm(), 0.0, 0.01) << "it does look the same";
-  EXPECT_NE(closure.reason.find("at most 2.5"), std::string::npos) << closure.reason;
+  EXPECT_NE(closure.reason.find("at most 5.0"), std::string::npos) << closure.reason;
 }
 
 TEST(ClosureJudgement, AnErrorThatTheOdometryKnowsOfIsNone)
@@ -86,19 +89,101 @@ TEST(ClosureJudgement, WhereTheOdometryWasLostNoPlaceIsRecognised)
 {
   for (const double height : {0.0, kFloor})
   {
-    const Closure closure = closureAtHeight(height, 2.0);
+    const Closure closure = closureAtHeight(height, 4.0);
     EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
     EXPECT_NE(closure.reason.find("4.0 m uncertain"), std::string::npos) << closure.reason;
   }
 }
 
-/** Less than half of what is in view, and the next floor is still within 2.5 deviations. */
+/** Less than half of what is in view, and the next floor is still within three deviations. */
 TEST(ClosureJudgement, AFloorIsNotRecognisedWhereTheHeightIsUncertain)
 {
-  const Closure closure = closureAtHeight(kFloor, 0.7);
+  const Closure closure = closureAtHeight(kFloor, 1.4);
   ASSERT_TRUE(closure.registration.converged);
   EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
   EXPECT_NE(closure.reason.find("1.4 m uncertain in height"), std::string::npos) << closure.reason;
+}
+
+/** The height is known well enough to tell floors apart, so what is a floor away is another one. */
+TEST(ClosureJudgement, AnotherFloorWithinTheDeviationsIsOutOfReach)
+{
+  const Closure closure = closureAtHeight(kFloor, 0.8);
+  ASSERT_TRUE(closure.registration.converged);
+  EXPECT_EQ(closure.verdict, ClosureVerdict::OutOfReach) << closure.reason;
+  EXPECT_NE(closure.reason.find("another floor"), std::string::npos) << closure.reason;
+}
+
+/** The same along the way: the next room is as far away as what is in view of this one. */
+TEST(ClosureJudgement, AnotherRoomWithinTheDeviationsIsOutOfReach)
+{
+  Submap later = roomsAt(0.0, 0.0, 60.0);
+  const double away = 1.6 * later.range, std = 0.45 * later.range;
+  later.reference.T_world_body.p.x() += away;
+  later.reference.map_covariance(3, 3) = std * std;
+  later.reference.covariance = later.reference.map_covariance + 1e-8 * Matrix6::Identity();
+  const Closure closure = closureOf({roomsAt(0.0, 0.0, 0.0), later});
+  ASSERT_TRUE(closure.registration.converged);
+  EXPECT_EQ(closure.verdict, ClosureVerdict::OutOfReach) << closure.reason;
+  EXPECT_NE(closure.reason.find("another place"), std::string::npos) << closure.reason;
+}
+
+/** Where an odometry that is lost along x has rooms that were seen before.
+ * \param ways along x, of submaps that are really all at the first one's place [m] */
+std::vector<Closure> closuresOfALostOdometry(const std::vector<double>& ways)
+{
+  constexpr double kLost = 3.0;  // standard deviation [m]
+  Mapper mapper;
+  mapper.add(roomsAt(0.0, 0.0, 0.0));
+  double travel = 60.0;
+  for (const double way : ways)
+  {
+    Submap later = roomsAt(0.0, 0.0, travel += 5.0);
+    later.reference.T_world_body.p.x() += way;
+    later.reference.map_covariance(3, 3) = kLost * kLost;
+    later.reference.covariance = later.reference.map_covariance + 1e-8 * Matrix6::Identity();
+    mapper.add(std::move(later));
+  }
+  return mapper.closures();
+}
+
+/** A single place that looks like an earlier one may be the next room. */
+TEST(ClosureAgreement, OneSubmapIsNotEnoughWhereTheOdometryWasLost)
+{
+  const std::vector<Closure> closures = closuresOfALostOdometry({2.0});
+  ASSERT_EQ(closures.size(), 1U);
+  EXPECT_TRUE(closures[0].needs_agreement) << closures[0].reason;
+  EXPECT_EQ(closures[0].verdict, ClosureVerdict::Unpredicted);
+}
+
+TEST(ClosureAgreement, TwoSubmapsThatAgreeAreRecognised)
+{
+  const std::vector<Closure> closures = closuresOfALostOdometry({2.0, 2.1});
+  ASSERT_EQ(closures.size(), 2U);
+  for (const Closure& closure : closures)
+  {
+    EXPECT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
+    EXPECT_NE(closure.reason.find("closures of 2 submaps agree"), std::string::npos);
+    EXPECT_NEAR(closure.registration.motion.T_a_b.p.norm(), 0.0, 0.01);
+  }
+}
+
+/** One of them is in the next room; nobody knows which. */
+TEST(ClosureAgreement, TwoSubmapsThatContradictEachOtherAreNot)
+{
+  const std::vector<Closure> closures = closuresOfALostOdometry({2.0, -1.0});
+  ASSERT_EQ(closures.size(), 2U);
+  for (const Closure& closure : closures)
+    EXPECT_EQ(closure.verdict, ClosureVerdict::Unpredicted) << closure.reason;
+}
+
+/** What contradicts has to be outvoted by two. */
+TEST(ClosureAgreement, ThreeOutvoteOne)
+{
+  const std::vector<Closure> closures = closuresOfALostOdometry({-1.0, 2.0, 2.0, 2.0});
+  ASSERT_EQ(closures.size(), 4U);
+  EXPECT_EQ(closures[0].verdict, ClosureVerdict::Unpredicted) << closures[0].reason;
+  for (std::size_t i = 1; i < closures.size(); ++i)
+    EXPECT_EQ(closures[i].verdict, ClosureVerdict::Accepted) << closures[i].reason;
 }
 
 /** Streets have no floors, and a long ride drifts by metres before it comes back. */

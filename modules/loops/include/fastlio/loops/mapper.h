@@ -44,7 +44,8 @@ struct Closure
   RelativePose predicted;     //!< T_a_b before the registration
   Registration registration;  //!< T_a_b
   ClosureVerdict verdict = ClosureVerdict::FewPlanes;
-  std::string reason;  //!< the verdict with its numbers, for people
+  std::string reason;            //!< the verdict with its numbers, for people
+  bool needs_agreement = false;  //!< of another closure: nothing else is missing
 };
 
 /** Second moment of the error of the extrinsic in use, T_imu_lidar = Exp(eta) T_true, eta =
@@ -68,22 +69,26 @@ struct ClosureLimits
   /** Least known directions of the position that are exempt from it: along a corridor, a closure
    * may determine the rest. */
   int open_directions = 0;
-  /** Standard deviations of the odometry count so many times: real sensors have errors that it does
-   * not know of. */
-  double odometry_std_factor = 2.0;
-  /** Largest standard deviation of the prediction indoors, as a part of the median range of the
-   * submaps. What is seen there repeats at about its own size: rooms, doors, floors. */
-  double max_std_over_range = 0.5;
-  /** Nor may the height be so uncertain that the next floor, so far away [m], is within
-   * max_deviation. */
-  double least_storey = 3.0;
-  /** From the prediction, in these deviations. What repeats fits perfectly where the odometry is
-   * worst, on another floor for example: nothing else than its distance tells it apart. */
-  double max_deviation = 2.5;
+  /** From the prediction, in its standard deviations. What repeats fits perfectly where the
+   * odometry is worst, on another floor for example: nothing else than its distance tells it
+   * apart. */
+  double max_deviation = 5.0;
+  /** Indoors, the next place that looks the same may be this far, as a part of the median range of
+   * the submaps: rooms and doors repeat at about the size of what is seen of them. */
+  double alike_over_range = 1.5;
+  double least_storey = 3.0;  //!< the same for heights: the next floor [m]
+  /** The prediction has to exclude such a place by so many standard deviations. */
+  double alike_deviation = 3.0;
   /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
    * fewer surfaces suffice, and the closure may leave one direction open. */
-  double known_place_std = 0.5;
+  double known_place_std = 0.25;
   double known_place_overlap = 0.15;  //!< instead of min_overlap and min_upright
+
+  /** How uncertain a place may be indoors, where so much is in view [m]. */
+  [[nodiscard]] double maxStd(double range) const
+  {
+    return alike_over_range / alike_deviation * range;
+  }
 };
 
 /** How a session was found in the map of those before. */
@@ -169,6 +174,10 @@ class Mapper
   [[nodiscard]] std::optional<RelativePose> odometryMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
   void judge(Closure& closure) const;
+  void judgeIndoors(Closure& closure, const Vec3& up, double range) const;
+  [[nodiscard]] RelativePose motionBetween(std::size_t a, std::size_t b) const;
+  [[nodiscard]] std::optional<bool> closuresAgree(const Closure& one, const Closure& other) const;
+  void acceptAgreeing(const Closure& latest);
   [[nodiscard]] ClosureLimits limitsFor(const RelativePose& predicted) const;
   void settle();
 
