@@ -14,17 +14,19 @@ namespace fastlio
 {
 namespace
 {
-// Doors and pillars that are alike pull a registration along a corridor by more than it knows of.
-constexpr double kWeak = 0.1;   // [m]
-constexpr double kOpen = 10.0;  // as of directions that nothing constrains [m]
+constexpr double kOpen = 10.0;   // as of directions that nothing constrains [m]
+constexpr double kNarrow = 5.0;  // median range of stairwells and rooms, not of streets [m]
 
 /** A direction of the position that is known weakly counts as not known. \return whether there is
  * one */
-bool openWeakDirection(RelativePose& motion)
+bool openWeakDirection(Registration& registration, const ClosureLimits& limits)
 {
+  RelativePose& motion = registration.motion;
   const Mat3 position = motion.covariance.bottomRightCorner<3, 3>();
   const auto system = symmetricEigensystem(position);
-  if (system.values.z() <= kWeak * kWeak) return false;
+  const bool is_known = system.values.z() <= std::pow(limits.max_position_std, 2) &&
+                        registration.evidence.planes_across[0] >= limits.min_planes_across;
+  if (is_known) return false;
   const Vec3 direction = system.vectors.col(2);
   motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * direction * direction.transpose();
   return true;
@@ -33,7 +35,7 @@ bool openWeakDirection(RelativePose& motion)
 /** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
  * are up to 2.4 % of a submap's planes; in corridors, ceilings are 9 % or more in nine of ten
  * submaps. */
-bool isIndoors(const std::vector<VoxelPlane>& planes, const Vec3& up)
+bool isBelowCeiling(const std::vector<VoxelPlane>& planes, const Vec3& up)
 {
   constexpr double kLevelCosine = 0.9, kCeilings = 0.04;
   const auto is_ceiling = [&up](const VoxelPlane& plane)
@@ -105,31 +107,37 @@ std::optional<Shortcoming> shortcomingOf(
             "another place, %.1f m away, is nearly as likely (margin %.1f, at least %.1f)",
             found.rival.norm(), found.margin, limits.min_margin)};
   const double std = positionStd(registration.motion.covariance, 2 - limits.open_directions);
-  if (std > limits.max_position_std)
+  const double across = found.planes_across[limits.open_directions];
+  if (std > limits.max_position_std || across < limits.min_planes_across)
     return Shortcoming{
         ClosureVerdict::Uninformative,
-        mrpt::format("the surfaces leave a direction open: %.2f m", std)};
+        mrpt::format(
+            "the surfaces leave a direction open: it is known to %.2f m, by %.1f planes (to %.2f m "
+            "by %.0f at least)",
+            std, across, limits.max_position_std, limits.min_planes_across)};
   return std::nullopt;
 }
 
-ClosureLimits Mapper::limitsFor(const RelativePose& predicted) const
+ClosureLimits Mapper::limitsFor(const RelativePose& predicted, bool is_narrow) const
 {
   ClosureLimits limits = limits_;
+  if (is_narrow) limits.max_deviation = limits.narrow_deviation;
   if (largestPositionStd(predicted.covariance) > limits.known_place_std) return limits;
   limits.min_overlap = limits.min_upright = limits.known_place_overlap;
   limits.open_directions = 1;
   return limits;
 }
 
-void Mapper::judge(Closure& closure) const
+void Mapper::judge(Closure& closure, bool is_narrow) const
 {
-  const ClosureLimits limits = limitsFor(closure.predicted);
+  const ClosureLimits limits = limitsFor(closure.predicted, is_narrow);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
   const RegistrationEvidence& found = closure.registration.evidence;
   GraphEdge edge{0, 1, closure.registration.motion, true};
   // Along an open direction the odometry decides alone.
-  const bool is_open = limits.open_directions > 0 && openWeakDirection(closure.registration.motion);
+  const bool is_open =
+      limits.open_directions > 0 && openWeakDirection(closure.registration, limits);
   if (is_open) edge.measured.covariance.setZero();
   edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
   const double deviation = std::sqrt(squaredError(edge, Pose{}, closure.predicted.T_a_b));
@@ -164,50 +172,39 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   }
   const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
   const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
-  const bool indoors = isIndoors(target->planes, up) ||
-                       isIndoors(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
+  const bool below_ceiling =
+      isBelowCeiling(target->planes, up) ||
+      isBelowCeiling(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
   closure.registration =
       SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
-  judge(closure);
-  if (indoors && closure.verdict == ClosureVerdict::Accepted) judgeIndoors(closure, up, range);
+  const bool is_narrow = below_ceiling || range < kNarrow;
+  judge(closure, is_narrow);
+  if (is_narrow && closure.verdict == ClosureVerdict::Accepted)
+    judgePrediction(closure, up, below_ceiling, range);
   return closure;
 }
 
-/** Indoors, what has been found may be the next room or floor that looks the same. */
-void Mapper::judgeIndoors(Closure& closure, const Vec3& up, double range) const
+/** What has been found in a narrow place may be the next floor or room, which looks the same. */
+void Mapper::judgePrediction(
+    Closure& closure, const Vec3& up, bool below_ceiling, double range) const
 {
   const Mat3 position = closure.predicted.covariance.bottomRightCorner<3, 3>();
   const double height_std = std::sqrt(up.dot(position * up));
-  if (limits_.alike_deviation * height_std > limits_.least_storey)
+  if (below_ceiling && limits_.narrow_deviation * height_std > limits_.least_storey)
     return decide(
         closure, ClosureVerdict::Unpredicted,
         mrpt::format(
             "the odometry is %.1f m uncertain in height: the next floor may look the same",
             height_std));
-  const Vec3 moved = closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p;
-  if (std::abs(up.dot(moved)) > limits_.least_storey)
-    return decide(
-        closure, ClosureVerdict::OutOfReach,
-        mrpt::format(
-            "%.1f m above or below where the odometry has it: another floor may look the same",
-            std::abs(up.dot(moved))));
   const double std = largestPositionStd(closure.predicted.covariance);
-  const double max_std = limits_.maxStd(range);
-  closure.needs_agreement = std > max_std;
+  closure.needs_agreement = std > limits_.maxStd(range);
   if (closure.needs_agreement)
-    return decide(
+    decide(
         closure, ClosureVerdict::Unpredicted,
         mrpt::format(
             "the odometry is %.1f m uncertain, more than %.1f m, with %.1f m in view: a place that "
             "looks the same may be another one, and no other closure agrees",
-            std, max_std, range));
-  if (moved.norm() > limits_.alike_over_range * range)
-    decide(
-        closure, ClosureVerdict::OutOfReach,
-        mrpt::format(
-            "%.1f m from where the odometry has it, with %.1f m in view: another place may look "
-            "the same",
-            moved.norm(), range));
+            std, limits_.maxStd(range), range));
 }
 
 }  // namespace fastlio

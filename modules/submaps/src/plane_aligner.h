@@ -202,6 +202,17 @@ class PlaneAligner
     return noise;
   }
 
+  [[nodiscard]] Vec3 planesAcross(const std::vector<Patch>& source, const Pose& T) const
+  {
+    Mat3 sum = Mat3::Zero();
+    for (const Patch& patch : source)
+    {
+      const auto pair = partnerOf(patch, T, kFine.back().reach);
+      if (pair && isInlier(*pair)) sum += pair->target->normal * pair->target->normal.transpose();
+    }
+    return symmetricEigensystem(sum).values;
+  }
+
   [[nodiscard]] Registration finish(const std::vector<Patch>& source, const Pose& T) const
   {
     const Alignment sums = align(source, T, kFine.back());
@@ -217,6 +228,7 @@ class PlaneAligner
     evidence.residual_rms = std::sqrt(sums.squares / inliers);
     evidence.cost = sums.cost(source.size());
     evidence.score = static_cast<double>(sums.inliers) / count;
+    evidence.planes_across = planesAcross(source, T);
     // What the planes' own variances do not explain makes the result less certain.
     const double excess = std::max(1.0, sums.normalized / inliers);
     const Eigensystem6 system = symmetricEigensystem(
@@ -241,6 +253,11 @@ class PlaneAligner
         own + targets + kSurfaceBias * kSurfaceBias};
   }
 
+  static bool isInlier(const Pair& pair)
+  {
+    return pair.distance * pair.distance < kInlier * kInlier * pair.variance;
+  }
+
   /** By Geman and McClure. */
   static double weightOf(const Pair& pair, double scale)
   {
@@ -253,7 +270,7 @@ class PlaneAligner
   {
     ++sums.pairs;
     const double squared = pair.distance * pair.distance;
-    if (squared < kInlier * kInlier * pair.variance)
+    if (isInlier(pair))
     {
       ++sums.inliers;
       sums.squares += squared;

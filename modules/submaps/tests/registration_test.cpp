@@ -193,6 +193,27 @@ TEST(SubmapRegistration, ReportsTheDirectionsThatTheSurfacesLeaveOpen)
   EXPECT_LT(std::sqrt(found.motion.covariance(5, 5)), 0.03);
 }
 
+/** Walls tell no height, whatever the noise of their normals seems to say. */
+TEST(SubmapRegistration, CountsThePlanesThatTellADirection)
+{
+  const auto all = yard({}, 1);
+  std::vector<VoxelPlane> walls = all;
+  walls.erase(
+      std::remove_if(
+          walls.begin(), walls.end(),
+          [](const VoxelPlane& plane) { return std::abs(plane.nz) > 0.3F; }),
+      walls.end());
+  const RelativePose predicted = predictedAt({}, 0.05, 0.01);
+  const auto acrossOf = [&](const std::vector<VoxelPlane>& planes)
+  { return SubmapRegistration(planes).search(planes, predicted, Vec3::UnitZ()).evidence; };
+  const RegistrationEvidence with_floor = acrossOf(all), without = acrossOf(walls);
+  EXPECT_NEAR(
+      with_floor.planes_across.sum(), with_floor.score * static_cast<double>(all.size()), 1.0);
+  EXPECT_GT(with_floor.planes_across[0], 50.0);
+  EXPECT_GT(without.planes_across[1], 50.0);
+  EXPECT_LT(without.planes_across[0], 0.02 * without.planes_across[1]);
+}
+
 TEST(SubmapRegistration, MedianDistanceIsThatOfTheShift)
 {
   const SubmapRegistration target(yard({}, 1));

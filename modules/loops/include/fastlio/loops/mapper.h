@@ -65,29 +65,34 @@ struct ClosureLimits
   double min_inlier_ratio = 0.6;  //!< RegistrationEvidence::inlier_ratio
   double max_residual = 0.06;     //!< RegistrationEvidence::residual_rms [m]
   double min_margin = 25.0;       //!< RegistrationEvidence::margin
-  double max_position_std = 0.3;  //!< of a closure, in its least known direction [m]
-  /** Least known directions of the position that are exempt from it: along a corridor, a closure
+  /** Of a closure, in its least known direction [m]: doors and pillars that are alike pull a
+   * registration along a corridor by more than it knows of. */
+  double max_position_std = 0.1;
+  /** RegistrationEvidence::planes_across, in this direction: in a stairwell, the noise of its walls
+   * seems to tell the height. Neighbouring planes share errors: so many count as one. */
+  double min_planes_across = 8.0;
+  /** Least known directions of the position that are exempt from both: along a corridor, a closure
    * may determine the rest. */
   int open_directions = 0;
   /** From the prediction, in its standard deviations. What repeats fits perfectly where the
    * odometry is worst, on another floor for example: nothing else than its distance tells it
    * apart. */
   double max_deviation = 5.0;
-  /** Indoors, the next place that looks the same may be this far, as a part of the median range of
-   * the submaps: rooms and doors repeat at about the size of what is seen of them. */
+  /** In narrow places, the next one that looks the same may be this far, as a part of the median
+   * range of the submaps: rooms and doors repeat at about the size of what is seen of them. */
   double alike_over_range = 1.5;
-  double least_storey = 3.0;  //!< the same for heights: the next floor [m]
-  /** The prediction has to exclude such a place by so many standard deviations. */
-  double alike_deviation = 3.0;
+  double least_storey = 3.0;  //!< the same for heights, below ceilings: the next floor [m]
+  /** In narrow places, instead of max_deviation: what looks the same has to be beyond it. */
+  double narrow_deviation = 4.0;
   /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
    * fewer surfaces suffice, and the closure may leave one direction open. */
   double known_place_std = 0.25;
   double known_place_overlap = 0.15;  //!< instead of min_overlap and min_upright
 
-  /** How uncertain a place may be indoors, where so much is in view [m]. */
+  /** How uncertain a place may be where so much is in view [m]. */
   [[nodiscard]] double maxStd(double range) const
   {
-    return alike_over_range / alike_deviation * range;
+    return alike_over_range / narrow_deviation * range;
   }
 };
 
@@ -173,12 +178,12 @@ class Mapper
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::optional<RelativePose> odometryMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
-  void judge(Closure& closure) const;
-  void judgeIndoors(Closure& closure, const Vec3& up, double range) const;
+  void judge(Closure& closure, bool is_narrow) const;
+  void judgePrediction(Closure& closure, const Vec3& up, bool below_ceiling, double range) const;
   [[nodiscard]] RelativePose motionBetween(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::optional<bool> closuresAgree(const Closure& one, const Closure& other) const;
   void acceptAgreeing(const Closure& latest);
-  [[nodiscard]] ClosureLimits limitsFor(const RelativePose& predicted) const;
+  [[nodiscard]] ClosureLimits limitsFor(const RelativePose& predicted, bool is_narrow) const;
   void settle();
 
   ClosureLimits limits_;

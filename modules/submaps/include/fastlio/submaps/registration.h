@@ -23,8 +23,11 @@ struct RegistrationEvidence
   double residual_rms = 0.0;   //!< of the inliers, across the planes [m]
   double score = 0.0;          //!< fraction of the source's planes that agree
   double upright_score = 0.0;  //!< likewise of upright planes: floors and ceilings fit anywhere
-  std::size_t starts = 0;      //!< places and headings that were tried
-  double cost = 0.0;           //!< minus the logarithm of the likelihood of all planes
+  /** How many of the planes that agree lie across a direction of the position, the least first:
+   * eigenvalues of the sum of n n^T over their normals. */
+  Vec3 planes_across = Vec3::Zero();
+  std::size_t starts = 0;  //!< places and headings that were tried
+  double cost = 0.0;       //!< minus the logarithm of the likelihood of all planes
   /** How much likelier the pose is than any other place that was found (natural logarithm);
    * infinite: there was none. */
   double margin = 0.0;
