@@ -125,7 +125,7 @@ std::vector<Closure> closuresOfALostOdometry(const std::vector<double>& ways)
 }
 
 /** A single place that looks like an earlier one may be the next room. */
-TEST(ClosureAgreement, OneSubmapIsNotEnoughWhereTheOdometryWasLost)
+TEST(AgreeingClosures, OneSubmapIsNotEnoughWhereTheOdometryWasLost)
 {
   const std::vector<Closure> closures = closuresOfALostOdometry({2.0});
   ASSERT_EQ(closures.size(), 1U);
@@ -133,7 +133,7 @@ TEST(ClosureAgreement, OneSubmapIsNotEnoughWhereTheOdometryWasLost)
   EXPECT_EQ(closures[0].verdict, ClosureVerdict::Unpredicted);
 }
 
-TEST(ClosureAgreement, TwoSubmapsThatAgreeAreRecognised)
+TEST(AgreeingClosures, TwoSubmapsThatAgreeAreRecognised)
 {
   const std::vector<Closure> closures = closuresOfALostOdometry({2.0, 2.1});
   ASSERT_EQ(closures.size(), 2U);
@@ -146,7 +146,7 @@ TEST(ClosureAgreement, TwoSubmapsThatAgreeAreRecognised)
 }
 
 /** One of them is in the next room; nobody knows which. */
-TEST(ClosureAgreement, TwoSubmapsThatContradictEachOtherAreNot)
+TEST(AgreeingClosures, TwoSubmapsThatContradictEachOtherAreNot)
 {
   const std::vector<Closure> closures = closuresOfALostOdometry({2.0, -1.0});
   ASSERT_EQ(closures.size(), 2U);
@@ -155,7 +155,7 @@ TEST(ClosureAgreement, TwoSubmapsThatContradictEachOtherAreNot)
 }
 
 /** What contradicts has to be outvoted by two. */
-TEST(ClosureAgreement, ThreeOutvoteOne)
+TEST(AgreeingClosures, ThreeOutvoteOne)
 {
   const std::vector<Closure> closures = closuresOfALostOdometry({-1.0, 2.0, 2.0, 2.0});
   ASSERT_EQ(closures.size(), 4U);
