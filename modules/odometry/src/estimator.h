@@ -60,6 +60,9 @@ class Estimator
   /** Searches the pose in the map around this one, which it is uncertain about by so much [m, rad],
    * until it is found. With canGoOn() only. */
   void relocalize(const Pose& T_map_imu, double position_std, double yaw_std);
+  /** Searches the pose in the map around the predicted one for a while, then begins a new map where
+   * the inertial data have the pose. With canGoOn() only. */
+  void searchAroundPrediction();
   /** No scans until reinitialise(). */
   void suspend();
   /** Goes on from a start of its own with the carried pose: searches for the map of before, and

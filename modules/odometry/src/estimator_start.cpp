@@ -95,6 +95,14 @@ void Estimator::relocalize(const Pose& T_map_imu, double position_std, double ya
       startedRun(state_.stamp_ns, false, std::nullopt), std::numeric_limits<std::int64_t>::max()};
 }
 
+void Estimator::searchAroundPrediction()
+{
+  skipScan();
+  mode_ = Relocalizing{
+      startedRun(state_.stamp_ns, false, std::nullopt),
+      state_.stamp_ns + toNanoseconds(kMapSearchTime)};
+}
+
 void Estimator::suspend()
 {
   skipScan();

@@ -186,7 +186,14 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   imu_.forgetBefore(queued.span.end_ns);
   const auto loss =
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
-  if (loss) reinitialise(*loss, result.stamp_ns);
+  if (loss && reinitialization_.goesOn(estimator_.canGoOn()))
+  {
+    estimator_.searchAroundPrediction();
+    diagnostics_.report(
+        result.stamp_ns, *loss + ": a new map begins where the inertial data have the pose");
+  }
+  else if (loss)
+    reinitialise(*loss, result.stamp_ns);
   diagnostics_.consider(result);
   return result;
 }

@@ -70,6 +70,7 @@ std::optional<std::string> Reinitialization::detectTrackingLoss(
   {
     last_good_ = state;
     last_good_ns_ = result.stamp_ns;
+    went_on_ = false;
   }
   if (result.status != ScanStatus::Diverged || relocalizing ||
       s.points_downsampled < kMinEffectivePoints)
@@ -86,6 +87,14 @@ std::optional<std::string> Reinitialization::detectTrackingLoss(
   else
     decide({*last_good_, last_good_ns_, false});
   return mrpt::format("no scan has matched the map for %.1f s", unaided_s);
+}
+
+bool Reinitialization::goesOn(bool state_is_known)
+{
+  if (!state_is_known || went_on_) return false;
+  went_on_ = true;
+  last_believed_.reset();
+  return true;
 }
 
 void Reinitialization::decide(const BelievedState& last)

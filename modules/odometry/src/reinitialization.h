@@ -48,6 +48,11 @@ class Reinitialization
   [[nodiscard]] std::optional<std::string> detectTrackingLoss(
       const ScanResult& result, const FilterState& state, bool relocalizing);
 
+  /** Whether the run that has lost its pose goes on with its state, in a new map: as long as that
+   * is known, it is better than a new start. Not twice in a row: the state may be wrong.
+   * \param state_is_known position and velocity are */
+  [[nodiscard]] bool goesOn(bool state_is_known);
+
   /** The pose of the run is another one now. */
   void forgetPoses()
   {
@@ -78,6 +83,7 @@ class Reinitialization
   std::optional<BelievedState> last_believed_;  // while a re-initialisation is pending
   std::optional<FilterState> last_good_;        // of the latest scan that was tracked well
   std::int64_t last_good_ns_ = 0;
+  bool went_on_ = false;            // since the last scan that was tracked well
   std::int64_t lost_since_ns_ = 0;  // scans see enough, the pose is not trusted; 0: it is
 };
 

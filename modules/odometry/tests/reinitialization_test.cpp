@@ -30,5 +30,48 @@ TEST(Reinitialization, TheCarriedPoseIsAsUncertainAsTheTimeUntilTheStart)
   EXPECT_NEAR(carriedStd(11 * kSecond), 0.5, 1e-6);
   EXPECT_NEAR(carriedStd(14 * kSecond), 8.0, 1e-6);
 }
+
+/** A scan of which nothing or everything matches. */
+ScanResult scanThat(bool matches, std::int64_t stamp_ns)
+{
+  constexpr std::size_t kPoints = 1000;
+  ScanResult result;
+  result.status = matches ? ScanStatus::Tracking : ScanStatus::Diverged;
+  result.stamp_ns = stamp_ns;
+  result.statistics.points_downsampled = kPoints;
+  result.statistics.points_effective = matches ? kPoints : 0;
+  return result;
+}
+
+/** Scans that do not match until the pose counts as lost. */
+void lose(Reinitialization& reinitialization, std::int64_t from_ns)
+{
+  const FilterState state;
+  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(false, from_ns), state, false));
+  EXPECT_TRUE(
+      reinitialization.detectTrackingLoss(scanThat(false, from_ns + kSecond), state, false));
+}
+
+TEST(Reinitialization, AStateThatIsKnownGoesOnOnceUntilAScanMatches)
+{
+  Reinitialization reinitialization{OdometryOptions{}};
+  lose(reinitialization, 10 * kSecond);
+  EXPECT_TRUE(reinitialization.goesOn(true));
+  EXPECT_FALSE(reinitialization.pending());
+  lose(reinitialization, 20 * kSecond);
+  EXPECT_FALSE(reinitialization.goesOn(true)) << "the state may be the reason";
+  EXPECT_TRUE(reinitialization.pending());
+  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(true, 30 * kSecond), {}, false));
+  lose(reinitialization, 40 * kSecond);
+  EXPECT_TRUE(reinitialization.goesOn(true));
+}
+
+TEST(Reinitialization, AStateThatIsNotKnownDoesNotGoOn)
+{
+  Reinitialization reinitialization{OdometryOptions{}};
+  lose(reinitialization, 10 * kSecond);
+  EXPECT_FALSE(reinitialization.goesOn(false));
+  EXPECT_TRUE(reinitialization.pending());
+}
 }  // namespace
 }  // namespace fastlio
