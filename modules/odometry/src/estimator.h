@@ -60,8 +60,11 @@ class Estimator
   /** Searches the pose in the map around this one, which it is uncertain about by so much [m, rad],
    * until it is found. With canGoOn() only. */
   void relocalize(const Pose& T_map_imu, double position_std, double yaw_std);
+  /** A pose that is lost is better searched around the prediction than by a new start: the motion
+   * is known, and the map is that of the run. */
+  [[nodiscard]] bool keepsState() const;
   /** Searches the pose in the map around the predicted one for a while, then begins a new map where
-   * the inertial data have the pose. With canGoOn() only. */
+   * the inertial data have the pose. With keepsState() only. */
   void searchAroundPrediction();
   /** No scans until reinitialise(). */
   void suspend();

@@ -95,6 +95,11 @@ void Estimator::relocalize(const Pose& T_map_imu, double position_std, double ya
       startedRun(state_.stamp_ns, false, std::nullopt), std::numeric_limits<std::int64_t>::max()};
 }
 
+bool Estimator::keepsState() const
+{
+  return std::holds_alternative<Tracking>(mode_) && !map_.isGiven() && canGoOn();
+}
+
 void Estimator::searchAroundPrediction()
 {
   skipScan();

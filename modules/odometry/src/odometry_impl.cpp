@@ -186,11 +186,11 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   imu_.forgetBefore(queued.span.end_ns);
   const auto loss =
       reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
-  if (loss && reinitialization_.goesOn(estimator_.canGoOn()))
+  if (loss && reinitialization_.goesOn(estimator_.keepsState()))
   {
     estimator_.searchAroundPrediction();
     diagnostics_.report(
-        result.stamp_ns, *loss + ": a new map begins where the inertial data have the pose");
+        result.stamp_ns, *loss + ": the pose is searched where the inertial data have it");
   }
   else if (loss)
     reinitialise(*loss, result.stamp_ns);

@@ -50,7 +50,7 @@ class Reinitialization
 
   /** Whether the run that has lost its pose goes on with its state, in a new map: as long as that
    * is known, it is better than a new start. Not twice in a row: the state may be wrong.
-   * \param state_is_known position and velocity are */
+   * \param state_is_known the motion is */
   [[nodiscard]] bool goesOn(bool state_is_known);
 
   /** The pose of the run is another one now. */
