@@ -13,8 +13,10 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kWidestReach = 8.0;  // of the search beyond ClosureLimits::distance [m]
+// The search goes beyond ClosureLimits::distance by so many standard deviations, and at most so
+// far.
 constexpr double kReachDeviations = 2.0;
+constexpr double kWidestReach = 8.0;   // [m]
 constexpr std::size_t kApart = 3;      // candidates of one pass are so many submaps apart
 constexpr double kTiltFloor = 0.0003;  // [rad]
 // The graph is optimised anew when it has grown by this part.
