@@ -31,6 +31,7 @@ namespace fastlio::testing
 namespace
 {
 constexpr const char* kTown = "town";
+constexpr const char* kStairs = "stairs";
 
 // A registration that is farther off than its own errors and those of a mounting explain is false:
 // 0.5 m, and more only along a direction that it leaves open.
@@ -49,7 +50,7 @@ constexpr Ride kRides[] = {
     // What is in sight through a door or along a corridor need not have surfaces in common.
     {"corridors", 0.7},
     // A trap only: few surfaces tell the height.
-    {"stairs", 0.0}};
+    {kStairs, 0.0}};
 
 /** An unsigned number in the environment. */
 std::uint64_t numberIn(const char* variable, std::uint64_t otherwise)
@@ -64,6 +65,11 @@ SimulationSettings settingsOf(const std::string& scenario, std::uint64_t seed)
   settings.seed = seed;
   settings.lidar.stride = static_cast<int>(numberIn("FASTLIO_STRIDE", 6));
   if (everything()) return settings;
+  if (scenario == kStairs)
+  {
+    settings.lidar.stride = 4;
+    return settings;
+  }
   settings.lidar.stride = 10;
   settings.speed = 2.0;
   return withSetting(settings, "world.length", "600");
@@ -196,7 +202,7 @@ void expectLevel(const MappingResult& map, const Simulation& simulation)
   const double after =
       levelError(map, simulation, [&](std::size_t i) { return map.estimate.nodes[i]; });
   std::printf("level error: %.3f m by the odometry, %.3f m in the map\n", before, after);
-  if (everything()) return;
+  if (everything() || simulation.settings().scenario == kStairs) return;
   EXPECT_GT(before, 0.15);
   EXPECT_LT(after, 0.2 * before);
   EXPECT_LT(after, 0.05);
@@ -210,7 +216,7 @@ class Closures : public ::testing::TestWithParam<Ride>
 TEST_P(Closures, NoneIsFalseAndMostAreFound)
 {
   const std::string scenario = GetParam().scenario;
-  if (!everything() && scenario != kTown)
+  if (!everything() && scenario != kTown && scenario != kStairs)
     GTEST_SKIP() << "a ride without its traps shows nothing: FASTLIO_EVERYTHING=1 takes whole ones";
   const std::uint64_t seeds = everything() ? 50 : 1;
   Tally tally;
