@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace fastlio
@@ -53,16 +54,12 @@ void Mapper::acceptAgreeing(const Closure& latest)
     if (*agrees) agreeing.push_back(&other);
   }
   if (for_it.size() < 2 + against_it.size()) return;
+  const std::string remark =
+      mrpt::format("; the odometry was lost, and closures of %zu submaps agree", for_it.size());
   for (Closure* closure : agreeing)
   {
     closure->needs_agreement = false;
-    closure->verdict = ClosureVerdict::Accepted;
-    const Vec3 moved = closure->registration.motion.T_a_b.p - closure->predicted.T_a_b.p;
-    closure->reason = mrpt::format(
-        "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m; the odometry was lost, and "
-        "closures of %zu submaps agree",
-        moved.norm(), 100.0 * closure->registration.evidence.score,
-        closure->registration.evidence.residual_rms, for_it.size());
+    accept(*closure, remark);
     result_.graph.edges.push_back({closure->a, closure->b, closure->registration.motion, true});
   }
   settle();

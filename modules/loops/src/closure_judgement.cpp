@@ -112,9 +112,9 @@ std::optional<Shortcoming> shortcomingOf(
     return Shortcoming{
         ClosureVerdict::Uninformative,
         mrpt::format(
-            "the surfaces leave a direction open: it is known to %.2f m, by %.1f planes (to %.2f m "
-            "by %.0f at least)",
-            std, across, limits.max_position_std, limits.min_planes_across)};
+            "the surfaces leave a direction open: they tell it to %.2f m (at most %.2f m), by %.1f "
+            "planes (at least %.0f)",
+            std, limits.max_position_std, across, limits.min_planes_across)};
   return std::nullopt;
 }
 
@@ -133,7 +133,6 @@ void Mapper::judge(Closure& closure, bool is_narrow) const
   const ClosureLimits limits = limitsFor(closure.predicted, is_narrow);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
-  const RegistrationEvidence& found = closure.registration.evidence;
   GraphEdge edge{0, 1, closure.registration.motion, true};
   // Along an open direction the odometry decides alone.
   const bool is_open =
@@ -149,11 +148,7 @@ void Mapper::judge(Closure& closure, bool is_narrow) const
             "%.2f m from where the odometry has it: %.1f standard deviations, at most %.1f are "
             "allowed",
             moved, deviation, limits.max_deviation));
-  decide(
-      closure, ClosureVerdict::Accepted,
-      mrpt::format(
-          "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s", moved, 100.0 * found.score,
-          found.residual_rms, is_open ? "; one direction stays open" : ""));
+  accept(closure, is_open ? "; one direction stays open" : "");
 }
 
 Closure Mapper::compared(std::size_t a, std::size_t b) const

@@ -4,6 +4,7 @@
 #include "mapper_parts.h"
 
 #include <Eigen/Geometry>
+#include <mrpt/core/format.h>
 
 namespace fastlio
 {
@@ -16,6 +17,16 @@ Matrix6 carried(const Pose& a, const Matrix6& covariance, const RelativePose& mo
   Matrix6 K = Matrix6::Identity();
   K.bottomRightCorner<3, 3>() = a.R;
   return J * covariance * J.transpose() + K * motion.covariance * K.transpose();
+}
+
+void accept(Closure& closure, const std::string& remark)
+{
+  const Registration& found = closure.registration;
+  closure.verdict = ClosureVerdict::Accepted;
+  closure.reason = mrpt::format(
+      "moves by %.3f m; %.0f %% of the surfaces agree to %.3f m%s",
+      (found.motion.T_a_b.p - closure.predicted.T_a_b.p).norm(), 100.0 * found.evidence.score,
+      found.evidence.residual_rms, remark.c_str());
 }
 
 void stayAsOdometry(MappingResult& result)

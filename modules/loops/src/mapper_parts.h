@@ -26,6 +26,9 @@ namespace fastlio
   return positionStd(covariance, 2);
 }
 
+/** Takes a closure. \param remark that its reason ends with, for people */
+void accept(Closure& closure, const std::string& remark);
+
 /** Why a registration is not taken. */
 struct Shortcoming
 {
