@@ -34,9 +34,9 @@ void CalibrationErrorModel::propagate(const ErrorTransition& transition)
   S_.block<kMotionDim, 18>(0, kGyroMatrixError) += transition.by_inertial;
 }
 
-void CalibrationErrorModel::correct(const StateMatrix& kept)
+void CalibrationErrorModel::correct(const MotionGain& K)
 {
-  S_ = product(kept, S_);
+  S_ -= product(K, PoseByCalibration(S_.middleRows<6>(kVelocity)));
 }
 
 PoseByCalibration CalibrationErrorModel::ofScan(const ScanPoseJacobian& by_state) const

@@ -48,14 +48,13 @@ void ConsideredErrors::propagate(const ErrorTransition& transition)
   }
 }
 
-void ConsideredErrors::correct(const NavigationMatrix& kept)
+void ConsideredErrors::correct(const NavigationBy6& K)
 {
-  // An update of few elements changes errors by these: the other columns are those of the identity.
-  const NavigationMatrix taken = NavigationMatrix::Identity() - kept;
-  const Eigen::Matrix<double, kNavigationDim, kSize> before = with_state_;
-  for (int element = 0; element < kNavigationDim; ++element)
-    if (!taken.col(element).isZero(0.0))
-      with_state_ -= taken.col(element).lazyProduct(before.row(element));
+  for (int column = 0; column < kSize; column += 6)
+  {
+    const Square6 measured = with_state_.block<6, 6>(kVelocity, column);
+    with_state_.middleCols<6>(column) -= K.lazyProduct(measured);
+  }
 }
 
 void ConsideredErrors::update(

@@ -77,10 +77,12 @@ void MapErrorModel::propagate(const ErrorTransition& transition)
   considered_.propagate(transition);
 }
 
-void MapErrorModel::correct(const StateMatrix& kept)
+void MapErrorModel::correct(const MotionGain& K)
 {
-  const NavigationMatrix of_navigation = kept.topLeftCorner<kNavigationDim, kNavigationDim>();
-  addition_ = transformedCovariance(of_navigation, addition_);
+  const NavigationBy6 of_navigation = K.topRows<kNavigationDim>();
+  addition_ -= product(of_navigation, SixByNavigation(addition_.middleRows<6>(kVelocity)));
+  addition_ -=
+      productByTransposed(NavigationBy6(addition_.middleCols<6>(kVelocity)), of_navigation);
   considered_.correct(of_navigation);
 }
 

@@ -152,10 +152,11 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     Phi.topRows<kMotionDim>() = transition.by_state.leftCols<kNavigationDim>();
     model.propagate(transition);
     dense.propagate(Phi);
-    StateMatrix kept = StateMatrix::Identity();
-    kept.topLeftCorner<kNavigationDim, kNavigationDim>() += 0.02 * NavigationMatrix::Random();
-    model.correct(kept);
-    dense.propagate(kept.topLeftCorner<kNavigationDim, kNavigationDim>());
+    const MotionGain K = 0.02 * MotionGain::Random();
+    model.correct(K);
+    NavigationMatrix kept = NavigationMatrix::Identity();
+    kept.middleCols<6>(kVelocity) -= K.topRows<kNavigationDim>();
+    dense.propagate(kept);
 
     GroupedMeasurements scan = randomScan(i < 15 ? 1 : 2);
     const Matrix6 root = squareRoot(scan.plane_errors);

@@ -81,7 +81,9 @@ Matrix6 additionOn(
 {
   MapErrorModel model;
   model.recordInsertion(1, walls, {});
-  model.correct(StateMatrix::Zero());
+  ErrorTransition another;  // the pose of the second one has another error
+  another.by_state.setZero();
+  model.propagate(another);
   model.recordInsertion(2, ground, {});
   GroupedMeasurements scan = scanOn({1, 1, 1, 1, 1, 1, 1, 1, 1, 2});
   for (PlaneGroup& group : scan.groups)

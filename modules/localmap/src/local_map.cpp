@@ -73,10 +73,10 @@ void LocalMap::propagateError(const ErrorTransition& transition)
   calibration_.propagate(transition);
 }
 
-void LocalMap::correctError(const StateMatrix& kept)
+void LocalMap::correctError(const MotionGain& K)
 {
-  error_.correct(kept);
-  calibration_.correct(kept);
+  error_.correct(K);
+  calibration_.correct(K);
 }
 
 ConsideredUpdate LocalMap::considerUpdate(

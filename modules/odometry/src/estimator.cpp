@@ -190,7 +190,7 @@ void Estimator::applyZeroVelocityUpdate(bool matched, ScanResult& result)
     return;
   }
   filter = update->posterior;
-  map_.correctError(update->kept);  // the map's error goes through the same correction
+  map_.correctError(update->gain);  // the map's error goes through the same correction
   report(result);
   result.statistics.at_rest = true;
 }

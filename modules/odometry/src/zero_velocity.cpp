@@ -35,11 +35,13 @@ std::optional<ZeroVelocityUpdate> zeroVelocityUpdate(
   const By6 K = llt.solve(PHt.transpose()).transpose();
 
   ZeroVelocityUpdate update;
-  update.kept.middleCols<6>(kVelocity) -= K;
+  update.gain = K;
   // The attitude moves so little that its tangent space stays the same.
   update.posterior.x = boxplus(prior.x, K * innovation);
-  const By6 K_R = K * variance.asDiagonal();
-  const Square P = transformedCovariance(update.kept, prior.P) + productByTransposed(K_R, K);
+  // (I - K H) P (I - K H)^T + K R K^T: this form stays positive semi-definite.
+  Square P = prior.P - productByTransposed(K, PHt);
+  const By6 P_Ht = P.middleCols<6>(kVelocity);
+  P += productByTransposed(By6(K * variance.asDiagonal() - P_Ht), K);
   update.posterior.P = 0.5 * (P + P.transpose());
   if (!isFinite(update.posterior.x) || !update.posterior.P.allFinite()) return std::nullopt;
   return update;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/filter/update.h>
 
 #include <optional>
 
@@ -14,11 +15,11 @@ namespace fastlio
  * sways by so much. */
 inline constexpr double kZeroVelocityStd = 0.01, kZeroRateStd = 0.0008726646259971648;
 
-/** A posterior and I - K H of the update that led to it. */
+/** A posterior and the gain of the update that led to it. */
 struct ZeroVelocityUpdate
 {
   FilterState posterior;
-  StateMatrix kept = StateMatrix::Identity();  //!< I - K H: what is left of an error before it
+  MotionGain gain = MotionGain::Zero();
 };
 
 /** Kalman update with the pseudo-measurements v = 0 and b_w = mean_rate.

@@ -48,8 +48,8 @@ class CalibrationErrorModel
   void start(const NavState& x, bool tilted);
   /** From scan to scan. */
   void propagate(const ErrorTransition& transition);
-  /** Through an update without a scan. \param kept I - K H */
-  void correct(const StateMatrix& kept);
+  /** Through an update with velocity and gyro bias. */
+  void correct(const MotionGain& K);
   /** Takes in an update of the filter with the measurements \a scan. */
   UpdateByCalibration update(const LinearizedUpdate& update, const GroupedMeasurements& scan);
   /** Remembers how the planes that insertion number \a scan makes depend on theta. */

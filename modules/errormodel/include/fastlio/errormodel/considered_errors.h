@@ -67,8 +67,8 @@ class ConsideredErrors
 
   /** e <- Phi e. */
   void propagate(const ErrorTransition& transition);
-  /** e <- kept e. */
-  void correct(const NavigationMatrix& kept);
+  /** e <- e - K e_measured, see MotionGain. */
+  void correct(const NavigationBy6& K);
   /** e <- e - G (MB e - n). \param cov_n cov(c, n) */
   void update(
       const NavigationBy6& G, const Eigen::Matrix<double, 6, kNavigationDim>& MB,

@@ -47,8 +47,8 @@ class MapErrorModel
  public:
   /** Carries the error over the way from scan to scan. */
   void propagate(const ErrorTransition& transition);
-  /** Carries the error through an update without a scan. \param kept I - K H */
-  void correct(const StateMatrix& kept);
+  /** Carries the error through an update with velocity and gyro bias. */
+  void correct(const MotionGain& K);
 
   /** Takes in an update of the filter with the measurements \a scan.
    * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the

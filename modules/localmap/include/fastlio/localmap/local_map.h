@@ -75,8 +75,8 @@ class LocalMap
   void startCalibrationError(const NavState& x, bool tilted) { calibration_.start(x, tilted); }
   /** The effect of the errors of map and calibration on the state passes on from scan to scan. */
   void propagateError(const ErrorTransition& transition);
-  /** The same through an update without a scan. \param kept I - K H */
-  void correctError(const StateMatrix& kept);
+  /** The same through an update with velocity and gyro bias. */
+  void correctError(const MotionGain& K);
   /** Takes in what an update did with the errors of map and calibration (Schmidt).
    * \param beams of the sensor \param beams_learn from the scan's residuals: those of a scan that
    * contradicts its prediction may be of a pose that is wrong */
