@@ -110,6 +110,59 @@ void appendExhibits(Bodies& bodies)
     if (i % 2 == 0) bodies.push_back(ball({x, y, high + 0.25}, 0.25, 0.5));
   }
 }
+/** The floor of a ramp that winds around a drum, of slabs as a builder pours them. */
+struct RoundRamp
+{
+  static constexpr double kDrum = 6.0, kOuter = 15.0;  // radii [m]
+  static constexpr double kRise = 3.2;                 // of a turn [m]
+  static constexpr int kSlabs = 24;                    // of a turn
+
+  [[nodiscard]] static Vec3 place(double radius, double angle)
+  {
+    return {radius * std::cos(angle), radius * std::sin(angle), kRise * angle / kTwoPi};
+  }
+};
+
+void appendRampSlabs(Bodies& bodies, double angle)
+{
+  constexpr double kThickness = 0.25, kWidth = 0.5 * (RoundRamp::kOuter - RoundRamp::kDrum);
+  for (const double inner : {RoundRamp::kDrum, RoundRamp::kDrum + kWidth})
+  {
+    const double radius = inner + 0.5 * kWidth;
+    const double slope = std::atan(RoundRamp::kRise / (kTwoPi * radius));
+    const double half_length = (inner + kWidth) * std::tan(kPi / RoundRamp::kSlabs);
+    const Vec3 top = RoundRamp::place(radius, angle);
+    bodies.push_back(
+        {Primitive::Shape::Box,
+         {expSO3({0.0, 0.0, angle + 0.5 * kPi}) * expSO3({0.0, -slope, 0.0}),
+          top - Vec3(0.0, 0.0, 0.5 * kThickness)},
+         {half_length, 0.5 * kWidth, 0.5 * kThickness},
+         0.35});
+  }
+}
+
+/** Floors, parked cars, columns; the ramp goes on below the way and above it. */
+void appendRamp(Bodies& bodies, int turns)
+{
+  constexpr int kColumns = 10;
+  const double height = (turns + 2) * RoundRamp::kRise, below = -1.5 * RoundRamp::kRise;
+  bodies.push_back(pillar(0, 0, RoundRamp::kOuter, height - below, below, 0.5));
+  bodies.push_back(pillar(0, 0, RoundRamp::kDrum, height - below + 1.0, below - 0.5, 0.45));
+  for (int i = 0; i < kColumns; ++i)
+  {
+    const Vec3 foot = RoundRamp::place(12.4, kTwoPi * i / kColumns);
+    bodies.push_back(pillar(foot.x(), foot.y(), 0.3, height - below, below, 0.5));
+  }
+  for (int i = -RoundRamp::kSlabs; i < (turns + 2) * RoundRamp::kSlabs; ++i)
+  {
+    const double angle = kTwoPi * (i + 0.5) / RoundRamp::kSlabs;
+    appendRampSlabs(bodies, angle);
+    const Vec3 stand = RoundRamp::place(13.5, angle);
+    // Never two beside each other: a car is longer than a slab.
+    if (i > 0 && i % 2 == 0 && (i * i + 3 * i) % 7 < 4)
+      appendCar(bodies, stand.x(), stand.y(), stand.z(), angle + 0.5 * kPi);
+  }
+}
 }  // namespace
 
 Scene parkScene()
@@ -153,6 +206,25 @@ Scene rotundaScene()
   route.corner_cut = 3.0;
   scene.path = followRoute(route);
   addWalkingSway(scene.path, 1.8);
+  return scene;
+}
+
+Scene rampScene()
+{
+  constexpr int kTurns = 4, kCorners = 24 * kTurns;
+  constexpr double kUp = 8.4, kDown = 11.2;  // radii of both lanes [m]
+  Scene scene;
+  appendRamp(scene.world.bodies, kTurns);
+  Route route;
+  const Vec3 sensor(0.0, 0.0, 1.2);
+  for (int i = 0; i <= kCorners; ++i)
+    route.corners.push_back(RoundRamp::place(kUp, kTwoPi * i / 24) + sensor);
+  for (int i = kCorners; i >= 0; --i)
+    route.corners.push_back(RoundRamp::place(kDown, kTwoPi * i / 24) + sensor);
+  route.speed = 3.0;
+  route.corner_cut = 2.0;
+  route.acceleration = 1.2;
+  scene.path = followRoute(route);
   return scene;
 }
 

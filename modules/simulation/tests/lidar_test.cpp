@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
     Catalog, EveryWorld,
     ::testing::Values(
         "campus", "office", "uav", "car", "shake", "spin", "stairs", "tunnel", "open_area", "crowd",
-        "park", "rotunda", "town", "facades", "corridors"),
+        "park", "rotunda", "ramp", "town", "facades", "corridors"),
     [](const auto& test) { return std::string(test.param); });
 
 /** Echoes of one setting, at rest. */

@@ -53,5 +53,6 @@ void noteMovable(Scene& scene, std::size_t bodies_before);
 // Hardly any planes (scenes_curved.cpp).
 [[nodiscard]] Scene parkScene();
 [[nodiscard]] Scene rotundaScene();
+[[nodiscard]] Scene rampScene();
 
 }  // namespace fastlio
