@@ -171,5 +171,35 @@ TEST(LongRides, AreNotTooSureOfThemselves)
   if (fewRepeats()) return;
   EXPECT_LE(summary.mean, kRealisticUpper) << "the covariance is too small";
 }
+
+// A view that changes all the time, near surfaces all around: the same lasers see new floor ahead
+// and old floor below, turn after turn. The height drifts as they make it.
+TEST(LongRides, KnowHowTheHeightDriftsOnARoundRamp)
+{
+  constexpr double kSettled = 10.0;  // from then on the vehicle is on its way [s]
+  const std::uint64_t first = everything() ? 1 : 4, last = everything() ? 8 : 6;
+  std::vector<double> nees;
+  for (std::uint64_t seed = first; seed <= (fewRepeats() ? first : last); ++seed)
+  {
+    SimulationSettings settings = defaultSettings("ramp");
+    settings.lidar.stride = 4;
+    settings.duration = 80.0;
+    settings.seed = seed;
+    settings = realistic(settings);
+    OdometryOptions parameters = matchingParameters(settings);
+    parameters.threads = 1;
+    const SimulatedRun run = runOdometry(Simulation(settings), parameters);
+    std::vector<double> of_run;
+    for (const JudgedScan& scan : run.scans)
+      if (toSeconds(scan.result.stamp_ns - settings.start_ns) > kSettled)
+        of_run.push_back(poseNees(run, scan));
+    nees.push_back(summarizeNees(of_run, 6).mean);
+    std::printf("Seed %2d: mean NEES of the poses %5.2f\n", static_cast<int>(seed), nees.back());
+  }
+  const NeesSummary summary = summarizeNees(nees, 6);
+  std::printf("Mean NEES %.2f\n", summary.mean);
+  if (fewRepeats()) return;
+  EXPECT_LE(summary.mean, kRealisticUpper) << "the covariance is too small";
+}
 }  // namespace
 }  // namespace fastlio::testing

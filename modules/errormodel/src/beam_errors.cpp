@@ -15,6 +15,9 @@ constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it h
 // From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
 constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
 constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
+// Pose and map go along with an offset, so that only a part of it is left in the residuals: about
+// so much in rides whose lasers have known offsets (docs/covariance.md).
+constexpr double kLeftOfRange = 0.75, kLeftOfElevation = 0.55;
 // The variance of an offset over that of independent residuals: they share the errors of the map.
 constexpr double kSharedNoise = 4.0;
 // Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
@@ -187,12 +190,13 @@ double BeamErrors::meanSquare(
 
 double BeamErrors::rangeVariance() const
 {
-  return meanSquare(range_, elevation_, kLeastRangeInformation);
+  return meanSquare(range_, elevation_, kLeastRangeInformation) / (kLeftOfRange * kLeftOfRange);
 }
 
 double BeamErrors::elevationVariance() const
 {
-  return meanSquare(elevation_, range_, kLeastElevationInformation);
+  return meanSquare(elevation_, range_, kLeastElevationInformation) /
+         (kLeftOfElevation * kLeftOfElevation);
 }
 
 double BeamErrors::rangeOffset() const

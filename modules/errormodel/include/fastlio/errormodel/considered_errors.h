@@ -47,9 +47,9 @@ using NavigationBy6 = Eigen::Matrix<double, kNavigationDim, 6, Eigen::DontAlign>
 class ConsideredErrors
 {
  public:
-  /** So many groups of insertions are kept. With 64 of them the NEES of long rides is up to a tenth
-   * smaller, and the cost grows with the square. */
-  static constexpr int kMaxGroups = 12;
+  /** So many groups of insertions are kept. Fewer underestimate a drift where the view changes
+   * fast, and the cost grows with the square. */
+  static constexpr int kMaxGroups = 16;
   static constexpr int kSize = 12 + 6 * kMaxGroups;  //!< elements of c
   static constexpr int kSources = 18;                //!< elements of s, see Sources
   using BySix = Eigen::Matrix<double, kSize, 6, Eigen::DontAlign>;
