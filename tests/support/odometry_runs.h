@@ -27,24 +27,30 @@ inline void finish(Odometry& odometry, Results& results)
     results.push_back(std::move(*result));
 }
 
-/** Feeds a recording in the order of time, a scan when its last point has been measured. */
-inline Results runInOrder(Odometry& odometry, const RoomRecording& recording)
+/** Feeds a recording in the order of time, a scan when its last point has been measured. The scans
+ * go to the odometry. */
+inline Results runInOrder(Odometry& odometry, RoomRecording&& recording)
 {
   Results results;
   std::size_t next_sample = 0;
-  for (const LidarScan& scan : recording.scans)
+  for (LidarScan& scan : recording.scans)
   {
     const std::int64_t end_ns = spanOf(scan).end_ns;
     for (; next_sample < recording.imu.size() && recording.imu[next_sample].stamp_ns <= end_ns;
          ++next_sample)
       odometry.addImu(recording.imu[next_sample]);
-    odometry.addScan(scan);
+    odometry.addScan(std::move(scan));
     drain(odometry, results);
   }
   for (; next_sample < recording.imu.size(); ++next_sample)
     odometry.addImu(recording.imu[next_sample]);
   finish(odometry, results);
   return results;
+}
+
+inline Results runInOrder(Odometry& odometry, const RoomRecording& recording)
+{
+  return runInOrder(odometry, RoomRecording(recording));
 }
 
 inline Results runInOrder(const OdometryOptions& parameters, const RoomRecording& recording)

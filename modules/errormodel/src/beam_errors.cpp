@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "square_root.h"
 #include <fastlio/errormodel/beam_errors.h>
 #include <fastlio/math/columns.h>
 
@@ -23,6 +24,9 @@ constexpr double kSharedNoise = 4.0;
 // Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
 // what the beams meet, which hardly changes in so short a time, seen from the sensor.
 constexpr std::size_t kScansPerSample = 4;
+// Columns of BeamPulls: those of the sides, then ranges, then elevations.
+constexpr int kSideErrors = 6;
+constexpr std::size_t kLaserColumns = (kBeamErrors - kSideErrors) / 2;
 }  // namespace
 
 /** The axes of the sensor. */
@@ -83,10 +87,11 @@ void BeamErrors::add(
 {
   const bool is_sampled = scans_++ % kScansPerSample == 0;
   const Mat3& R_world_scan = T_world_scan.R;
-  if (is_sampled) beginSample(R_world_scan);
+  if (is_sampled) beginSample();
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
       R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
+  if (bins_per_column_ == 0) chooseColumns(scan.surfaces, frame);
   measured.forEachBlock(
       [&](const MeasurementBlock& block, std::size_t)
       {
@@ -108,6 +113,22 @@ void BeamErrors::add(
   if (!is_sampled) return;
   incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
+  finishSample(R_world_scan);
+}
+
+/** As fine as the elevations of a scan allow. They stay: a column is always of the same lasers. */
+void BeamErrors::chooseColumns(const BodyPoints& body, const SensorFrame& frame)
+{
+  std::size_t last = 0;
+  first_bin_ = kBeamBins - 1;
+  for (std::size_t i = 0; i < body.size(); ++i)
+  {
+    const Vec3 beam = frame.R_lidar_body * pointAt(body, i) - frame.origin;
+    const std::size_t bin = beamBin(beam.z() / beam.norm());
+    first_bin_ = std::min(first_bin_, bin);
+    last = std::max(last, bin);
+  }
+  if (last >= first_bin_) bins_per_column_ = 1 + (last - first_bin_) / kLaserColumns;
 }
 
 void BeamErrors::add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point)
@@ -122,13 +143,30 @@ void BeamErrors::add(const BeamLanes& beams, std::size_t lane, const PointMeasur
   upright_range_ += upright * beams.range[lane];
 }
 
-void BeamErrors::beginSample(const Mat3& R_world_scan)
+void BeamErrors::beginSample()
 {
   for (Offsets* offsets : {&range_, &elevation_})
     for (Offset& offset : *offsets)
       offset.in_sampled.setZero();
   sides_.beginScan();
-  R_world_sampled_ = R_world_scan;
+}
+
+/** In the axes of the sensor, where what the beams do changes little from scan to scan. */
+void BeamErrors::finishSample(const Mat3& R_world_scan)
+{
+  constexpr auto kColumns = static_cast<Eigen::Index>(kLaserColumns);
+  range_variance_ =
+      meanSquare(range_, elevation_, kLeastRangeInformation) / (kLeftOfRange * kLeftOfRange);
+  elevation_variance_ = meanSquare(elevation_, range_, kLeastElevationInformation) /
+                        (kLeftOfElevation * kLeftOfElevation);
+  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
+  turn.bottomRightCorner<3, 3>() = R_world_scan.transpose();
+  Eigen::Matrix<double, 6, kBeamErrors> pulls = Eigen::Matrix<double, 6, kBeamErrors>::Zero();
+  pullsOf(range_, range_variance_, pulls.middleCols<kColumns>(kSideErrors));
+  pullsOf(elevation_, elevation_variance_, pulls.rightCols<kColumns>());
+  pulls = turn * pulls;
+  pulls.leftCols<kSideErrors>() = squareRoot(turn * sides_.covariance() * turn.transpose());
+  pulls_ = pulls;
 }
 
 void BeamErrors::sample(
@@ -188,25 +226,14 @@ double BeamErrors::meanSquare(
   return known > 0.0 ? squares / known : 0.0;
 }
 
-double BeamErrors::rangeVariance() const
-{
-  return meanSquare(range_, elevation_, kLeastRangeInformation) / (kLeftOfRange * kLeftOfRange);
-}
-
-double BeamErrors::elevationVariance() const
-{
-  return meanSquare(elevation_, range_, kLeastElevationInformation) /
-         (kLeftOfElevation * kLeftOfElevation);
-}
-
 double BeamErrors::rangeOffset() const
 {
-  return std::sqrt(rangeVariance());
+  return std::sqrt(range_variance_);
 }
 
 double BeamErrors::elevationOffset() const
 {
-  return std::sqrt(elevationVariance());
+  return std::sqrt(elevation_variance_);
 }
 
 void BeamErrors::addTo(CalibrationFindings& findings) const
@@ -230,22 +257,29 @@ void BeamErrors::addTo(CalibrationFindings& findings) const
   findings.upright_range = upright_range_;
 }
 
-Matrix6 BeamErrors::sumOfSquares(const Offsets& offsets)
+void BeamErrors::pullsOf(
+    const Offsets& offsets, double variance, Eigen::Ref<Eigen::Matrix<double, 6, -1>> result) const
 {
-  Matrix6 sum = Matrix6::Zero();
-  for (const Offset& offset : offsets)
-    if (offset.information > 0.0) sum += offset.in_sampled * offset.in_sampled.transpose();
-  return sum;
+  std::array<double, kLaserColumns> lasers{};
+  for (std::size_t bin = 0; bin < kBeamBins; ++bin)
+  {
+    if (!(offsets[bin].information > 0.0)) continue;
+    const std::size_t column =
+        bin < first_bin_ ? 0 : std::min(kLaserColumns - 1, (bin - first_bin_) / bins_per_column_);
+    result.col(static_cast<Eigen::Index>(column)) += offsets[bin].in_sampled;
+    lasers[column] += 1.0;
+  }
+  // Neighbours pull alike, each with an error of its own.
+  for (std::size_t column = 0; column < kLaserColumns; ++column)
+    if (lasers[column] > 0.0)
+      result.col(static_cast<Eigen::Index>(column)) *= std::sqrt(variance / lasers[column]);
 }
 
-Matrix6 BeamErrors::covariance(const Mat3& R_world_scan) const
+BeamPulls BeamErrors::pulls(const Mat3& R_world_scan) const
 {
-  Matrix6 covariance = rangeVariance() * sumOfSquares(range_) +
-                       elevationVariance() * sumOfSquares(elevation_) + sides_.covariance();
-  const Mat3 turn = R_world_scan * R_world_sampled_.transpose();
-  covariance.bottomRows<3>() = turn * covariance.bottomRows<3>().eval();
-  covariance.rightCols<3>() = covariance.rightCols<3>().eval() * turn.transpose();
-  return covariance;
+  BeamPulls pulls = pulls_;
+  pulls.bottomRows<3>() = R_world_scan * pulls_.bottomRows<3>();
+  return pulls;
 }
 
 }  // namespace fastlio

@@ -13,7 +13,7 @@ namespace
 {
 using Square6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kPlanes = 6, kFirstGroup = 12;  // columns of c, after those of eta_b
+constexpr int kPlanes = kBeamErrors, kFirstGroup = kPlanes + 6;  // columns of c, after eta_b
 
 // So many scans decide which planes are in view.
 constexpr double kScansInView = 100.0;
@@ -84,35 +84,47 @@ void ConsideredErrors::renewPlanes(const Matrix6& R)
   of_planes = Square6::Identity() + R * known * R.transpose();
 }
 
-ConsideredErrors::Sources ConsideredErrors::sourcesOf(
+ConsideredErrors::PlanesInView ConsideredErrors::planesInView(
     const Pose& T_world_scan, const GroupedMeasurements& scan)
 {
   const Square6 mean = weighInsertions(scan, groups_);
   const Square6 L_inverse = twistJacobianInverse(T_world_scan);
-  Eigen::Matrix<double, kSize, 6> with_poses = Eigen::Matrix<double, kSize, 6>::Zero();
-  Eigen::Matrix<double, kNavigationDim, 6> state_with_poses;
-  state_with_poses.setZero();
+  PlanesInView planes;
+  planes.with_considered.setZero();
+  planes.with_state.setZero();
   std::array<Square6, kMaxGroups> X;  // x = sum of X_i x_i
-  X.fill(Square6::Zero());
   for (std::size_t i = 0; i < groups_.size(); ++i)
   {
     Group& group = groups_[i];
     group.seen += (group.weights.all - group.seen) / kScansInView;
     if (group.weights.all == 0.0) continue;
     X[i] = mean * group.weights.shown * L_inverse;
-    with_poses += among_.middleCols<6>(group.column).lazyProduct(X[i].transpose());
-    state_with_poses += with_state_.middleCols<6>(group.column).lazyProduct(X[i].transpose());
+    planes.with_considered += among_.middleCols<6>(group.column).lazyProduct(X[i].transpose());
+    planes.with_state += with_state_.middleCols<6>(group.column).lazyProduct(X[i].transpose());
   }
-  Square6 of_poses = Square6::Zero();
   for (std::size_t i = 0; i < groups_.size(); ++i)
-    of_poses += X[i] * with_poses.middleRows<6>(groups_[i].column);
+    if (groups_[i].weights.all > 0.0)
+      planes.covariance += X[i] * planes.with_considered.middleRows<6>(groups_[i].column);
+  return planes;
+}
 
-  Sources sources;
-  sources.with_considered << among_.leftCols<kFirstGroup>(), with_poses;
-  sources.with_state << with_state_.leftCols<kFirstGroup>(), state_with_poses;
-  sources.covariance << among_.topLeftCorner<kFirstGroup, kFirstGroup>(),
-      with_poses.topRows<kFirstGroup>(), with_poses.topRows<kFirstGroup>().transpose(), of_poses;
-  return sources;
+ConsideredErrors::ScanError ConsideredErrors::scanError(
+    const PlanesInView& planes, const BeamPulls& of_beams, const Matrix6& of_planes,
+    const Matrix6& M) const
+{
+  Eigen::Matrix<double, 6, kFirstGroup> C;
+  C << of_beams, of_planes;
+  const Square6 by_pose = M;
+  ScanError n;
+  n.with_considered = planes.with_considered.lazyProduct(by_pose.transpose());
+  n.with_considered.noalias() += among_.leftCols<kFirstGroup>() * C.transpose();
+  n.with_state = planes.with_state.lazyProduct(by_pose.transpose());
+  n.with_state.noalias() += with_state_.leftCols<kFirstGroup>() * C.transpose();
+  // cov(x, n) consists of cov(x) M^T and of cov(x, c) C^T.
+  n.covariance = by_pose * planes.covariance * by_pose.transpose();
+  n.covariance += by_pose * (C * planes.with_considered.topRows<kFirstGroup>()).transpose();
+  n.covariance += C * n.with_considered.topRows<kFirstGroup>();
+  return n;
 }
 
 void ConsideredErrors::takeEvidence(const LinearizedUpdate& update, NavigationMatrix& addition)

@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "square_root.h"
 #include <fastlio/errormodel/map_error.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 namespace fastlio
@@ -13,18 +13,6 @@ namespace
 using AlignedMatrix6 = Eigen::Matrix<double, 6, 6>;
 using StateBy6 = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 using SixByNavigation = Eigen::Matrix<double, 6, kNavigationDim>;
-
-/** C with C C^T = m for a positive semi-definite m. */
-AlignedMatrix6 squareRoot(const AlignedMatrix6& m)
-{
-  // Keeps the factor finite where some direction has no error at all.
-  constexpr double kRelativeFloor = 1e-12;
-  const AlignedMatrix6 floor =
-      (kRelativeFloor * m.diagonal().array() + 1e-300).matrix().asDiagonal();
-  const Eigen::LLT<AlignedMatrix6> llt(m + floor);
-  return llt.info() == Eigen::Success ? AlignedMatrix6(llt.matrixL())
-                                      : AlignedMatrix6(AlignedMatrix6::Zero());
-}
 
 /** Rows of attitude and position with which all rows together move the scan pose by \a scan_pose,
  * without those of the calibration: all scans determine it together, so it is taken as it is. */
@@ -46,16 +34,6 @@ NavigationBy6 gainOf(const LinearizedUpdate& update)
   return product(
       withoutCalibration(update.by_state, scan_pose, update.gain),
       Matrix6(update.constraints.projection.transpose()));
-}
-
-/** C_b, a square root of the covariance of the sums by errors of the beams. It is taken in the axes
- * of the body: there it changes little from scan to scan, so that eta stays what it is in a turn.
- */
-AlignedMatrix6 sensorErrors(const Matrix6& covariance, const Mat3& R_world_scan)
-{
-  AlignedMatrix6 turn = AlignedMatrix6::Identity();
-  turn.bottomRightCorner<3, 3>() = R_world_scan;
-  return turn * squareRoot(turn.transpose() * covariance * turn);
 }
 
 /** R of eta_p <- R eta_p + what is new. \param with_before GroupedMeasurements::plane_errors_before
@@ -87,35 +65,33 @@ void MapErrorModel::correct(const MotionGain& K)
 }
 
 Matrix6 MapErrorModel::update(
-    const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& beam_errors)
+    const LinearizedUpdate& update, const GroupedMeasurements& scan, const BeamPulls& beams)
 {
   if (scan.groups.empty()) return Matrix6::Zero();
   const Matrix6 of_planes = squareRoot(scan.plane_errors);
   considered_.renewPlanes(persistence(scan.plane_errors_before, of_planes, of_planes_));
   of_planes_ = of_planes;
-  const ConsideredErrors::Sources s = considered_.sourcesOf(update.T_world_scan, scan);
+  const ConsideredErrors::PlanesInView planes = considered_.planesInView(update.T_world_scan, scan);
   const SixByNavigation B = update.by_state.leftCols<kNavigationDim>();
 
   // Of B e - x. Where the planes are those of the scans just before, both have the same error.
-  const Matrix6 common = B * s.with_state.rightCols<6>();
+  const Matrix6 common = B * planes.with_state;
   Matrix6 mismatch = productByTransposed(product(B, addition_), B) - common - common.transpose() +
-                     s.covariance.bottomRightCorner<6, 6>();
+                     planes.covariance;
 
-  // e <- e - G (M B e - K s)
+  // e <- e - G (M B e - n)
   const Matrix6 M = scan.information * update.constraints.projection;
-  Eigen::Matrix<double, 6, ConsideredErrors::kSources> K;
-  K << sensorErrors(beam_errors, update.T_world_scan.R), of_planes, M;
+  const ConsideredErrors::ScanError n = considered_.scanError(planes, beams, of_planes, M);
   const NavigationBy6 G = gainOf(update);
   const SixByNavigation MB = M * B;
-  const NavigationBy6 with_n = productByTransposed(s.with_state, K);
-  const NavigationBy6 kept_with_n = with_n - G * (MB * with_n);
-  const Matrix6 cov_n = K * s.covariance * K.transpose() - scan.shared_noise;
+  const NavigationBy6 kept_with_n = n.with_state - G * (MB * n.with_state);
+  const Matrix6 cov_n = n.covariance - scan.shared_noise;
   const NavigationMatrix half =
       productByTransposed(NavigationBy6(kept_with_n + 0.5 * G * cov_n), G);
   addition_ -= product(G, SixByNavigation(product(MB, addition_)));
   addition_ -= productByTransposed(NavigationBy6(productByTransposed(addition_, MB)), G);
   addition_ += half + half.transpose();
-  considered_.update(G, MB, productByTransposed(s.with_considered, K));
+  considered_.update(G, MB, n.with_considered);
   if (!update.gain.isZero(0.0)) considered_.takeEvidence(update, addition_);
   return mismatch;
 }

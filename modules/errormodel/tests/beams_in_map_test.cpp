@@ -14,6 +14,8 @@ namespace fastlio::testing
 {
 namespace
 {
+constexpr int kAnError = 17;  // one of the errors of the sensor
+
 /** Three scans that correct half of the error each, on planes that none of them shares with
  * another.
  * \param R_world_scan attitude of each scan
@@ -29,9 +31,9 @@ double varianceOfThreeScans(const std::array<Mat3, 3>& R_world_scan)
     scan.groups[0].shared_variance = 0.0;
     update.T_world_scan.R = R;
     const Vec3 forward = kScanInformation * R.col(0);
-    Matrix6 beam_errors = Matrix6::Zero();
-    beam_errors.bottomRightCorner<3, 3>() = 4e-6 * forward * forward.transpose();
-    model.update(update, scan, beam_errors);
+    BeamPulls beams = BeamPulls::Zero();
+    beams.col(kAnError).tail<3>() = 2e-3 * forward;
+    model.update(update, scan, beams);
   }
   const Matrix6 added = poseAddition(model);
   const Vec3 forward = R_world_scan.back().col(0);
@@ -54,16 +56,23 @@ TEST(MapError, OfTheSensorTurnsWithIt)
   EXPECT_NEAR(std::sqrt(varianceOfThreeScans({ahead, left, left})), 0.75 * 2e-3, 1e-6);
 }
 
+/** One standard deviation of an error of the sensor puts a scan so far ahead [m]. */
+BeamPulls aheadBy(double distance)
+{
+  BeamPulls beams = BeamPulls::Zero();
+  beams(3, kAnError) = kScanInformation * distance;
+  return beams;
+}
+
 /** The sensor measures every scan 2 mm too far ahead, and each scan lies on planes that the one
  * before has created. */
 double varianceOnNewGround(std::uint32_t scans)
 {
   MapErrorModel model;
-  const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
   for (std::uint32_t scan = 1; scan <= scans; ++scan)
   {
     model.recordInsertion(scan, {}, {});
-    model.update(fullTrust(), scanOn({scan}), std::pow(kScanInformation * 2e-3, 2) * along);
+    model.update(fullTrust(), scanOn({scan}), aheadBy(2e-3));
   }
   return poseAddition(model)(3, 3);
 }
@@ -76,21 +85,31 @@ TEST(MapError, OfTheSensorAddsUpWhereTheMapIsNew)
     EXPECT_NEAR(std::sqrt(varianceOnNewGround(scans)), scans * 2e-3, scans * 1e-8) << scans;
 }
 
+// A laser that is too long pushes the scan off the wall ahead, and the other way off the wall
+// behind.
+TEST(MapError, OfTheSensorCancelsWhereItPullsTheOtherWay)
+{
+  MapErrorModel model;
+  for (std::uint32_t scan = 1; scan <= 50; ++scan)
+  {
+    model.recordInsertion(scan, {}, {});
+    model.update(fullTrust(), scanOn({scan}), aheadBy(scan % 2 == 0 ? -2e-3 : 2e-3));
+  }
+  EXPECT_LT(poseAddition(model)(3, 3), 1e-15);
+}
+
 // A scan that lies on planes of several insertions has the mean of their errors. These differ, but
 // they are all of the beams: nothing of them is left that the beams do not explain.
 TEST(MapError, OfTheSensorExplainsThatOfPlanesOfAllAges)
 {
   MapErrorModel model;
-  const Matrix6 along = Vector6::Unit(3) * Vector6::Unit(3).transpose();
   for (std::uint32_t scan = 1; scan <= 200; ++scan)
   {
     model.recordInsertion(scan, {}, {});
     const auto older = [scan](std::uint32_t by) { return scan > by ? scan - by : 1; };
-    model.update(
-        fullTrust(), scanOn({scan, older(10), older(20)}),
-        std::pow(kScanInformation * 2e-3, 2) * along);
+    model.update(fullTrust(), scanOn({scan, older(10), older(20)}), aheadBy(2e-3));
   }
-  const double explained = std::pow(model.poseByBeams()(3, 3), 2);
+  const double explained = std::pow(model.poseByBeams()(3, kAnError), 2);
   EXPECT_GT(std::sqrt(explained), 0.03);
   EXPECT_NEAR(poseAddition(model)(3, 3), explained, 1e-6 * explained);
 }

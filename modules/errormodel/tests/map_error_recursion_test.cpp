@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -49,7 +50,7 @@ class DenseRecursion
    * \param parts of the planes by insertion, in all directions alike */
   void update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan, const Matrix6& R,
-      const std::vector<double>& parts, const Matrix6& beam_errors)
+      const std::vector<double>& parts, const BeamPulls& beams)
   {
     // eta_p is partly new: what it has in common with all others fades.
     Eigen::MatrixXd fade = identity();
@@ -61,7 +62,7 @@ class DenseRecursion
     const Eigen::Matrix<double, kNavigationDim, 6> G = update.gain.topRows<kNavigationDim>();
     Eigen::MatrixXd T = identity();
     T.topLeftCorner(kNavigationDim, 6) -= G * M;
-    T.block(0, kBeams, kNavigationDim, 6) = G * squareRoot(beam_errors);
+    T.block(0, kBeams, kNavigationDim, kBeamErrors) = G * beams;
     T.block(0, kPlanes, kNavigationDim, 6) = G * squareRoot(scan.plane_errors);
     for (std::size_t i = 0; i < parts.size(); ++i)
       T.block(0, kPoses + 6 * static_cast<Eigen::Index>(i), kNavigationDim, 6) = parts[i] * G * M;
@@ -75,7 +76,8 @@ class DenseRecursion
   }
 
  private:
-  static constexpr int kBeams = kNavigationDim, kPlanes = kBeams + 6, kPoses = kPlanes + 6;
+  static constexpr int kBeams = kNavigationDim, kPlanes = kBeams + kBeamErrors;
+  static constexpr int kPoses = kPlanes + 6;
 
   [[nodiscard]] Eigen::MatrixXd identity() const
   {
@@ -166,9 +168,9 @@ TEST(MapError, IsTheRecursionWithDenseMatrices)
     LinearizedUpdate update;
     update.gain = 0.2 / kScanInformation * ScanGain::Random();
     update.gain.bottomRows<kCalibrationDim>().setZero();
-    const Matrix6 beam_errors = randomCovariance(1e-4 * kScanInformation);
-    model.update(update, scan, beam_errors);
-    dense.update(update, scan, R, parts, beam_errors);
+    const BeamPulls beams = 1e-2 * std::sqrt(kScanInformation) * BeamPulls::Random();
+    model.update(update, scan, beams);
+    dense.update(update, scan, R, parts, beams);
     const Eigen::MatrixXd expected = dense.addition();
     ASSERT_GT(expected.norm(), 0.0);
     const NavigationMatrix added = model.addition().topLeftCorner<kNavigationDim, kNavigationDim>();

@@ -100,8 +100,8 @@ ConsideredUpdate LocalMap::considerUpdate(
       [&] { considered.by_calibration = calibration_.update(update, *grouped); },
       [&]
       {
-        const Matrix6 beam_errors = weight * weight * beams.covariance(update.T_world_scan.R);
-        considered.map_mismatch = error_.update(update, *grouped, beam_errors);
+        const BeamPulls pulls = weight * beams.pulls(update.T_world_scan.R);
+        considered.map_mismatch = error_.update(update, *grouped, pulls);
       });
   return considered;
 }

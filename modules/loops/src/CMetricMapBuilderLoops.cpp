@@ -74,12 +74,12 @@ TrackedPose CMetricMapBuilderLoops::correctedPose(
   imu.filter.P.topLeftCorner<6, 6>() = ofImu(vehicle.covariance);
   imu.map_covariance = ofImu(vehicle.map_covariance);
   imu.ambiguity_covariance = ofImu(vehicle.ambiguity_covariance);
-  imu.motion_by_beams = vehicle.motion_by_beams;
+  imu.pose_by_beams = ofOtherBody(vehicle.pose_by_beams, vehicle.T_world_body, T_world_imu);
   const PoseEstimate estimate = poseEstimateOf(trajectory.corrected(imu).filter, T_imu_vehicle);
   TrackedPose corrected = vehicle;
   corrected.T_world_body = estimate.T_world_body;
   corrected.covariance = corrected.map_covariance = estimate.covariance;
-  corrected.motion_by_beams.setZero();
+  corrected.pose_by_beams.setZero();
   corrected.ambiguity_covariance.setZero();
   return corrected;
 }

@@ -91,7 +91,7 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   moved.map_covariance = covariance;
   moved.calibration_covariance = by_extrinsic;
   moved.ambiguity_covariance.setZero();  // the covariance of the graph contains it
-  moved.motion_by_beams.setZero();
+  moved.pose_by_beams.setZero();
   return moved;
 }
 

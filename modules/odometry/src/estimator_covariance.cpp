@@ -140,8 +140,8 @@ void Estimator::report(ScanResult& result) const
   result.map_covariance = systematic.topLeftCorner<6, 6>();
   result.ambiguity_covariance = result.map_covariance - unambiguous;
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
-  result.motion_by_beams = std::sqrt(calibration.innovation_scale) *
-                           twistJacobian(state_.filter.x.pose()) * map_.error().poseByBeams();
+  result.pose_by_beams =
+      (std::sqrt(calibration.innovation_scale) * map_.error().poseByBeams()).cast<float>();
   result.filter.P.block<6, 6>(kExtrinsicRotation, kExtrinsicRotation) =
       calibration_.extrinsicCovariance();
   result.statistics.calibration = checkOf(calibration, beams_);

@@ -28,11 +28,21 @@ Matrix6 byLatter(const Pose& a)
   return J;
 }
 
+using MotionByBeams = Eigen::Matrix<double, 6, kBeamErrors>;
+
+/** As motions of the world, which are large far from its origin: in double precision. */
+MotionByBeams motionByBeams(const PoseByBeams& by_beams, const Pose& T_world_body)
+{
+  return twistJacobian(T_world_body) * by_beams.cast<double>();
+}
+
 /** Of the map's part. */
 TwistCovariance unexplainedByBeams(const TrackedPose& pose)
 {
-  return twistCovariance(pose.map_covariance - pose.ambiguity_covariance, pose.T_world_body) -
-         pose.motion_by_beams * pose.motion_by_beams.transpose();
+  const Eigen::Matrix<double, 6, kBeamErrors> by_beams = pose.pose_by_beams.cast<double>();
+  return twistCovariance(
+      pose.map_covariance - pose.ambiguity_covariance - Matrix6(by_beams * by_beams.transpose()),
+      pose.T_world_body);
 }
 
 // An angle counts as what it moves at this distance.
@@ -71,7 +81,8 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
   const TwistCovariance growth = unexplainedByBeams(b) - unexplainedByBeams(a);
-  const Matrix6 by_beams = b.motion_by_beams - a.motion_by_beams;
+  const MotionByBeams by_beams = motionByBeams(b.pose_by_beams, b.T_world_body) -
+                                 motionByBeams(a.pose_by_beams, a.T_world_body);
   // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
   // what had grown on the way.
   const TwistCovariance ambiguity = twistCovariance(b.ambiguity_covariance, b.T_world_body) -
@@ -95,6 +106,13 @@ RelativePose reversed(const RelativePose& motion)
   return back;
 }
 
+PoseByBeams ofOtherBody(
+    const PoseByBeams& by_beams, const Pose& T_world_body, const Pose& T_world_other)
+{
+  const MotionByBeams motion = motionByBeams(by_beams, T_world_body);
+  return (twistJacobianInverse(T_world_other) * motion).cast<float>();
+}
+
 void PoseTrack::add(const ScanResult& result)
 {
   if (!hasPose(result.status)) return;
@@ -108,7 +126,7 @@ void PoseTrack::add(const ScanResult& result)
       poseEstimateOf(result.filter.x.pose(), result.map_covariance, T_imu_body).covariance;
   pose.ambiguity_covariance =
       poseEstimateOf(result.filter.x.pose(), result.ambiguity_covariance, T_imu_body).covariance;
-  pose.motion_by_beams = result.motion_by_beams;
+  pose.pose_by_beams = ofOtherBody(result.pose_by_beams, result.filter.x.pose(), pose.T_world_body);
   if (poses_.empty())
     begin_ns_ = result.begin_ns;
   else
@@ -143,8 +161,9 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
   pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
   pose.ambiguity_covariance =
       (1.0 - fraction) * before.ambiguity_covariance + fraction * next->ambiguity_covariance;
-  pose.motion_by_beams =
-      (1.0 - fraction) * before.motion_by_beams + fraction * next->motion_by_beams;
+  const PoseByBeams by_before = ofOtherBody(before.pose_by_beams, a, pose.T_world_body);
+  const PoseByBeams by_next = ofOtherBody(next->pose_by_beams, b, pose.T_world_body);
+  pose.pose_by_beams = by_before + static_cast<float>(fraction) * (by_next - by_before);
   setVelocity(pose, before, *next);
   return pose;
 }

@@ -37,7 +37,7 @@ TrackedPose mappingPoseOf(const ScanResult& result)
   pose.covariance = result.filter.P.topLeftCorner<6, 6>() - result.calibration_covariance;
   pose.map_covariance = result.map_covariance - result.calibration_covariance;
   pose.ambiguity_covariance = result.ambiguity_covariance;
-  pose.motion_by_beams = result.motion_by_beams;
+  pose.pose_by_beams = result.pose_by_beams;
   return pose;
 }
 

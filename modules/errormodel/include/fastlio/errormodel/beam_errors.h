@@ -5,6 +5,7 @@
  * its elevation. Thousands of points do not average them out, and nor do hundreds of planes. */
 #pragma once
 
+#include <fastlio/errormodel/beam_pulls.h>
 #include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/errormodel/creating_views.h>
 #include <fastlio/errormodel/incidence_bias.h>
@@ -39,12 +40,12 @@ class BeamErrors
   /** There is no map any more. */
   void forgetMap();
 
-  /** Covariance of sum w h b over a scan, b by offsets of range and elevation, of beams and of
-   * sides. The beams that created a plane had such offsets, too: where the same beam meets it
-   * again, nothing is wrong. The points are those of the last sampled scan, which every fourth one
-   * is: what the beams meet stays nearly the same, seen from the sensor.
+  /** What offsets of range and elevation, of lasers and of sides, do to a scan. The beams that
+   * created a plane had such offsets, too: where the same beam meets it again, nothing is wrong.
+   * The points are those of the last sampled scan, which every fourth one is: what the beams meet
+   * stays nearly the same, seen from the sensor. Dense LiDARs have several lasers in a column.
    * \param R_world_scan attitude of the scan pose */
-  [[nodiscard]] Matrix6 covariance(const Mat3& R_world_scan) const;
+  [[nodiscard]] BeamPulls pulls(const Mat3& R_world_scan) const;
   /** Root mean square of the offsets; 0 while none is known. */
   [[nodiscard]] double rangeOffset() const;                                      //!< [m]
   [[nodiscard]] double elevationOffset() const;                                  //!< [rad]
@@ -68,18 +69,20 @@ class BeamErrors
   [[nodiscard]] static BeamLanes beamsOf(
       const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame);
   void add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point);
-  void beginSample(const Mat3& R_world_scan);
+  void beginSample();
+  void finishSample(const Mat3& R_world_scan);
+  void chooseColumns(const BodyPoints& body, const SensorFrame& frame);
   void sample(
       const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane);
   void sampleCreation(
       const Pose& T_lidar_world, const Vec3& point, const Vec3& normal, const Vector6& weighted_h);
 
-  /** Of the sampled scan, as outer products. */
-  [[nodiscard]] static Matrix6 sumOfSquares(const Offsets& offsets);
+  /** Those of the sampled scan, in the first columns of \a result. */
+  void pullsOf(
+      const Offsets& offsets, double variance,
+      Eigen::Ref<Eigen::Matrix<double, 6, -1>> result) const;
   [[nodiscard]] double meanSquare(
       const Offsets& offsets, const Offsets& others, double least_information) const;
-  [[nodiscard]] double rangeVariance() const;
-  [[nodiscard]] double elevationVariance() const;
 
   Offsets range_, elevation_;
   std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
@@ -87,7 +90,9 @@ class BeamErrors
   SideErrors sides_;
   CreatingViews views_;
   std::size_t scans_ = 0;
-  Mat3 R_world_sampled_ = Mat3::Identity();  // attitude of the sampled scan
+  BeamPulls pulls_ = BeamPulls::Zero();  // of the sampled scan, in the axes of the sensor
+  double range_variance_ = 0.0, elevation_variance_ = 0.0;  // [m^2], [rad^2]
+  std::size_t first_bin_ = 0, bins_per_column_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };
 

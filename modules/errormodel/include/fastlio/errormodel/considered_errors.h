@@ -5,6 +5,7 @@
  * common with them. */
 #pragma once
 
+#include <fastlio/errormodel/beam_pulls.h>
 #include <fastlio/errormodel/twist.h>
 #include <fastlio/filter/propagation.h>
 #include <fastlio/filter/update.h>
@@ -40,27 +41,33 @@ using NavigationMatrix = Eigen::Matrix<double, kNavigationDim, kNavigationDim, E
 using NavigationBy6 = Eigen::Matrix<double, kNavigationDim, 6, Eigen::DontAlign>;
 
 /** The covariance of e, the error of the navigation state, with c = (eta_b, eta_p, x_1, ..., x_N),
- * and of c. eta_b and eta_p are unit vectors of what the points of a beam share, and of the planes'
- * own errors. x_i is the mean error, as a motion of the world, of the poses from which a group of
+ * and of c. eta_b are the unit errors of the beams, eta_p is a unit vector of the planes' own
+ * errors. x_i is the mean error, as a motion of the world, of the poses from which a group of
  * planes was created; a group is that of insertions one after the other. None of these is
  * estimated, but e depends on them. */
 class ConsideredErrors
 {
  public:
-  /** So many groups of insertions are kept. Fewer underestimate a drift where the view changes
-   * fast, and the cost grows with the square. */
-  static constexpr int kMaxGroups = 16;
-  static constexpr int kSize = 12 + 6 * kMaxGroups;  //!< elements of c
-  static constexpr int kSources = 18;                //!< elements of s, see Sources
+  /** So many groups of insertions are kept. With 16 of them the NEES of rides is a few percent
+   * smaller, and the cost grows with the square. */
+  static constexpr int kMaxGroups = 12;
+  static constexpr int kSize = kBeamErrors + 6 + 6 * kMaxGroups;  //!< elements of c
   using BySix = Eigen::Matrix<double, kSize, 6, Eigen::DontAlign>;
 
-  /** The errors that move a scan: s = (eta_b, eta_p, x), x being the error of the planes in view by
-   * the poses that created them, as a change of the scan pose. */
-  struct Sources
+  /** The error of the planes in view by the poses that created them, as a change x of the scan
+   * pose. */
+  struct PlanesInView
   {
-    Eigen::Matrix<double, kSize, kSources, Eigen::DontAlign> with_considered;      //!< cov(c, s)
-    Eigen::Matrix<double, kNavigationDim, kSources, Eigen::DontAlign> with_state;  //!< cov(e, s)
-    Eigen::Matrix<double, kSources, kSources, Eigen::DontAlign> covariance;        //!< of s
+    BySix with_considered;                 //!< cov(c, x)
+    NavigationBy6 with_state;              //!< cov(e, x)
+    Matrix6 covariance = Matrix6::Zero();  //!< of x
+  };
+  /** What these errors add to the sums of a scan: n = C_b eta_b + C_p eta_p + M x. */
+  struct ScanError
+  {
+    BySix with_considered;                 //!< cov(c, n)
+    NavigationBy6 with_state;              //!< cov(e, n)
+    Matrix6 covariance = Matrix6::Zero();  //!< of n
   };
 
   ConsideredErrors();
@@ -77,13 +84,17 @@ class ConsideredErrors
   /** Other planes are in view than before, and others matter: eta_p <- R eta_p + what is new. */
   void renewPlanes(const Matrix6& R);
 
-  /** The sources of a scan's errors. */
-  [[nodiscard]] Sources sourcesOf(const Pose& T_world_scan, const GroupedMeasurements& scan);
+  [[nodiscard]] PlanesInView planesInView(
+      const Pose& T_world_scan, const GroupedMeasurements& scan);
+  /** \param of_beams C_b \param of_planes C_p */
+  [[nodiscard]] ScanError scanError(
+      const PlanesInView& planes, const BeamPulls& of_beams, const Matrix6& of_planes,
+      const Matrix6& M) const;
 
   /** The planes that a scan has found agree with its pose, and so with each other, whatever else is
    * known. It matters after a direction was open for a while: where planes of before are found
    * again together with planes that were created in between, these were not that far off.
-   * \param update of the scan that sourcesOf() has weighed \param addition what cov(e) is more than
+   * \param update of the scan that planesInView() has weighed \param addition what cov(e) is more than
    * the filter's own; the evidence reduces it */
   void takeEvidence(const LinearizedUpdate& update, NavigationMatrix& addition);
 
@@ -98,7 +109,10 @@ class ConsideredErrors
   void forgetPlanes();
 
   /** cov(pose, eta_b). */
-  [[nodiscard]] Matrix6 poseByBeams() const { return with_state_.topLeftCorner<6, 6>(); }
+  [[nodiscard]] BeamPulls poseByBeams() const
+  {
+    return with_state_.topLeftCorner<6, kBeamErrors>();
+  }
 
  private:
   struct Group

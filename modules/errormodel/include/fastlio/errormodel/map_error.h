@@ -51,13 +51,13 @@ class MapErrorModel
   void correct(const MotionGain& K);
 
   /** Takes in an update of the filter with the measurements \a scan.
-   * \param beam_errors covariance of sum w h b by errors that the points of a beam share, in the
-   * scan pose's coordinates; they belong to the sensor and stay when the planes change
+   * \param beams what errors of the beams do to the scan, in the scan pose's coordinates; they
+   * belong to the sensor and stay when the planes change
    * \return covariance of the innovation by the errors of the map, as a change of the scan pose: how
    * far the prediction may lie beside the planes in view because it goes back to others */
   Matrix6 update(
       const LinearizedUpdate& update, const GroupedMeasurements& scan,
-      const Matrix6& beam_errors = Matrix6::Zero());
+      const BeamPulls& beams = BeamPulls::Zero());
 
   /** There is no map any more; the state's error stays, and so does the sensor's. */
   void forgetMap();
@@ -70,7 +70,7 @@ class MapErrorModel
   [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
   /** Y = cov(e, eta_b), pose rows: Y Y^T is the part of addition() by the errors of the beams. */
-  [[nodiscard]] Matrix6 poseByBeams() const { return considered_.poseByBeams(); }
+  [[nodiscard]] BeamPulls poseByBeams() const { return considered_.poseByBeams(); }
 
   /** Remembers how well the scan pose was known when that insertion was made.
    * \param insertion its number, ascending \param by_state Jacobian of the scan pose by the state */

@@ -148,6 +148,12 @@ struct RegisteredFields
   std::vector<std::int64_t> stamp_ns;  //!< when each point was measured, UNIX epoch
 };
 
+/** So many independent errors of the beams are considered: of the sides of the sensor, of the
+ * ranges and of the elevations of its lasers. */
+inline constexpr int kBeamErrors = 42;
+/** Column i: what the i-th unit error makes of a pose, in the coordinates of its covariance. */
+using PoseByBeams = Eigen::Matrix<float, 6, kBeamErrors, Eigen::DontAlign>;
+
 /** The outcome of one scan. */
 struct ScanResult
 {
@@ -166,10 +172,9 @@ struct ScanResult
    * determined the pose, it has jumped, and the jump may be wrong. */
   Matrix6 ambiguity_covariance = Matrix6::Zero();
   /** map_covariance contains B B^T from errors of the lasers and of the sides, which are the same
-   * in all scans: column i of B is what the i-th of six independent unit errors makes of the pose,
-   * as a rigid motion (phi, rho) of the world. What it changes by between two scans is the error of
-   * the motion between them. */
-  Matrix6 motion_by_beams = Matrix6::Zero();
+   * in all scans: what B changes by between two scans, as motions of the world, is the error of the
+   * motion between them. */
+  PoseByBeams pose_by_beams = PoseByBeams::Zero();
   ScanStatistics statistics;
   ScanHealth health;
   StageTimings milliseconds;

@@ -25,9 +25,9 @@ struct TrackedPose
   Matrix6 map_covariance = Matrix6::Zero();  //!< part of the covariance that neighbours share
   /** Part of map_covariance, see ScanResult. */
   Matrix6 ambiguity_covariance = Matrix6::Zero();
-  Matrix6 motion_by_beams = Matrix6::Zero();  //!< see ScanResult; the same for any body
-  Vec3 velocity = Vec3::Zero();               //!< of the body's origin, body frame [m/s]
-  Vec3 angular_velocity = Vec3::Zero();       //!< body frame [rad/s]
+  PoseByBeams pose_by_beams = PoseByBeams::Zero();  //!< see ScanResult
+  Vec3 velocity = Vec3::Zero();                     //!< of the body's origin, body frame [m/s]
+  Vec3 angular_velocity = Vec3::Zero();             //!< body frame [rad/s]
 };
 
 /** The motion from one pose to a later one. Covariance: attitude error in the frame of the latter,
@@ -47,6 +47,11 @@ struct RelativePose
  * between them counts as well as the drift that the same jump corrects. What errors of the beams do
  * is known for both. */
 [[nodiscard]] RelativePose relativePose(const TrackedPose& a, const TrackedPose& b);
+
+/** The errors of a pose as those of the pose of another body, which the same motions of the world
+ * make. */
+[[nodiscard]] PoseByBeams ofOtherBody(
+    const PoseByBeams& by_beams, const Pose& T_world_body, const Pose& T_world_other);
 
 /** Collects the poses of scans that have one. */
 class PoseTrack
