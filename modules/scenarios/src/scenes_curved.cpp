@@ -218,9 +218,9 @@ Scene rampScene()
   Route route;
   const Vec3 sensor(0.0, 0.0, 1.2);
   for (int i = 0; i <= kCorners; ++i)
-    route.corners.push_back(RoundRamp::place(kUp, kTwoPi * i / 24) + sensor);
+    route.corners.emplace_back(RoundRamp::place(kUp, kTwoPi * i / 24) + sensor);
   for (int i = kCorners; i >= 0; --i)
-    route.corners.push_back(RoundRamp::place(kDown, kTwoPi * i / 24) + sensor);
+    route.corners.emplace_back(RoundRamp::place(kDown, kTwoPi * i / 24) + sensor);
   route.speed = 3.0;
   route.corner_cut = 2.0;
   route.acceleration = 1.2;
