@@ -151,7 +151,7 @@ void BeamErrors::beginSample()
   sides_.beginScan();
 }
 
-/** In the axes of the sensor, where what the beams do changes little from scan to scan. */
+/** In the axes of the body, where what the beams do changes little from scan to scan. */
 void BeamErrors::finishSample(const Mat3& R_world_scan)
 {
   constexpr auto kColumns = static_cast<Eigen::Index>(kLaserColumns);

@@ -110,6 +110,7 @@ void appendExhibits(Bodies& bodies)
     if (i % 2 == 0) bodies.push_back(ball({x, y, high + 0.25}, 0.25, 0.5));
   }
 }
+
 /** The floor of a ramp that winds around a drum, of slabs as a builder pours them. */
 struct RoundRamp
 {

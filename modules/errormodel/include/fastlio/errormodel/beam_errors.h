@@ -90,7 +90,7 @@ class BeamErrors
   SideErrors sides_;
   CreatingViews views_;
   std::size_t scans_ = 0;
-  BeamPulls pulls_ = BeamPulls::Zero();  // of the sampled scan, in the axes of the sensor
+  BeamPulls pulls_ = BeamPulls::Zero();  // of the sampled scan, in the axes of the body
   double range_variance_ = 0.0, elevation_variance_ = 0.0;  // [m^2], [rad^2]
   std::size_t first_bin_ = 0, bins_per_column_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;

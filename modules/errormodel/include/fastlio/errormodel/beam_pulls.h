@@ -11,7 +11,7 @@
 namespace fastlio
 {
 /** Column i is what the i-th of the independent unit errors of the beams adds to sum w h z of a
- * scan. The errors stay the same in all scans of a run, what they do changes with what the beams
- * meet: a sum of six columns would not tell that it changes sign. */
+ * scan. The errors stay the same in all scans of a run. What they do changes with what the beams
+ * meet, and may change its sign. */
 using BeamPulls = Eigen::Matrix<double, 6, kBeamErrors, Eigen::DontAlign>;
 }  // namespace fastlio

@@ -48,8 +48,8 @@ using NavigationBy6 = Eigen::Matrix<double, kNavigationDim, 6, Eigen::DontAlign>
 class ConsideredErrors
 {
  public:
-  /** So many groups of insertions are kept. With 16 of them the NEES of rides is a few percent
-   * smaller, and the cost grows with the square. */
+  /** So many groups of insertions are kept. More of them change the covariance little, and the cost
+   * grows with the square. */
   static constexpr int kMaxGroups = 12;
   static constexpr int kSize = kBeamErrors + 6 + 6 * kMaxGroups;  //!< elements of c
   using BySix = Eigen::Matrix<double, kSize, 6, Eigen::DontAlign>;
@@ -84,9 +84,10 @@ class ConsideredErrors
   /** Other planes are in view than before, and others matter: eta_p <- R eta_p + what is new. */
   void renewPlanes(const Matrix6& R);
 
+  /** Weighs the groups of planes that a scan sees. */
   [[nodiscard]] PlanesInView planesInView(
       const Pose& T_world_scan, const GroupedMeasurements& scan);
-  /** \param of_beams C_b \param of_planes C_p */
+  /** \param of_beams C_b \param of_planes C_p \param M information of the scan, as it was used */
   [[nodiscard]] ScanError scanError(
       const PlanesInView& planes, const BeamPulls& of_beams, const Matrix6& of_planes,
       const Matrix6& M) const;
@@ -94,8 +95,8 @@ class ConsideredErrors
   /** The planes that a scan has found agree with its pose, and so with each other, whatever else is
    * known. It matters after a direction was open for a while: where planes of before are found
    * again together with planes that were created in between, these were not that far off.
-   * \param update of the scan that planesInView() has weighed \param addition what cov(e) is more than
-   * the filter's own; the evidence reduces it */
+   * \param update of the scan that planesInView() has weighed \param addition what cov(e) is more
+   * than the filter's own; the evidence reduces it */
   void takeEvidence(const LinearizedUpdate& update, NavigationMatrix& addition);
 
   /** Planes are created from a pose with error x = J e. \param insertion ascending
@@ -109,7 +110,7 @@ class ConsideredErrors
   void forgetPlanes();
 
   /** cov(pose, eta_b). */
-  [[nodiscard]] BeamPulls poseByBeams() const
+  [[nodiscard]] Eigen::Matrix<double, 6, kBeamErrors> poseByBeams() const
   {
     return with_state_.topLeftCorner<6, kBeamErrors>();
   }

@@ -70,7 +70,10 @@ class MapErrorModel
   [[nodiscard]] StateMatrix additionAfter(const ErrorTransition& transition) const;
 
   /** Y = cov(e, eta_b), pose rows: Y Y^T is the part of addition() by the errors of the beams. */
-  [[nodiscard]] BeamPulls poseByBeams() const { return considered_.poseByBeams(); }
+  [[nodiscard]] Eigen::Matrix<double, 6, kBeamErrors> poseByBeams() const
+  {
+    return considered_.poseByBeams();
+  }
 
   /** Remembers how well the scan pose was known when that insertion was made.
    * \param insertion its number, ascending \param by_state Jacobian of the scan pose by the state */

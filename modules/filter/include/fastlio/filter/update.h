@@ -73,8 +73,8 @@ struct IterationLimits
 /** G of the gain K = G H_6^T R^-1 with H_6 the rows h^T by the scan pose: K z = G (sum h z / r). */
 using ScanGain = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
-/** K of the gain of an update with velocity and gyro bias, the elements from kVelocity on:
- * e <- e - K e_measured. */
+/** The gain K of an update that measures velocity and gyro bias, the six elements from kVelocity
+ * on: e <- e - K e_measured. */
 using MotionGain = Eigen::Matrix<double, kStateDim, 6, Eigen::DontAlign>;
 
 /** Evidence of an update. */

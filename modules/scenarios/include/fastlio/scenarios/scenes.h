@@ -50,7 +50,7 @@ void noteMovable(Scene& scene, std::size_t bodies_before);
 // Towns (scenes_town.cpp).
 [[nodiscard]] Scene townScene(const WorldSettings& settings);
 
-// Hardly any planes (scenes_curved.cpp).
+// Round, or hardly any planes (scenes_curved.cpp).
 [[nodiscard]] Scene parkScene();
 [[nodiscard]] Scene rotundaScene();
 [[nodiscard]] Scene rampScene();
