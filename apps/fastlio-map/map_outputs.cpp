@@ -69,7 +69,8 @@ GraphContent graphOf(const MappingResult& result, const Pose& T_imu_body)
   {
     const GraphEdge& edge = result.graph.edges[i];
     if (edge.robust && result.estimate.edge_weights.at(i) < 0.5) continue;
-    content.edges.push_back({edge.a, edge.b, ofBody(edge.measured, T_imu_body)});
+    const RelativePose motion = withoutSensorErrors(edge, result.estimate);
+    content.edges.push_back({edge.a, edge.b, ofBody(motion, T_imu_body)});
   }
   return content;
 }

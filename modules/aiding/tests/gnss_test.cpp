@@ -38,7 +38,7 @@ class Road
   Road(double length, unsigned seed) : engine_(seed)
   {
     truth_.push_back({Mat3::Identity(), Vec3::Zero()});
-    OdometryChain chain(Pose{}, Matrix6::Zero(), Vector6::Zero(), Matrix6::Zero());
+    OdometryChain chain(Pose{}, Matrix6::Zero());
     Matrix6 covariance = Matrix6::Zero();
     covariance.diagonal().head<3>().setConstant(kTurned * kTurned);
     covariance.diagonal().tail<3>().setConstant(kMoved * kMoved);
@@ -52,7 +52,7 @@ class Road
       RelativePose measured;
       measured.T_a_b = {motion.R * expSO3(kTurned * normal3()), motion.p + kMoved * normal3()};
       measured.covariance = covariance;
-      chain.advance(measured, kStep);
+      chain.advance(measured);
       take(truth_.size() - 1, chain);
     }
   }

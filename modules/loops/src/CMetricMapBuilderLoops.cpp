@@ -40,8 +40,6 @@ void CMetricMapBuilderLoops::takeScan(const OdometryEstimate& estimate)
   const Odometry& odometry = driver().estimator();
   if (auto submap = submaps_->add(scan, odometry.registeredPoints(), odometry.mapOrigin()))
     mapper_->add(std::move(*submap));
-  if (hasPose(scan.status))
-    mapper_->setExtrinsicMoment(0, extrinsicMoment(scan.statistics.calibration));
 }
 
 /** The trajectory with all closures up to now; null: there are none. */

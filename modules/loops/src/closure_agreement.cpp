@@ -30,10 +30,10 @@ RelativePose Mapper::motionBetween(std::size_t a, std::size_t b) const
  * nothing where the way between them is not known well enough to tell places apart */
 std::optional<bool> Mapper::closuresAgree(const Closure& one, const Closure& other) const
 {
-  OdometryChain way(Pose{}, Matrix6::Zero(), Vector6::Zero(), Matrix6::Zero());
-  way.advance(motionBetween(other.a, one.a), 0.0);
-  way.advance(one.registration.motion, 0.0);
-  way.advance(motionBetween(one.b, other.b), 0.0);
+  OdometryChain way(Pose{}, Matrix6::Zero());
+  way.advance(motionBetween(other.a, one.a));
+  way.advance(one.registration.motion);
+  way.advance(motionBetween(one.b, other.b));
   const double range = std::min(result_.submaps[one.b].range, result_.submaps[other.b].range);
   if (largestPositionStd(way.covariance()) > limits_.maxStd(range)) return std::nullopt;
   return (way.pose().p - other.registration.motion.T_a_b.p).norm() < kAgreement;

@@ -26,13 +26,14 @@ CorrectedTrajectory::CorrectedTrajectory(const MappingResult& result, std::size_
     : changes_(result.moves(session))
 {
   if (!result.estimate.nodes.empty()) first_ = result.estimate.nodes.front();
-  if (session < result.extrinsic_moments.size())
-    extrinsic_moment_ = result.extrinsic_moments[session];
   for (std::size_t i = 0; i < result.submaps.size(); ++i)
-    if (result.submaps[i].session == session)
-      nodes_.push_back(
-          {result.submaps[i].reference, result.estimate.nodes.at(i),
-           result.estimate.covariances.at(i)});
+  {
+    const Submap& submap = result.submaps[i];
+    if (submap.session != session) continue;
+    nodes_.push_back(
+        {submap.reference, result.estimate.nodes.at(i), result.estimate.covariances.at(i)});
+    extrinsic_moment_ = submap.calibration_moment.topLeftCorner<6, 6>().cast<double>();
+  }
 }
 
 CorrectedTrajectory::Place CorrectedTrajectory::placeOf(std::int64_t stamp_ns) const

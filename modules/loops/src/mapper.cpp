@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "mapper_parts.h"
+#include "session_errors.h"
 #include <fastlio/loops/mapper.h>
 
 #include <algorithm>
@@ -16,58 +17,14 @@ namespace
 // The search goes beyond ClosureLimits::distance by so many standard deviations, and at most so
 // far.
 constexpr double kReachDeviations = 2.0;
-constexpr double kWidestReach = 8.0;   // [m]
-constexpr std::size_t kApart = 3;      // candidates of one pass are so many submaps apart
-constexpr double kTiltFloor = 0.0003;  // [rad]
+constexpr double kWidestReach = 8.0;  // [m]
+constexpr std::size_t kApart = 3;     // candidates of one pass are so many submaps apart
 // The graph is optimised anew when it has grown by this part.
 constexpr double kGrowth = 0.02;
 constexpr double kAnchorAttitude = 0.02;  // of a session that was found, to begin with [rad]
 constexpr double kAnchorPosition = 0.5;   // [m]
-// Lasers that are off move a scan this way on one surface and that way on another; they turn it the
-// more, the nearer the surfaces are.
-constexpr double kScanPosition = 0.002;  // [m]
-constexpr double kNearest = 1.0;         // surfaces that determine the attitude [m]
-// Drift of an odometry before loops and gravity show it: lasers whose elevation is off by 0.1 deg
-// bend a road by some mdeg a metre; lengths are right, as ranges are.
-constexpr double kDriftRotation = 1e-4;     // [rad/m]
-constexpr double kDriftTranslation = 2e-4;  // [m/m]
-constexpr double kUsualBias = 0.02;         // of the accelerometer, over gravity
 // Over a longer way, the graph knows more than the odometry's drift leaves over.
 constexpr std::size_t kLongestWay = 1000;  // [submaps]
-
-/** What the filter does not know of the error of a motion between two scans.
- * \param range to the surfaces [m] */
-Matrix6 ofBeams(double range)
-{
-  Matrix6 covariance = Matrix6::Zero();
-  covariance.diagonal().head<3>().setConstant(
-      std::pow(kScanPosition / std::max(range, kNearest), 2));
-  covariance.diagonal().tail<3>().setConstant(kScanPosition * kScanPosition);
-  return covariance;
-}
-
-SensorErrors usualErrors()
-{
-  SensorErrors errors;
-  errors.drift_covariance.setZero();
-  errors.drift_covariance.diagonal().head<3>().setConstant(kDriftRotation * kDriftRotation);
-  errors.drift_covariance.diagonal().tail<3>().setConstant(kDriftTranslation * kDriftTranslation);
-  errors.bias_covariance = kUsualBias * kUsualBias * Mat3::Identity();
-  return errors;
-}
-
-TiltFactor tiltOf(const Submap& submap, std::size_t node)
-{
-  const double magnitude = submap.gravity->force.norm();
-  TiltFactor tilt;
-  tilt.node = node;
-  tilt.sensor = submap.session;
-  tilt.up = submap.gravity->force / magnitude;
-  tilt.by_bias = submap.gravity->by_bias;
-  tilt.covariance = submap.gravity->covariance / (magnitude * magnitude) +
-                    kTiltFloor * kTiltFloor * Mat3::Identity();
-  return tilt;
-}
 }  // namespace
 
 void Mapper::add(Submap submap)
@@ -114,16 +71,14 @@ void Mapper::addOdometry()
   const Submap& latest = result_.submaps.back();
   PoseGraph& graph = result_.graph;
   if (latest.gravity) graph.tilts.push_back(tiltOf(latest, b));
-  if (graph.sensors.size() <= latest.session)
-    graph.sensors.resize(latest.session + 1, usualErrors());
+  if (graph.sensor_covariances.size() <= latest.session)
+    graph.sensor_covariances.resize(latest.session + 1);
+  graph.sensor_covariances[latest.session] = sessionErrorCovariance(latest);
   const bool begins = b == 0 || latest.session != result_.submaps[b - 1].session;
   if (begins) return beginSession(latest, b);
-  const Submap& earlier = result_.submaps[b - 1];
-  RelativePose motion = relativePose(earlier.reference, latest.reference);
-  motion.covariance += ofBeams(std::min(earlier.range, latest.range));
-  const double travel = latest.travel - earlier.travel;
-  graph.edges.push_back({b - 1, b, motion, false, travel, latest.session});
-  chain_.advance(motion, travel);
+  graph.edges.push_back(odometryEdge(result_.submaps[b - 1], latest, b - 1));
+  const GraphEdge& edge = graph.edges.back();
+  chain_.advance(edge.measured, edge.by_sensor);
   graph.nodes.push_back(chain_.pose());
   poses_.push_back(chain_.pose());
   covariances_.emplace_back(chain_.covariance());
@@ -148,8 +103,8 @@ void Mapper::beginSession(const Submap& first, std::size_t b)
   graph.nodes.push_back(guess);
   poses_.push_back(guess);
   covariances_.push_back(covariance);
-  chain_ = OdometryChain(
-      guess, covariance, Vector6::Zero(), graph.sensors[first.session].drift_covariance);
+  const Eigen::MatrixXd& errors = graph.sensor_covariances[first.session];
+  chain_ = OdometryChain(guess, covariance, Eigen::VectorXd::Zero(errors.cols()), errors);
 }
 
 /** Earlier submaps nearby, the nearest of each pass. */
@@ -207,17 +162,9 @@ std::optional<RelativePose> Mapper::odometryMotion(std::size_t a, std::size_t b)
 {
   const std::vector<Submap>& submaps = result_.submaps;
   if (submaps[a].session != submaps[b].session || b - a > kLongestWay) return std::nullopt;
-  OdometryChain drift(Pose{}, Matrix6::Zero(), Vector6::Zero(), usualErrors().drift_covariance);
-  for (std::size_t i = a; i < b; ++i)
-  {
-    const Submap &from = submaps[i], &to = submaps[i + 1];
-    drift.advance(
-        {from.reference.T_world_body.inverse() * to.reference.T_world_body,
-         ofBeams(std::min(from.range, to.range))},
-        to.travel - from.travel);
-  }
   RelativePose motion = relativePose(submaps[a].reference, submaps[b].reference);
-  motion.covariance += drift.covariance();
+  motion.covariance += driftCovariance(submaps, a, b);
+  motion.covariance += inertialCovariance(submaps[a], submaps[b]);
   return motion;
 }
 
@@ -229,15 +176,8 @@ void Mapper::settle()
   settled_submaps_ = result_.submaps.size();
   const std::size_t session = result_.submaps.back().session;
   chain_ = OdometryChain(
-      poses_.back(), covariances_.back(), estimate.drifts[session],
-      estimate.drift_covariances[session]);
-}
-
-void Mapper::setExtrinsicMoment(std::size_t session, const Matrix6& moment)
-{
-  auto& moments = result_.extrinsic_moments;
-  if (moments.size() <= session) moments.resize(session + 1, Matrix6::Zero());
-  moments[session] = moment;
+      poses_.back(), covariances_.back(), estimate.sensor_errors[session],
+      estimate.sensor_covariances[session]);
 }
 
 }  // namespace fastlio

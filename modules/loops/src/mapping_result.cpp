@@ -25,15 +25,6 @@ bool MappingResult::moves(std::size_t session) const
   return corrected || was_placed;
 }
 
-Matrix6 extrinsicMoment(const CalibrationCheck& check)
-{
-  Vector6 found, std;
-  found << check.rotation, check.translation;
-  std << check.rotation_std, check.translation_std;
-  const Matrix6 spread = std.cwiseAbs2().asDiagonal();
-  return found * found.transpose() + spread;
-}
-
 namespace
 {
 /** How much larger the squared errors of closures are than their covariances say: surfaces that are

@@ -35,18 +35,16 @@ std::vector<PathPose> pathOf(const std::vector<TrackedPose>& poses)
 
 /** The odometry over one session into submaps. */
 SessionOutcome addSession(
-    const Session& session, std::size_t number, SubmapBuilder submaps, Mapper& mapper,
-    PoseTrack& track, const PassHooks& hooks)
+    const Session& session, SubmapBuilder submaps, Mapper& mapper, PoseTrack& track,
+    const PassHooks& hooks)
 {
   SessionOutcome outcome;
   outcome.name = session.name();
-  std::optional<CalibrationCheck> calibration;
   const auto use = [&](const ScanResult& result, const Odometry& odometry)
   {
     outcome.statistics.add(result);
     outcome.diagnostics = odometry.diagnostics();
     track.add(result);
-    if (hasPose(result.status)) calibration = result.statistics.calibration;
     if (auto submap = submaps.add(result, odometry.registeredPoints(), odometry.mapOrigin()))
       mapper.add(std::move(*submap));
     return !isInterrupted(hooks);
@@ -56,7 +54,6 @@ SessionOutcome addSession(
       [&submaps](const ImuSample& sample) { submaps.addImu(sample); });
   outcome.path = pathOf(track.poses());
   if (auto submap = submaps.finish()) mapper.add(std::move(*submap));
-  if (calibration) mapper.setExtrinsicMoment(number, extrinsicMoment(*calibration));
   return outcome;
 }
 }  // namespace
@@ -73,7 +70,7 @@ BuiltMap buildMap(
   {
     PoseTrack track(OutputFrame{});
     built.sessions.push_back(
-        addSession(sessions[i], i, SubmapBuilder(i, {}, options.store), mapper, track, hooks));
+        addSession(sessions[i], SubmapBuilder(i, {}, options.store), mapper, track, hooks));
     SessionOutcome& outcome = built.sessions.back();
     // A recording without other sensors has nothing that is worth another pass.
     const bool wanted = options.use_gnss || options.use_wheels;

@@ -142,6 +142,8 @@ void Estimator::report(ScanResult& result) const
   result.calibration_covariance = by_calibration.topLeftCorner<6, 6>();
   result.pose_by_beams =
       (std::sqrt(calibration.innovation_scale) * map_.error().poseByBeams()).cast<float>();
+  result.pose_by_calibration = map_.calibrationError().poseByCalibration().cast<float>();
+  result.calibration_moment = calibration.second_moment.cast<float>();
   result.filter.P.block<6, 6>(kExtrinsicRotation, kExtrinsicRotation) =
       calibration_.extrinsicCovariance();
   result.statistics.calibration = checkOf(calibration, beams_);

@@ -40,15 +40,15 @@ Across acrossOf(const Vec3& direction)
   return across;
 }
 
-TiltError errorOf(const TiltFactor& factor, const Pose& node, const Vec3& up, const Vec3& bias)
+TiltError errorOf(const TiltFactor& factor, const Pose& node, const Vec3& up)
 {
   const Across across = acrossOf(factor.up);
   const Vec3 seen = node.R.transpose() * up;
   TiltError error;
-  error.value = across.transpose() * (seen + factor.by_bias * bias);
+  error.value = across.transpose() * seen;
   error.by_attitude = across.transpose() * skew(seen);
-  error.by_bias = across.transpose() * factor.by_bias;
   error.by_up = across.transpose() * node.R.transpose() * acrossOf(up);
+  if (factor.by_sensor.cols() > 0) error.by_sensor = across.transpose() * factor.by_sensor;
   return error;
 }
 

@@ -10,6 +10,7 @@ namespace fastlio
 namespace
 {
 using Aligned6 = Eigen::Matrix<double, 6, 6>;
+using Dynamic = Eigen::MatrixXd;
 
 constexpr int kNode = GraphLayout::kNode;
 // Gravity is the same for both, but its vertical is not quite the normal of the ellipsoid: they are
@@ -28,19 +29,17 @@ class Linearization
 
   [[nodiscard]] NormalEquations run() const
   {
-    NormalEquations equations(layout_.size());
+    NormalEquations equations(layout_.size(), layout_.upAt());
     const EdgeError first = errorOf(RelativePose{graph_.nodes.front(), {}}, Pose{}, node(0));
     equations.add(first.value, informations_.first, PartOf{0, first.by_b});
     addEdges(equations);
     addTilts(equations);
-    for (std::size_t i = 0; i < graph_.sensors.size(); ++i)
+    for (std::size_t i = 0; i < graph_.sensor_covariances.size(); ++i)
     {
+      const int errors = layout_.errorsOf(i);
       equations.add(
-          estimate_.drifts[i], informations_.drifts[i],
-          PartOf{layout_.driftAt(i), Aligned6(Aligned6::Identity())});
-      equations.add(
-          estimate_.biases[i], informations_.biases[i],
-          PartOf{layout_.biasAt(i), Mat3(Mat3::Identity())});
+          estimate_.sensor_errors[i], informations_.sensors[i],
+          PartOf{layout_.sensorAt(i), Dynamic(Dynamic::Identity(errors, errors))});
     }
     addPositions(equations);
     return equations;
@@ -54,13 +53,12 @@ class Linearization
     for (std::size_t i = 0; i < graph_.tilts.size(); ++i)
     {
       const TiltFactor& factor = graph_.tilts[i];
-      const TiltError error =
-          errorOf(factor, node(factor.node), estimate_.up, estimate_.biases[factor.sensor]);
-      equations.add(
-          error.value, informations_.tilts[i],
-          PartOf{GraphLayout::at(factor.node), error.by_attitude},
-          PartOf{layout_.upAt(), error.by_up},
-          PartOf{layout_.biasAt(factor.sensor), error.by_bias});
+      const TiltError error = errorOf(factor, node(factor.node), estimate_.up);
+      const PartOf by_attitude{GraphLayout::at(factor.node), error.by_attitude};
+      const PartOf by_up{layout_.upAt(), error.by_up};
+      addWithSensor(
+          equations, error.value, informations_.tilts[i], factor.sensor, error.by_sensor,
+          by_attitude, by_up);
     }
   }
 
@@ -74,16 +72,19 @@ class Linearization
       const Aligned6 information = estimate_.edge_weights[i] * informations_.edges[i];
       const PartOf by_a{GraphLayout::at(edge.a), error.by_a},
           by_b{GraphLayout::at(edge.b), error.by_b};
-      if (edge.travel == 0.0)
-      {
-        equations.add(error.value, information, by_a, by_b);
-        continue;
-      }
-      const Vector6 value = error.value + edge.travel * estimate_.drifts[edge.sensor];
-      equations.add(
-          value, information, by_a, by_b,
-          PartOf{layout_.driftAt(edge.sensor), Aligned6(edge.travel * Aligned6::Identity())});
+      addWithSensor(equations, error.value, information, edge.sensor, edge.by_sensor, by_a, by_b);
     }
+  }
+
+  /** A measurement that may have errors of a sensor. \param parts by the other unknowns */
+  template <typename Error, typename Information, typename... Parts>
+  void addWithSensor(
+      NormalEquations& equations, const Error& error, const Information& information,
+      std::size_t sensor, const Dynamic& by_sensor, const Parts&... parts) const
+  {
+    if (by_sensor.cols() == 0) return equations.add(error, information, parts...);
+    const Error value = error + by_sensor * estimate_.sensor_errors[sensor];
+    equations.add(value, information, parts..., PartOf{layout_.sensorAt(sensor), by_sensor});
   }
 
   void addPositions(NormalEquations& equations) const

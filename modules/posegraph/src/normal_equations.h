@@ -25,7 +25,7 @@ template <typename Matrix>
   const bool usable = covariance.allFinite() && factor.info() == Eigen::Success &&
                       factor.vectorD().minCoeff() > 0.0;
   if (!usable) throw std::invalid_argument("the covariance of " + what + " has no inverse");
-  return factor.solve(Matrix::Identity());
+  return factor.solve(Matrix::Identity(covariance.rows(), covariance.cols()));
 }
 
 /** Information matrices of all factors, made once. */
@@ -33,8 +33,7 @@ struct Informations
 {
   std::vector<Eigen::Matrix<double, 6, 6>> edges;
   std::vector<Eigen::Matrix2d> tilts;
-  std::vector<Eigen::Matrix<double, 6, 6>> drifts;
-  std::vector<Mat3> biases;
+  std::vector<Eigen::MatrixXd> sensors;
   std::vector<Mat3> positions;
   Eigen::Matrix<double, 6, 6> first;
 };
@@ -47,11 +46,20 @@ inline void requireNode(const PoseGraph& graph, std::size_t node)
         std::to_string(node));
 }
 
-[[nodiscard]] inline std::invalid_argument noSensor(const PoseGraph& graph, std::size_t sensor)
+/** Of a measurement that has errors of a sensor. */
+inline void requireSensor(
+    const PoseGraph& graph, std::size_t sensor, const Eigen::MatrixXd& by_sensor)
 {
-  return std::invalid_argument(
-      "a pose graph with " + std::to_string(graph.sensors.size()) + " sensors has no sensor " +
-      std::to_string(sensor));
+  if (by_sensor.cols() == 0) return;
+  const std::vector<Eigen::MatrixXd>& all = graph.sensor_covariances;
+  if (sensor >= all.size())
+    throw std::invalid_argument(
+        "a pose graph with " + std::to_string(all.size()) + " sensors has no sensor " +
+        std::to_string(sensor));
+  if (by_sensor.cols() != all[sensor].cols())
+    throw std::invalid_argument(
+        "sensor " + std::to_string(sensor) + " has " + std::to_string(all[sensor].cols()) +
+        " errors; a measurement of it has " + std::to_string(by_sensor.cols()));
 }
 
 [[nodiscard]] inline Informations informationsOf(const PoseGraph& graph)
@@ -61,25 +69,20 @@ inline void requireNode(const PoseGraph& graph, std::size_t node)
   {
     requireNode(graph, edge.a);
     requireNode(graph, edge.b);
-    if (edge.travel != 0.0 && edge.sensor >= graph.sensors.size())
-      throw noSensor(graph, edge.sensor);
+    requireSensor(graph, edge.sensor, edge.by_sensor);
     all.edges.push_back(
         inverseCovariance<Eigen::Matrix<double, 6, 6>>(edge.measured.covariance, "an edge"));
   }
   for (const TiltFactor& tilt : graph.tilts)
   {
     requireNode(graph, tilt.node);
-    if (tilt.sensor >= graph.sensors.size()) throw noSensor(graph, tilt.sensor);
+    requireSensor(graph, tilt.sensor, tilt.by_sensor);
     const Across across = acrossOf(tilt.up);
     all.tilts.push_back(inverseCovariance<Eigen::Matrix2d>(
         across.transpose() * tilt.covariance * across, "a tilt"));
   }
-  for (const SensorErrors& sensor : graph.sensors)
-  {
-    all.drifts.push_back(
-        inverseCovariance<Eigen::Matrix<double, 6, 6>>(sensor.drift_covariance, "a drift"));
-    all.biases.push_back(inverseCovariance<Mat3>(sensor.bias_covariance, "a bias"));
-  }
+  for (const Eigen::MatrixXd& sensor : graph.sensor_covariances)
+    all.sensors.push_back(inverseCovariance(sensor, "a sensor's errors"));
   if (!graph.positions.empty() && !graph.T_earth_world)
     throw std::invalid_argument("a pose graph with positions needs a pose of their frame");
   for (const PositionFactor& position : graph.positions)
@@ -106,11 +109,24 @@ PartOf(int, Jacobian) -> PartOf<Jacobian>;
 class NormalEquations
 {
  public:
-  explicit NormalEquations(int size) : gradient_(Eigen::VectorXd::Zero(size)) {}
+  /** \param common unknowns from here on are in many measurements: their products are added up
+   * before they become entries of a sparse matrix */
+  NormalEquations(int size, int common)
+      : common_begin_(common),
+        common_(Eigen::MatrixXd::Zero(size - common, size - common)),
+        gradient_(Eigen::VectorXd::Zero(size))
+  {
+  }
 
   template <typename Block>
   void addBlock(int row, int column, const Block& block)
   {
+    if (column >= common_begin_)
+    {
+      common_.block(row - common_begin_, column - common_begin_, block.rows(), block.cols()) +=
+          block;
+      return;
+    }
     for (int j = 0; j < block.cols(); ++j)
       for (int i = 0; i < block.rows(); ++i)
         if (row + i >= column + j) entries_.emplace_back(row + i, column + j, block(i, j));
@@ -135,8 +151,12 @@ class NormalEquations
   /** The lower triangle. */
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const
   {
+    std::vector<Eigen::Triplet<double>> entries = entries_;
+    for (int j = 0; j < common_.cols(); ++j)
+      for (int i = j; i < common_.rows(); ++i)
+        entries.emplace_back(common_begin_ + i, common_begin_ + j, common_(i, j));
     Eigen::SparseMatrix<double> m(gradient_.size(), gradient_.size());
-    m.setFromTriplets(entries_.begin(), entries_.end());
+    m.setFromTriplets(entries.begin(), entries.end());
     return m;
   }
 
@@ -147,7 +167,9 @@ class NormalEquations
     if (row.begin >= column.begin) addBlock(row.begin, column.begin, (weighted * column.by).eval());
   }
 
+  int common_begin_;
   std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::MatrixXd common_;
   Eigen::VectorXd gradient_;
   double cost_ = 0.0;
 };

@@ -38,8 +38,8 @@ class Optimizer
   {
     estimate_.nodes = graph.nodes;
     estimate_.up = graph.up;
-    estimate_.drifts.assign(graph.sensors.size(), Vector6::Zero());
-    estimate_.biases.assign(graph.sensors.size(), Vec3::Zero());
+    for (const Eigen::MatrixXd& sensor : graph.sensor_covariances)
+      estimate_.sensor_errors.emplace_back(Vector::Zero(sensor.cols()));
     estimate_.T_earth_world = graph.T_earth_world;
     estimate_.edge_weights.assign(graph.edges.size(), 1.0);
     estimate_.position_weights.assign(graph.positions.size(), 1.0);
@@ -69,11 +69,8 @@ class Optimizer
       estimate_.up =
           (estimate_.up + acrossOf(estimate_.up) * step.segment<GraphLayout::kUp>(layout_.upAt()))
               .normalized();
-    for (std::size_t i = 0; i < estimate_.drifts.size(); ++i)
-    {
-      estimate_.drifts[i] += step.segment<GraphLayout::kNode>(layout_.driftAt(i));
-      estimate_.biases[i] += step.segment<GraphLayout::kBias>(layout_.biasAt(i));
-    }
+    for (std::size_t i = 0; i < estimate_.sensor_errors.size(); ++i)
+      estimate_.sensor_errors[i] += step.segment(layout_.sensorAt(i), layout_.errorsOf(i));
     if (layout_.hasEarth()) move(*estimate_.T_earth_world, step, layout_.earthAt());
   }
 
@@ -184,18 +181,19 @@ class Optimizer
   {
     factorize(linearized(graph_, informations_, estimate_, layout_).matrix());
     const SelectedInverse inverse(solver_);
-    const auto covarianceAt = [&inverse](int begin)
+    const auto covarianceAt = [&inverse](int begin, int size = GraphLayout::kNode)
     {
-      Matrix6 covariance;
-      for (int column = 0; column < GraphLayout::kNode; ++column)
-        for (int row = 0; row < GraphLayout::kNode; ++row)
+      Eigen::MatrixXd covariance(size, size);
+      for (int column = 0; column < size; ++column)
+        for (int row = 0; row < size; ++row)
           covariance(row, column) = inverse.at(begin + row, begin + column);
       return covariance;
     };
     for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
-      estimate_.covariances.push_back(covarianceAt(layout_.at(n)));
-    for (std::size_t i = 0; i < graph_.sensors.size(); ++i)
-      estimate_.drift_covariances.push_back(covarianceAt(layout_.driftAt(i)));
+      estimate_.covariances.emplace_back(covarianceAt(layout_.at(n)));
+    for (std::size_t i = 0; i < graph_.sensor_covariances.size(); ++i)
+      estimate_.sensor_covariances.push_back(
+          covarianceAt(layout_.sensorAt(i), layout_.errorsOf(i)));
     if (layout_.hasEarth()) estimate_.earth_covariance = covarianceAt(layout_.earthAt());
   }
 
@@ -211,6 +209,18 @@ double squaredError(const GraphEdge& edge, const Pose& a, const Pose& b)
 {
   const Vector6 error = errorOf(edge.measured, a, b).value;
   return error.dot(inverseCovariance<Aligned6>(edge.measured.covariance, "an edge") * error);
+}
+
+RelativePose withoutSensorErrors(const GraphEdge& edge, const GraphEstimate& estimate)
+{
+  RelativePose motion = edge.measured;
+  if (edge.by_sensor.cols() == 0) return motion;
+  const Vector6 excess = edge.by_sensor * estimate.sensor_errors[edge.sensor];
+  motion.T_a_b.R = normalizeRotation(motion.T_a_b.R * expSO3(-excess.head<3>()));
+  motion.T_a_b.p -= excess.tail<3>();
+  motion.covariance +=
+      edge.by_sensor * estimate.sensor_covariances[edge.sensor] * edge.by_sensor.transpose();
+  return motion;
 }
 
 GraphEstimate optimize(const PoseGraph& graph, bool with_covariances)

@@ -19,7 +19,7 @@ void drive(OdometryChain& chain, double noise)
   motion.T_a_b.p = Vec3::UnitX();
   motion.covariance = noise * noise * Matrix6::Identity();
   for (int metre = 0; metre < 100; ++metre)
-    chain.advance(motion, 1.0);
+    chain.advance(motion, Matrix6::Identity());
 }
 }  // namespace
 

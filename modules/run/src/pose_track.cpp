@@ -28,12 +28,21 @@ Matrix6 byLatter(const Pose& a)
   return J;
 }
 
-using MotionByBeams = Eigen::Matrix<double, 6, kBeamErrors>;
-
 /** As motions of the world, which are large far from its origin: in double precision. */
-MotionByBeams motionByBeams(const PoseByBeams& by_beams, const Pose& T_world_body)
+template <int Errors>
+Eigen::Matrix<double, 6, Errors> twistBy(
+    const Eigen::Matrix<float, 6, Errors, Eigen::DontAlign>& errors, const Pose& T_world_body)
 {
-  return twistJacobian(T_world_body) * by_beams.cast<double>();
+  return twistJacobian(T_world_body) * errors.template cast<double>();
+}
+
+/** What errors make of the motion from the pose \a a to \a b. */
+template <int Errors>
+Eigen::Matrix<double, 6, Errors> motionBy(
+    const Eigen::Matrix<float, 6, Errors, Eigen::DontAlign>& errors_a, const Pose& a,
+    const Eigen::Matrix<float, 6, Errors, Eigen::DontAlign>& errors_b, const Pose& b)
+{
+  return byLatter(a) * twistJacobianInverse(b) * (twistBy(errors_b, b) - twistBy(errors_a, a));
 }
 
 /** Of the map's part. */
@@ -81,16 +90,27 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 own_a = positivePart(a.covariance - a.map_covariance);
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
   const TwistCovariance growth = unexplainedByBeams(b) - unexplainedByBeams(a);
-  const MotionByBeams by_beams = motionByBeams(b.pose_by_beams, b.T_world_body) -
-                                 motionByBeams(a.pose_by_beams, a.T_world_body);
+  const MotionByBeams by_beams = motionByBeams(a, b);
   // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
   // what had grown on the way.
   const TwistCovariance ambiguity = twistCovariance(b.ambiguity_covariance, b.T_world_body) -
                                     twistCovariance(a.ambiguity_covariance, a.T_world_body);
-  const Matrix6 of_b = own_b + sizeOf(growth, b.T_world_body) + sizeOf(ambiguity, b.T_world_body) +
-                       poseCovariance(by_beams * by_beams.transpose(), b.T_world_body);
-  relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose();
+  const Matrix6 of_b = own_b + sizeOf(growth, b.T_world_body) + sizeOf(ambiguity, b.T_world_body);
+  relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose() +
+                        by_beams * by_beams.transpose();
   return relative;
+}
+
+MotionByBeams motionByBeams(const TrackedPose& a, const TrackedPose& b)
+{
+  return motionBy(a.pose_by_beams, a.T_world_body, b.pose_by_beams, b.T_world_body);
+}
+
+MotionByCalibration motionByCalibration(
+    const PoseByCalibrationErrors& errors_a, const Pose& a, const PoseByCalibrationErrors& errors_b,
+    const Pose& b)
+{
+  return motionBy(errors_a, a, errors_b, b);
 }
 
 RelativePose reversed(const RelativePose& motion)
@@ -109,8 +129,7 @@ RelativePose reversed(const RelativePose& motion)
 PoseByBeams ofOtherBody(
     const PoseByBeams& by_beams, const Pose& T_world_body, const Pose& T_world_other)
 {
-  const MotionByBeams motion = motionByBeams(by_beams, T_world_body);
-  return (twistJacobianInverse(T_world_other) * motion).cast<float>();
+  return (twistJacobianInverse(T_world_other) * twistBy(by_beams, T_world_body)).cast<float>();
 }
 
 void PoseTrack::add(const ScanResult& result)

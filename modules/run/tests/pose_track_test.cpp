@@ -84,51 +84,6 @@ TEST(PoseTrack, KnowsNothingOutsideAndInGaps)
   EXPECT_FALSE(track.at(kTrackStamp + 30 * kScan + 1));
 }
 
-// About 1 mrad for each metre; single precision holds these errors exactly.
-constexpr double kTurnByBeams = 1.0 / 1024.0;
-
-/** A vehicle that a constant error of the sensor turns. */
-TrackedPose turnedByBeams(double way)
-{
-  TrackedPose pose;
-  pose.T_world_body.p.x() = way;
-  const Vec3 phi(0.0, 0.0, kTurnByBeams * way);
-  Vector6 error;
-  error << phi, skew(phi) * pose.T_world_body.p;
-  pose.map_covariance = pose.covariance = error * error.transpose();
-  pose.pose_by_beams.col(0) = error.cast<float>();
-  return pose;
-}
-
-// The difference of the covariances would grow with the way: 199 mrad^2 for the last metre of 100.
-TEST(RelativePose, ErrorsOfTheBeamsAreTheSameForEveryMetre)
-{
-  for (const double way : {0.0, 1.0, 99.0})
-  {
-    const RelativePose metre = relativePose(turnedByBeams(way), turnedByBeams(way + 1.0));
-    EXPECT_NEAR(metre.covariance(2, 2), kTurnByBeams * kTurnByBeams, 1e-12) << way;
-  }
-}
-
-// The same turn of the world, at two poses 5 km from its origin: their motion has no error. Errors
-// of the poses are stored in single precision.
-TEST(RelativePose, HasNoErrorOfTheBeamsThatBothShareFarFromTheOrigin)
-{
-  const Vec3 phi(1e-3, -2e-3, 3e-3);
-  const auto turned = [&](const Vec3& place)
-  {
-    TrackedPose pose;
-    pose.T_world_body.p = place;
-    Vector6 error;
-    error << phi, Vec3(0.1, 0.2, 0.3) + skew(phi) * (place - Vec3(5000.0, 0.0, 0.0));
-    pose.map_covariance = pose.covariance = error * error.transpose();
-    pose.pose_by_beams.col(3) = error.cast<float>();
-    return pose;
-  };
-  const RelativePose motion = relativePose(turned({5000.0, 0.0, 0.0}), turned({5003.0, 4.0, 0.0}));
-  EXPECT_LT(motion.covariance.diagonal().tail<3>().sum(), 1e-7);  // [m^2]
-}
-
 // A pose that was lost by 2 m jumps to a place in the map, which may be the wrong one: the jump is
 // as uncertain as both, though the covariance of the pose stays the same.
 TEST(RelativePose, AJumpToAnAmbiguousPlaceIsUncertain)

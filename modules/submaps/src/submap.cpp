@@ -93,11 +93,16 @@ std::optional<Submap> SubmapBuilder::add(
                        logSO3(reference.R.transpose() * pose.T_world_body.R).norm() >= rule_.turn;
   const bool may_end = static_cast<double>(current_.scans) >= rule_.least_scans;
   if (current_.scans > 0 && may_end && is_full) ended = finish();
-  if (current_.scans == 0) begin(pose, registered, origin);
+  if (current_.scans == 0)
+  {
+    begin(pose, registered, origin);
+    current_.pose_by_calibration = result.pose_by_calibration;
+  }
   moved(registered, origin, current_.reference.T_world_body.inverse(), local_);
   if (local_.size() > 0)
     surfaces_->insert(local_, current_.reference.T_world_body.inverse() * pose.T_world_body.p);
   current_.last_ns = pose.stamp_ns;
+  current_.calibration_moment = result.calibration_moment;
   ++current_.scans;
   return ended;
 }

@@ -61,6 +61,8 @@ class CalibrationErrorModel
   /** How the state changes when an error of the extrinsic is taken off: for boxplus(). */
   [[nodiscard]] StateVector withoutExtrinsicError(const Vector6& error) const;
 
+  /** The rows of S that belong to the pose. */
+  [[nodiscard]] PoseByCalibration poseByCalibration() const { return S_.topRows<6>(); }
   /** S M S^T for the second moment M of theta. */
   [[nodiscard]] StateMatrix addition(const CalibrationErrorMatrix& moment) const;
   /** The same, some way after the last scan. */

@@ -154,6 +154,14 @@ inline constexpr int kBeamErrors = 42;
 /** Column i: what the i-th unit error makes of a pose, in the coordinates of its covariance. */
 using PoseByBeams = Eigen::Matrix<float, 6, kBeamErrors, Eigen::DontAlign>;
 
+/** So many errors of the calibration in use are considered: of the extrinsic (rotation about the
+ * axes of the IMU, position), and of the matrices of gyro and accelerometer, by columns. */
+inline constexpr int kCalibrationErrors = 24;
+/** Column i: what error i makes of a pose, in the coordinates of its covariance. */
+using PoseByCalibrationErrors = Eigen::Matrix<float, 6, kCalibrationErrors, Eigen::DontAlign>;
+using CalibrationMoment =
+    Eigen::Matrix<float, kCalibrationErrors, kCalibrationErrors, Eigen::DontAlign>;
+
 /** The outcome of one scan. */
 struct ScanResult
 {
@@ -175,6 +183,10 @@ struct ScanResult
    * in all scans: what B changes by between two scans, as motions of the world, is the error of the
    * motion between them. */
   PoseByBeams pose_by_beams = PoseByBeams::Zero();
+  /** calibration_covariance is S M S^T from this S and the second moment M of the errors, as far as
+   * they are known by now; the errors are the same in all scans. */
+  PoseByCalibrationErrors pose_by_calibration = PoseByCalibrationErrors::Zero();
+  CalibrationMoment calibration_moment = CalibrationMoment::Zero();
   ScanStatistics statistics;
   ScanHealth health;
   StageTimings milliseconds;

@@ -16,7 +16,7 @@ namespace fastlio
  * the motion L of the LiDAR, and with T_imu_lidar = Exp(eta) X the motion of the IMU comes out as
  * Exp(eta) A Exp(-eta) instead of A = X L X^-1. No closure shows it, because it is the same for all
  * ways to a pose.
- * \param moment of eta (extrinsicMoment()) \return (attitude in the body frame, position in the
+ * \param moment of eta, a part of ScanResult::calibration_moment \return (attitude in the body frame, position in the
  * world frame) */
 [[nodiscard]] Matrix6 extrinsicCovariance(
     const Pose& first, const Pose& T_world_imu, const Matrix6& moment);

@@ -48,11 +48,6 @@ struct Closure
   bool needs_agreement = false;  //!< of another closure: nothing else is missing
 };
 
-/** Second moment of the error of the extrinsic in use, T_imu_lidar = Exp(eta) T_true, eta =
- * (rotation [rad], translation [m]) in the IMU frame: what the innovations of a run show of it, and
- * what they leave open. */
-[[nodiscard]] Matrix6 extrinsicMoment(const CalibrationCheck& check);
-
 /** What a registration has to show. */
 struct ClosureLimits
 {
@@ -114,8 +109,7 @@ struct MappingResult
   std::vector<Closure> closures;       //!< all that were looked at
   PoseGraph graph;                     //!< with the accepted closures
   GraphEstimate estimate;
-  std::vector<Matrix6> extrinsic_moments;  //!< of the sessions, as far as they are known
-  bool corrected = false;                  //!< false: nothing was added to what the odometry knows
+  bool corrected = false;  //!< false: nothing was added to what the odometry knows
 
   [[nodiscard]] std::size_t countOf(ClosureVerdict verdict) const;
   [[nodiscard]] std::size_t accepted() const { return countOf(ClosureVerdict::Accepted); }
@@ -145,9 +139,6 @@ class Mapper
    * Sessions come one after the other. Where one is in the map of those before has to be found
    * first: two of its submaps have to be recognised, each on its own, at places that agree. */
   void add(Submap submap);
-
-  /** How wrong the extrinsic of a session may be. */
-  void setExtrinsicMoment(std::size_t session, const Matrix6& moment);
 
   /** The optimum of everything, from the odometry on. It does not depend on earlier calls, and
    * submaps may follow. */

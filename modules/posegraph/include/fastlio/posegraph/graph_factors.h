@@ -24,14 +24,13 @@ using Across = Eigen::Matrix<double, 3, 2>;
 
 struct TiltError
 {
-  Eigen::Vector2d value;  //!< across the measured direction
+  Eigen::Vector2d value;  //!< across the measured direction; without errors of the sensor
   Eigen::Matrix<double, 2, 3> by_attitude;
-  Eigen::Matrix2d by_up;  //!< by a step of it along acrossOf(up)
-  Eigen::Matrix<double, 2, 3> by_bias;
+  Eigen::Matrix2d by_up;      //!< by a step of it along acrossOf(up)
+  Eigen::MatrixXd by_sensor;  //!< 2 x n; empty as that of the factor
 };
-/** \param up against gravity in the world \param bias of the accelerometer, over gravity */
-[[nodiscard]] TiltError errorOf(
-    const TiltFactor& factor, const Pose& node, const Vec3& up, const Vec3& bias);
+/** \param up against gravity in the world */
+[[nodiscard]] TiltError errorOf(const TiltFactor& factor, const Pose& node, const Vec3& up);
 
 struct PositionError
 {

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file odometry_chain.h Where the motions of an odometry lead, and how uncertain that is when they
- * share a drift. */
+ * share errors of a sensor. */
 #pragma once
 
 #include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/pose.h>
 #include <fastlio/run/pose_track.h>
+
+#include <Eigen/Core>
 
 namespace fastlio
 {
@@ -17,29 +19,38 @@ class OdometryChain
  public:
   OdometryChain() = default;
 
-  /** \param covariance of the pose: attitude in its frame, position in the world
-   * \param drift by which the odometry measures too much [rad/m, m/m], as Drift */
+  /** \param covariance of the pose: attitude in its frame, position in the world */
+  OdometryChain(const Pose& pose, const Matrix6& covariance) : pose_(pose), own_(covariance) {}
+  /** \param errors of the sensor, which all motions have in common, as far as they are known
+   * \param error_covariance of them */
   OdometryChain(
-      const Pose& pose, const Matrix6& covariance, const Vector6& drift,
-      const Matrix6& drift_covariance)
-      : pose_(pose), own_(covariance), drift_(drift), drift_covariance_(drift_covariance)
-  {
-  }
+      const Pose& pose, const Matrix6& covariance, Eigen::VectorXd errors,
+      Eigen::MatrixXd error_covariance);
 
-  /** \param motion as the odometry measured it \param travel its way [m] */
-  void advance(const RelativePose& motion, double travel);
+  /** A motion without errors of the sensor. */
+  void advance(const RelativePose& motion);
+  /** \param motion as the odometry measured it
+   * \param by_sensor 6 x n: how much too much it measures for each error of the sensor */
+  void advance(const RelativePose& motion, const Eigen::MatrixXd& by_sensor);
 
   [[nodiscard]] const Pose& pose() const { return pose_; }
-  /** To first order; that the pose at the beginning and the drift were found together is left out.
+  /** To first order; that the pose at the beginning and the errors were found together is left out.
    */
   [[nodiscard]] Matrix6 covariance() const;
 
  private:
+  /** Derivatives of the next pose. */
+  struct Step
+  {
+    Matrix6 by_former, by_motion;
+  };
+  [[nodiscard]] Step stepOf(const RelativePose& motion) const;
+
   Pose pose_;
-  Matrix6 own_ = Matrix6::Zero();       // without that of the drift
-  Matrix6 by_drift_ = Matrix6::Zero();  // derivative of the pose
-  Vector6 drift_ = Vector6::Zero();
-  Matrix6 drift_covariance_ = Matrix6::Zero();
+  Matrix6 own_ = Matrix6::Zero();  // without that of the sensor's errors
+  Eigen::VectorXd errors_;
+  Eigen::MatrixXd error_covariance_;
+  Eigen::MatrixXd by_errors_;  // 6 x n: derivative of the pose
 };
 
 }  // namespace fastlio

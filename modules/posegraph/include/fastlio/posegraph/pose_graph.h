@@ -11,6 +11,8 @@
 #include <fastlio/math/pose.h>
 #include <fastlio/run/pose_track.h>
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -33,20 +35,10 @@ struct GraphEdge
   std::size_t a = 0, b = 0;
   RelativePose measured;
   bool robust = false;  //!< it may be wrong: the optimiser may turn it off
-  /** Way from a to b, along which the drift of sensor number \a sensor adds up [m]; 0: the
-   * measurement does not drift. */
-  double travel = 0.0;
   std::size_t sensor = 0;
-};
-
-/** Errors that all measurements of a session have in common, because its sensors are off by the
- * same in every scan; before the graph shows them their mean is zero. */
-struct SensorErrors
-{
-  /** Odometry measures T_a_b with travel * (rotation [rad/m], translation [m/m]) too much. */
-  Matrix6 drift_covariance = Matrix6::Identity();
-  /** Bias of the accelerometer over gravity. */
-  Mat3 bias_covariance = Mat3::Identity();
+  /** 6 x n: how much too much it measures for each error of sensor number \a sensor; empty: it has
+   * none of them. */
+  Eigen::MatrixXd by_sensor = {};
 };
 
 /** Where a node's body has the direction against gravity. */
@@ -54,9 +46,9 @@ struct TiltFactor
 {
   std::size_t node = 0;
   Vec3 up = Vec3::UnitZ();             //!< frame of the body
-  Mat3 by_bias = Mat3::Zero();         //!< its derivative by that of the sensor
   Mat3 covariance = Mat3::Identity();  //!< across it [rad^2]
   std::size_t sensor = 0;
+  Eigen::MatrixXd by_sensor = {};  //!< 3 x n: its derivative by the errors of the sensor
 };
 
 /** A measured position, of GNSS for instance, in a frame whose pose is estimated too. */
@@ -73,7 +65,9 @@ struct PoseGraph
 {
   std::vector<Pose> nodes;  //!< T_world_body: where the search starts
   std::vector<GraphEdge> edges;
-  std::vector<SensorErrors> sensors;
+  /** n x n, of each sensor: covariance of the errors that all its measurements have in common,
+   * because it is off by the same in every scan. Before the graph shows them their mean is zero. */
+  std::vector<Eigen::MatrixXd> sensor_covariances;
   std::vector<TiltFactor> tilts;
   Vec3 up = Vec3::UnitZ();                //!< against gravity, frame of the world: start
   std::vector<PositionFactor> positions;  //!< all are robust
@@ -88,10 +82,9 @@ struct GraphEstimate
   std::vector<Matrix6> covariances;  //!< of each node, given that the first one holds
   std::vector<double> edge_weights;  //!< of robust edges: 1 they agree, 0 they were turned off
   std::vector<double> position_weights;
-  Vec3 up = Vec3::UnitZ();                 //!< that of the graph where nothing determines it
-  std::vector<Vector6> drifts;             //!< of the sensors [rad/m, m/m]
-  std::vector<Matrix6> drift_covariances;  //!< of them
-  std::vector<Vec3> biases;                //!< of the sensors, over gravity
+  Vec3 up = Vec3::UnitZ();  //!< that of the graph where nothing determines it
+  std::vector<Eigen::VectorXd> sensor_errors;
+  std::vector<Eigen::MatrixXd> sensor_covariances;  //!< of them
   std::optional<Pose> T_earth_world;
   Matrix6 earth_covariance = Matrix6::Zero();
   double cost = 0.0;  //!< sum of squared normalized errors, with the weights
@@ -99,9 +92,14 @@ struct GraphEstimate
   bool converged = false;
 };
 
-/** Squared normalized error of an edge: chi-square with 6 degrees of freedom when it is right. Of
- * one that does not drift. */
+/** Squared normalized error of an edge that has no errors of a sensor: chi-square with 6 degrees of
+ * freedom when it is right. */
 [[nodiscard]] double squaredError(const GraphEdge& edge, const Pose& a, const Pose& b);
+
+/** The edge as a measurement of its own: without the errors of its sensor that were found; what is
+ * not known of them is in its covariance. */
+[[nodiscard]] RelativePose withoutSensorErrors(
+    const GraphEdge& edge, const GraphEstimate& estimate);
 
 /** Gauss-Newton on the manifold with a sparse factorisation; robust factors by graduated
  * non-convexity with truncated least squares (Yang, Antonante, Tzoumas and Carlone, "Graduated

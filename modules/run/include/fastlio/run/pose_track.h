@@ -48,6 +48,16 @@ struct RelativePose
  * is known for both. */
 [[nodiscard]] RelativePose relativePose(const TrackedPose& a, const TrackedPose& b);
 
+/** The part of relativePose() that errors of the beams make: how the motion's errors follow from
+ * them. */
+using MotionByBeams = Eigen::Matrix<double, 6, kBeamErrors, Eigen::DontAlign>;
+[[nodiscard]] MotionByBeams motionByBeams(const TrackedPose& a, const TrackedPose& b);
+/** The same for errors of the calibration; relativePose() does not contain that part. */
+using MotionByCalibration = Eigen::Matrix<double, 6, kCalibrationErrors, Eigen::DontAlign>;
+[[nodiscard]] MotionByCalibration motionByCalibration(
+    const PoseByCalibrationErrors& errors_a, const Pose& a, const PoseByCalibrationErrors& errors_b,
+    const Pose& b);
+
 /** The errors of a pose as those of the pose of another body, which the same motions of the world
  * make. */
 [[nodiscard]] PoseByBeams ofOtherBody(

@@ -32,6 +32,9 @@ struct Submap
   double travel = 0.0;                    //!< of the run, up to the reference [m]
   double range = 0.0;                     //!< median, of the first scan [m]
   std::size_t scans = 0;
+  PoseByCalibrationErrors pose_by_calibration = PoseByCalibrationErrors::Zero();  //!< reference
+  /** Second moment of the errors of the calibration, as known by the last scan. */
+  CalibrationMoment calibration_moment = CalibrationMoment::Zero();
   StoredSurfaces surfaces;  //!< in the frame of the reference
 };
 

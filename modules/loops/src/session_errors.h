@@ -1,0 +1,46 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file session_errors.h Errors that all measurements of a session have in common, because its sensors are
+ * off by the same in every scan (internal). A pose graph estimates them with the poses:
+ *
+ * - drift: the odometry measures (rotation [rad/m], translation [m/m]) too much on its way,
+ * - bias of the accelerometer, over gravity,
+ * - beams: see ScanResult::pose_by_beams,
+ * - inertial: matrices of gyro and accelerometer, see ScanResult::pose_by_calibration.
+ *
+ * The extrinsic is not among them: submaps are in the frame of the LiDAR, with the extrinsic in
+ * use, and what its error makes of the poses of the IMU is added in the end
+ * (extrinsicCovariance()). */
+#pragma once
+
+#include <fastlio/posegraph/pose_graph.h>
+#include <fastlio/submaps/submap.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace fastlio
+{
+/** Covariance of the errors before the graph shows them. \param latest knows most of the
+ * calibration */
+[[nodiscard]] Eigen::MatrixXd sessionErrorCovariance(const Submap& latest);
+
+/** The motion between the references of submaps that follow each other, numbers \a a and a + 1. */
+[[nodiscard]] GraphEdge odometryEdge(const Submap& earlier, const Submap& later, std::size_t a);
+
+/** Gravity in a submap that has a reading of it. */
+[[nodiscard]] TiltFactor tiltOf(const Submap& submap, std::size_t node);
+
+/** What the odometry's covariance does not contain when motions follow each other: from submap
+ * number \a a to number \a b. */
+[[nodiscard]] Matrix6 driftCovariance(
+    const std::vector<Submap>& submaps, std::size_t a, std::size_t b);
+
+/** Covariance of the motion of the odometry from \a a to \a b by errors of the inertial sensor, as
+ * \a b knows them. */
+[[nodiscard]] Matrix6 inertialCovariance(const Submap& a, const Submap& b);
+
+}  // namespace fastlio
