@@ -12,10 +12,16 @@ namespace
 {
 std::atomic<std::size_t> calls{0};
 std::atomic<std::size_t> live_bytes{0};
+std::atomic<std::size_t> failing_call{0};  // 0: none
+
+void count()
+{
+  if (++calls == failing_call) throw std::bad_alloc();
+}
 
 void* countedAllocation(std::size_t size)
 {
-  ++calls;
+  count();
   void* p = std::malloc(size == 0 ? 1 : size);  // NOLINT(cppcoreguidelines-no-malloc): below new
   if (p == nullptr) throw std::bad_alloc();
   live_bytes += malloc_usable_size(p);
@@ -24,7 +30,7 @@ void* countedAllocation(std::size_t size)
 
 void* countedAllocation(std::size_t size, std::align_val_t alignment)
 {
-  ++calls;
+  count();
   const auto multiple = static_cast<std::size_t>(alignment);
   void* p = std::aligned_alloc(multiple, (size + multiple - 1) / multiple * multiple);
   if (p == nullptr) throw std::bad_alloc();
@@ -47,6 +53,11 @@ std::size_t fastlio::testing::allocationCount()
 std::size_t fastlio::testing::allocatedBytes()
 {
   return live_bytes;
+}
+
+void fastlio::testing::failAllocation(std::size_t n)
+{
+  failing_call = n == 0 ? 0 : calls + n;
 }
 
 void* operator new(std::size_t size)

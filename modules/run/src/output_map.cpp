@@ -9,11 +9,27 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace fastlio
 {
 namespace
 {
+/** Points stay whole when the memory does not suffice: all fields have room before one grows. */
+void makeRoom(OutputPoints& points, std::size_t more)
+{
+  const std::size_t size = points.size() + more;
+  const auto grow = [size](auto& field)
+  {
+    if (field.capacity() < size) field.reserve(std::max(size, 2 * field.capacity()));
+  };
+  grow(points.x);
+  grow(points.y);
+  grow(points.z);
+  grow(points.intensity);
+  grow(points.stamp_ns);
+}
+
 void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
 {
   to.x.push_back(from.x[i]);
@@ -74,11 +90,12 @@ void OutputMap::insert(const OutputPoints& points)
   ++insertions_;
   for (const auto& [key, part] : byTile(points))
   {
-    auto& tile = tiles_[key];
-    if (!tile) tile = std::make_unique<Tile>();
-    tile->last_insertion = insertions_;
-    restore(*tile);
-    addTo(*tile, part);
+    auto place = tiles_.find(key);
+    if (place == tiles_.end()) place = tiles_.emplace(key, std::make_unique<Tile>()).first;
+    Tile& tile = *place->second;
+    tile.last_insertion = insertions_;
+    restore(tile);
+    addTo(tile, part);
   }
   keepWithinMemory();
 }
@@ -86,17 +103,21 @@ void OutputMap::insert(const OutputPoints& points)
 void OutputMap::restore(Tile& tile)
 {
   if (tile.index) return;
-  tile.index = std::make_unique<CIncrementalPointsMap>(options_.spacing);
-  if (tile.size == 0) return;
-  tile.points = readBack(tile);
-  tile.index->insertPoints(
-      tile.points.x.data(), tile.points.y.data(), tile.points.z.data(), tile.size);
-  in_memory_ += tile.size;
+  auto index = std::make_unique<CIncrementalPointsMap>(options_.spacing);
+  if (tile.size > 0)
+  {
+    OutputPoints points = readBack(tile);
+    index->insertPoints(points.x.data(), points.y.data(), points.z.data(), tile.size);
+    tile.points = std::move(points);
+    in_memory_ += tile.size;
+  }
+  tile.index = std::move(index);
 }
 
 void OutputMap::addTo(Tile& tile, const OutputPoints& points)
 {
   const std::size_t before = tile.index->size();
+  makeRoom(tile.points, points.size());
   tile.index->insertPoints(points.x.data(), points.y.data(), points.z.data(), points.size());
   const auto& x = tile.index->getPointsBufferRef_x();
   const auto& y = tile.index->getPointsBufferRef_y();
@@ -158,6 +179,7 @@ void OutputMap::forEachTile(const std::function<void(const OutputPoints&)>& use)
 {
   for (const auto& [key, tile] : tiles_)
   {
+    if (tile->size == 0) continue;  // there was no memory for its points
     if (tile->index)
       use(tile->points);
     else
