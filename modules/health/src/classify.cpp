@@ -22,26 +22,30 @@ constexpr int kSparseMapScans = 20;
 // A scan among others that leave a direction open may be wrong about it [ns].
 constexpr std::int64_t kWellConstrained = 1'000'000'000;
 
-std::string fewMatches(const ScanOutcome& outcome, const ScanStatistics& s)
+/** The scan is too small, and why. \param purpose what more points are needed for */
+std::string fewPoints(
+    const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options,
+    const char* purpose)
 {
   return mrpt::format(
-      "%zu of %zu points match the map, at least %zu are needed; "
-      "%.2f s on inertial data alone, position uncertain by %.3f m%s",
-      s.points_effective, outcome.points, kMinEffectivePoints, outcome.unaided_s,
-      outcome.position_std,
-      outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
+      "%zu of %zu points are left, at least %zu are needed to %s: %zu without an echo, %zu nearer "
+      "than lidar.min_range (%g m), %zu farther than lidar.max_range (%g m)",
+      outcome.points, s.points_in, kMinEffectivePoints, purpose, s.dropped_invalid, s.dropped_near,
+      options.lidar.min_range, s.dropped_far, options.lidar.max_range);
 }
 
-/** There is no map yet, and the scan cannot begin one. */
-std::string emptyScan(
+std::string fewMatches(
     const ScanOutcome& outcome, const ScanStatistics& s, const OdometryOptions& options)
 {
+  const std::string why = outcome.points < kMinEffectivePoints
+                              ? fewPoints(outcome, s, options, "match the map")
+                              : mrpt::format(
+                                    "%zu of %zu points match the map, at least %zu are needed",
+                                    s.points_effective, outcome.points, kMinEffectivePoints);
   return mrpt::format(
-      "%zu of %zu points are left, at least %zu are needed to begin a map: %zu without an echo, "
-      "%zu "
-      "nearer than lidar.min_range (%g m), %zu farther than lidar.max_range (%g m)",
-      outcome.points, s.points_in, kMinEffectivePoints, s.dropped_invalid, s.dropped_near,
-      options.lidar.min_range, s.dropped_far, options.lidar.max_range);
+      "%s; %.2f s on inertial data alone, position uncertain by %.3f m%s", why.c_str(),
+      outcome.unaided_s, outcome.position_std,
+      outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
 }
 
 std::string foundAgain(const PoseSearchResult& search)
@@ -144,8 +148,9 @@ std::string trackingMessage(
     return outcome.search->accepted ? foundAgain(*outcome.search) : searchFailure(outcome);
   if (outcome.after_outage && outcome.prediction_finite) return afterOutage(outcome);
   if (diverged && outcome.updated) return unconvincingMatch(outcome, s);
-  if (outcome.map_was_empty && !outcome.begins_map) return emptyScan(outcome, s, options);
-  if (diverged || (!outcome.updated && !outcome.begins_map)) return fewMatches(outcome, s);
+  if (outcome.map_was_empty && !outcome.begins_map)
+    return fewPoints(outcome, s, options, "begin a map");
+  if (diverged || (!outcome.updated && !outcome.begins_map)) return fewMatches(outcome, s, options);
   if (outcome.imu_gap_s > options.imu.max_gap)
     return bridgedGap(outcome.imu_gap_s, options.imu.max_gap);
   return {};
