@@ -50,7 +50,7 @@ class OdometryChain
   Matrix6 own_ = Matrix6::Zero();  // without that of the sensor's errors
   Eigen::VectorXd errors_;
   Eigen::MatrixXd error_covariance_;
-  Eigen::MatrixXd by_errors_;  // 6 x n: derivative of the pose
+  Eigen::MatrixXd by_errors_ = Eigen::MatrixXd::Zero(6, 0);  // 6 x n: derivative of the pose
 };
 
 }  // namespace fastlio
