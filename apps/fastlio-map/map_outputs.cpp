@@ -110,8 +110,8 @@ bool MapFiles::wantsMap() const
 
 std::string MapFiles::nameOf(const MapFileKind& kind, std::size_t session) const
 {
+  if (!isOfSession(kind.name) || sessions_.size() < 2) return kind.file;
   const std::string file = kind.file;
-  if (!isOfSession(kind.name) || sessions_.size() < 2) return file;
   const std::size_t dot = file.rfind('.');
   return file.substr(0, dot) + "." + sessions_.at(session) + file.substr(dot);
 }

@@ -12,7 +12,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kSteps = 40;  // the first half leads straight on, the second turns left
+constexpr std::size_t kStraight = 20, kSteps = 2 * kStraight;    // then it turns left
 constexpr double kStepLength = 2.5, kTurn = 1.5707963267948966;  // [m], [rad]
 constexpr int kGyroScaleZ = 14;  // third element of the third column of the gyro's matrix
 
@@ -22,7 +22,7 @@ std::vector<Pose> roadBy(double scale_error)
   std::vector<Pose> poses(1);
   for (std::size_t i = 0; i < kSteps; ++i)
   {
-    const double turn = i < kSteps / 2 ? 0.0 : kTurn / (kSteps / 2);
+    const double turn = i < kStraight ? 0.0 : kTurn / kStraight;
     const Pose step{expSO3({0.0, 0.0, (1.0 + scale_error) * turn}), {kStepLength, 0.0, 0.0}};
     poses.push_back(poses.back() * step);
   }
@@ -70,8 +70,8 @@ TEST(SessionErrors, OfTheGyroAddUpWhereTheRoadTurns)
     return std::sqrt(std::pow(headingStd(unknown, node), 2) - std::pow(headingStd(known, node), 2));
   };
   EXPECT_NEAR(by_gyro(kSteps), kStd * kTurn, 0.02 * kStd * kTurn);
-  EXPECT_NEAR(by_gyro(kSteps * 3 / 4), kStd * kTurn / 2.0, 0.02 * kStd * kTurn);
-  EXPECT_LT(by_gyro(kSteps / 2), 0.01 * kStd * kTurn);
+  EXPECT_NEAR(by_gyro(kStraight + kStraight / 2), kStd * kTurn / 2.0, 0.02 * kStd * kTurn);
+  EXPECT_LT(by_gyro(kStraight), 0.01 * kStd * kTurn);
 }
 
 /** One measurement from end to end shows which error it was, and so corrects all poses between. */

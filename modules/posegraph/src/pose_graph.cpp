@@ -84,7 +84,7 @@ class Optimizer
       factorize(equations.matrix());
       const Vector step = -solver_.solve(equations.gradient());
       for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
-        move(estimate_.nodes[n], step, layout_.at(n));
+        move(estimate_.nodes[n], step, GraphLayout::at(n));
       moveCommon(step);
       estimate_.cost = equations.cost();
       estimate_.converged = step.lpNorm<Eigen::Infinity>() < kSmallStep * std::max(1.0, scale());
@@ -190,7 +190,7 @@ class Optimizer
       return covariance;
     };
     for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
-      estimate_.covariances.emplace_back(covarianceAt(layout_.at(n)));
+      estimate_.covariances.emplace_back(covarianceAt(GraphLayout::at(n)));
     for (std::size_t i = 0; i < graph_.sensor_covariances.size(); ++i)
       estimate_.sensor_covariances.push_back(
           covarianceAt(layout_.sensorAt(i), layout_.errorsOf(i)));
