@@ -45,11 +45,12 @@ function(fastlio_unity TARGET SIZE)
     UNITY_BUILD ${MRPT_FASTLIO_UNITY} UNITY_BUILD_BATCH_SIZE ${SIZE})
 endfunction()
 
-# fastlio_add_module(NAME [PUBLIC ...] [PRIVATE ...] [TEST_LINK ...] [OWN_PROGRAM ...])
+# fastlio_add_module(NAME [PUBLIC ...] [PRIVATE ...] [TEST_LINK ...] [ALLOCATION_TESTS ...])
 # A shared library mrpt_fastlio::NAME (file libmrpt_fastlio_NAME.so) of all sources in src/ and, when tests
-# are built, one GoogleTest program test_NAME of all sources in tests/ but those named by OWN_PROGRAM.
+# are built, one GoogleTest program test_NAME of all sources in tests/ but those named by ALLOCATION_TESTS. These
+# replace the global operator new, and are a program of their own, test_NAME_allocations.
 function(fastlio_add_module NAME)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;TEST_LINK;OWN_PROGRAM" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE;TEST_LINK;ALLOCATION_TESTS" ${ARGN})
   set(target mrpt_fastlio_${NAME})
   file(GLOB sources CONFIGURE_DEPENDS src/*.cpp src/*/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS include/fastlio/${NAME}/*.h)
@@ -74,13 +75,17 @@ function(fastlio_add_module NAME)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${NAME})
   fastlio_install_module(${target})
   file(GLOB tests CONFIGURE_DEPENDS tests/*.cpp)
-  foreach(own ${ARG_OWN_PROGRAM})
-    list(REMOVE_ITEM tests ${CMAKE_CURRENT_SOURCE_DIR}/tests/${own})
-  endforeach()
+  list(TRANSFORM ARG_ALLOCATION_TESTS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/tests/)
+  list(REMOVE_ITEM tests ${ARG_ALLOCATION_TESTS})
   if(BUILD_TESTING AND tests)
     fastlio_add_test(test_${NAME} SOURCES ${tests} LINK mrpt_fastlio::${NAME} ${ARG_TEST_LINK})
     # Tests see what is not public, too.
     target_include_directories(test_${NAME} PRIVATE src)
+  endif()
+  if(BUILD_TESTING AND ARG_ALLOCATION_TESTS)
+    fastlio_add_test(test_${NAME}_allocations
+      SOURCES ${ARG_ALLOCATION_TESTS} ${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp
+      LINK mrpt_fastlio::${NAME} ${ARG_TEST_LINK})
   endif()
 endfunction()
 
