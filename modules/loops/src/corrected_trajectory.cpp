@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapper_parts.h"
 #include <fastlio/loops/corrected_trajectory.h>
 #include <fastlio/math/time.h>
+#include <fastlio/posegraph/odometry_chain.h>
 #include <fastlio/run/pose_output.h>
 
 #include <algorithm>
@@ -80,7 +80,9 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   x.v = turn * x.v;
   const TrackedPose here = mappingPoseOf(result);
   const Node& node = *place.before;
-  Matrix6 covariance = carried(node.corrected, node.covariance, relativePose(node.odometry, here));
+  OdometryChain chain(node.corrected, node.covariance);
+  chain.advance(relativePose(node.odometry, here));
+  Matrix6 covariance = chain.covariance();
   if (place.after != nullptr)
     covariance = (1.0 - place.fraction) * covariance + place.fraction * place.after->covariance;
   const Matrix6 by_extrinsic = extrinsicCovariance(first_, pose, extrinsic_moment_);

@@ -18,33 +18,20 @@ OdometryChain::OdometryChain(
 {
 }
 
-OdometryChain::Step OdometryChain::stepOf(const RelativePose& motion) const
-{
-  const Pose& T_a_b = motion.T_a_b;
-  Step step{Matrix6::Zero(), Matrix6::Identity()};
-  step.by_former.topLeftCorner<3, 3>() = T_a_b.R.transpose();
-  step.by_former.bottomLeftCorner<3, 3>() = -pose_.R * skew(T_a_b.p);
-  step.by_former.bottomRightCorner<3, 3>() = Mat3::Identity();
-  step.by_motion.bottomRightCorner<3, 3>() = pose_.R;
-  return step;
-}
-
-void OdometryChain::advance(const RelativePose& motion)
-{
-  const Step step = stepOf(motion);
-  own_ = step.by_former * own_ * step.by_former.transpose() +
-         step.by_motion * motion.covariance * step.by_motion.transpose();
-  by_errors_ = step.by_former * by_errors_;
-  pose_ = pose_ * motion.T_a_b;
-}
-
 void OdometryChain::advance(const RelativePose& motion, const Eigen::MatrixXd& by_sensor)
 {
-  const Matrix6 by_motion = stepOf(motion).by_motion;
   const Vector6 excess = by_sensor * errors_;
-  const Pose& T_a_b = motion.T_a_b;
-  advance({{T_a_b.R * expSO3(-excess.head<3>()), T_a_b.p - excess.tail<3>()}, motion.covariance});
-  by_errors_ -= by_motion * by_sensor;
+  const Pose T_a_b{motion.T_a_b.R * expSO3(-excess.head<3>()), motion.T_a_b.p - excess.tail<3>()};
+  Matrix6 by_former = Matrix6::Zero();
+  by_former.topLeftCorner<3, 3>() = T_a_b.R.transpose();
+  by_former.bottomLeftCorner<3, 3>() = -pose_.R * skew(T_a_b.p);
+  by_former.bottomRightCorner<3, 3>() = Mat3::Identity();
+  Matrix6 by_motion = Matrix6::Identity();
+  by_motion.bottomRightCorner<3, 3>() = pose_.R;
+  own_ = by_former * own_ * by_former.transpose() +
+         by_motion * motion.covariance * by_motion.transpose();
+  by_errors_ = by_former * by_errors_ - by_motion * by_sensor;
+  pose_ = pose_ * T_a_b;
 }
 
 Matrix6 OdometryChain::covariance() const

@@ -28,7 +28,10 @@ class OdometryChain
       Eigen::MatrixXd error_covariance);
 
   /** A motion without errors of the sensor. */
-  void advance(const RelativePose& motion);
+  void advance(const RelativePose& motion)
+  {
+    advance(motion, Eigen::MatrixXd::Zero(6, errors_.size()));
+  }
   /** \param motion as the odometry measured it
    * \param by_sensor 6 x n: how much too much it measures for each error of the sensor */
   void advance(const RelativePose& motion, const Eigen::MatrixXd& by_sensor);
@@ -39,13 +42,6 @@ class OdometryChain
   [[nodiscard]] Matrix6 covariance() const;
 
  private:
-  /** Derivatives of the next pose. */
-  struct Step
-  {
-    Matrix6 by_former, by_motion;
-  };
-  [[nodiscard]] Step stepOf(const RelativePose& motion) const;
-
   Pose pose_;
   Matrix6 own_ = Matrix6::Zero();  // without that of the sensor's errors
   Eigen::VectorXd errors_;
