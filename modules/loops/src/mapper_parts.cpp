@@ -8,17 +8,6 @@
 
 namespace fastlio
 {
-Matrix6 carried(const Pose& a, const Matrix6& covariance, const RelativePose& motion)
-{
-  Matrix6 J = Matrix6::Zero();
-  J.topLeftCorner<3, 3>() = motion.T_a_b.R.transpose();
-  J.bottomLeftCorner<3, 3>() = -a.R * skew(motion.T_a_b.p);
-  J.bottomRightCorner<3, 3>() = Mat3::Identity();
-  Matrix6 K = Matrix6::Identity();
-  K.bottomRightCorner<3, 3>() = a.R;
-  return J * covariance * J.transpose() + K * motion.covariance * K.transpose();
-}
-
 void accept(Closure& closure, const std::string& remark)
 {
   const Registration& found = closure.registration;
@@ -37,6 +26,8 @@ void stayAsOdometry(MappingResult& result)
     result.estimate.nodes[i] =
         result.anchors[submap.session].T_world_session * submap.reference.T_world_body;
   }
+  for (Eigen::VectorXd& errors : result.estimate.sensor_errors)
+    errors.setZero();
 }
 
 namespace

@@ -40,11 +40,8 @@ struct Shortcoming
 [[nodiscard]] std::optional<Shortcoming> shortcomingOf(
     const Registration& registration, const ClosureLimits& limits);
 
-/** The covariance of the pose that a motion leads to from \a a, whose covariance is given: attitude
- * in the body frame, position in the world. To first order. */
-[[nodiscard]] Matrix6 carried(const Pose& a, const Matrix6& covariance, const RelativePose& motion);
-
-/** Without anything that corrects it, a map is that of the odometry; covariances stay. */
+/** Without anything that corrects it, a map is that of the odometry, and no errors of its sensors
+ * are found; covariances stay. */
 void stayAsOdometry(MappingResult& result);
 
 }  // namespace fastlio

@@ -74,6 +74,37 @@ TEST(SessionErrors, OfTheGyroAddUpWhereTheRoadTurns)
   EXPECT_LT(by_gyro(kStraight), 0.01 * kStd * kTurn);
 }
 
+/** Readings of gravity tell the graph of a drift. As long as nothing corrects the map, its poses
+ * and the motions between them are those of the odometry all the same. */
+TEST(SessionErrors, AreNotTakenOffWhereNothingIsCorrected)
+{
+  Mapper mapper;
+  for (std::size_t i = 0; i < kSteps; ++i)
+  {
+    Submap submap;
+    const auto at = static_cast<double>(i);
+    submap.reference.stamp_ns = static_cast<std::int64_t>(i + 1) * 1'000'000'000;
+    submap.reference.T_world_body.p.x() = kStepLength * at;
+    submap.reference.covariance = 1e-10 * Matrix6::Identity();
+    submap.travel = kStepLength * at;
+    submap.range = 20.0;
+    const double pitch = 1e-4 * submap.travel;
+    submap.gravity = GravityReading{
+        9.81 * Vec3(-std::sin(pitch), 0.0, std::cos(pitch)), Mat3::Identity(),
+        1e-4 * Mat3::Identity()};
+    mapper.add(std::move(submap));
+  }
+  const MappingResult result = std::move(mapper).result();
+  ASSERT_FALSE(result.corrected);
+  GraphEstimate optimum = optimize(result.graph);
+  ASSERT_GT(optimum.sensor_errors.at(0).head<6>().norm(), 1e-5);
+  const GraphEdge& edge = result.graph.edges.front();
+  EXPECT_EQ(withoutSensorErrors(edge, result.estimate).T_a_b.p, edge.measured.T_a_b.p);
+  EXPECT_EQ(withoutSensorErrors(edge, result.estimate).T_a_b.R, edge.measured.T_a_b.R);
+  EXPECT_GT(
+      withoutSensorErrors(edge, result.estimate).covariance(1, 1), edge.measured.covariance(1, 1));
+}
+
 /** One measurement from end to end shows which error it was, and so corrects all poses between. */
 TEST(SessionErrors, OfTheGyroAreFoundByTheGraph)
 {
