@@ -54,7 +54,7 @@ ImuConditioner::ImuConditioner(const ImuOptions& parameters, double gravity)
           sensorMatrix(parameters.accel_matrix).inverse(),
           !parameters.gyro_matrix.empty() || !parameters.accel_matrix.empty()},
       time_gate_(parameters.max_gap),
-      spike_gate_(kSpikeGyro, kSpikeAccel),
+      spike_gate_(kSpikeGyro / siPerUnit(parameters.gyro_unit), kSpikeAccel),
       clipping_{
           ClippingDetector(parameters.gyro_range, kGyroFloor),
           ClippingDetector(parameters.accel_range, kAccelFloor),
@@ -131,7 +131,6 @@ void ImuConditioner::scaled(ImuSample sample)
   // Not multiplied by 1: clean samples stay as they are, minus zeros included.
   if (units_.accel_scale != 1.0) sample.accel *= units_.accel_scale;
   if (parameters_.invert_acceleration) sample.accel = -sample.accel;
-  if (units_.gyro_scale != 1.0) sample.gyro *= units_.gyro_scale;
   const std::size_t steps = time_gate_.clockSteps();
   timed_.clear();
   time_gate_.push(sample, timed_);
@@ -158,8 +157,12 @@ void ImuConditioner::emitAll()
     emit(timed);
 }
 
-void ImuConditioner::emit(const TimedSample& timed)
+/** The unit of the rates comes last: what waits in the gates while it is found is in that unit,
+ * too.
+ */
+void ImuConditioner::emit(TimedSample timed)
 {
+  if (units_.gyro_scale != 1.0) timed.sample.gyro *= units_.gyro_scale;
   ConditionedSample next;
   next.sample = timed.sample;
   next.after_break = timed.after_break;
@@ -187,6 +190,7 @@ double ImuConditioner::considerGyroUnit(ConditionedSample& next)
   report_.gyro_unit = GyroUnit::Degrees;
   units_.gyro_scale = siPerUnit(GyroUnit::Degrees);
   next.sample.gyro *= units_.gyro_scale;
+  spike_gate_.setMaxGyro(kSpikeGyro / units_.gyro_scale);
   clipping_.gyro = ClippingDetector(parameters_.gyro_range, kGyroFloor);
   diagnostics_.push_back(
       {next.sample.stamp_ns,

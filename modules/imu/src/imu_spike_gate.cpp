@@ -3,6 +3,8 @@
 
 #include <fastlio/imu/imu_spike_gate.h>
 
+#include <utility>
+
 namespace fastlio
 {
 namespace
@@ -29,11 +31,15 @@ void ImuSpikeGate::drop(const ImuSample& sample)
   latest_spike_ns_ = sample.stamp_ns;
 }
 
-void ImuSpikeGate::push(const TimedSample& timed, std::vector<TimedSample>& out)
+void ImuSpikeGate::push(TimedSample timed, std::vector<TimedSample>& out)
 {
   const ImuSample& sample = timed.sample;
   if (!(sample.gyro.norm() < kImpossibleGyro) || !(sample.accel.norm() < kImpossibleAccel))
+  {
+    broken_ = broken_ || timed.after_break;
     return drop(sample);
+  }
+  timed.after_break = std::exchange(broken_, false) || timed.after_break;
   const std::int64_t newest_ns = held_       ? held_->sample.stamp_ns
                                  : previous_ ? previous_->stamp_ns
                                              : sample.stamp_ns - 1;

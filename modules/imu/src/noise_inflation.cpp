@@ -18,20 +18,6 @@ std::int64_t overlap(const NoiseInflation& inflation, std::int64_t begin_ns, std
 }
 }  // namespace
 
-const char* toString(InertialFault fault)
-{
-  switch (fault)
-  {
-    case InertialFault::Gap:
-      return "gap";
-    case InertialFault::Saturation:
-      return "saturation";
-    case InertialFault::Spike:
-      return "spike";
-  }
-  return "unknown";
-}
-
 ImuNoise noiseBetween(
     const ImuNoise& noise, const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns,
     std::int64_t end_ns)

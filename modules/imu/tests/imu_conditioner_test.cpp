@@ -148,6 +148,49 @@ TEST(ImuConditioner, DegreesPerSecondAreFoundWhenGravityTurns)
   EXPECT_EQ(flips, 1U);
 }
 
+// Samples that wait for their successor, as steps in deg/s are larger than any in rad/s, are in
+// that unit too.
+TEST(ImuConditioner, NoSampleStaysInDegreesPerSecond)
+{
+  constexpr double kMost = 11.0;  // [rad/s]
+  std::vector<ImuSample> raw;
+  for (int i = 0; i < 4000; ++i)
+  {
+    const std::int64_t since_ns = i * kPeriod / 2;
+    const double t = toSeconds(since_ns), turn = 2.0 * M_PI * 2.5;
+    const double angle = 40.0 * M_PI / 180.0 * std::sin(turn * t);
+    const double rate = 40.0 * turn * std::cos(turn * t);  // [deg/s]
+    raw.push_back(
+        {kStart + since_ns, Vec3(rate, 0.0, 0.0),
+         kDown * Vec3(0.0, std::sin(angle), std::cos(angle))});
+  }
+  const Conditioned c = conditioned(raw);
+  ASSERT_EQ(c.report.gyro_unit, GyroUnit::Degrees);
+  ASSERT_EQ(c.samples.size(), raw.size());
+  bool flipped = false;
+  for (const ConditionedSample& s : c.samples)
+  {
+    flipped = flipped || s.rescale_gyro != 1.0;
+    ASSERT_TRUE(!flipped || s.sample.gyro.norm() < kMost) << s.sample.gyro.norm();
+  }
+}
+
+// A spin that lasts until the end of a window of the other test.
+TEST(ImuConditioner, ASpinThatIsNoneInRadiansStaysFound)
+{
+  for (int last = 495; last < 560; ++last)
+  {
+    std::vector<ImuSample> raw;
+    for (int i = 0; i < 1000; ++i)
+      raw.push_back(
+          {kStart + i * kPeriod, Vec3(0, 0, i >= 400 && i <= last ? 40.0 : 0.1),
+           Vec3(0, 0, kDown)});
+    const bool is_long = last - 400 > 100;  // 0.5 s
+    const GyroUnit unit = conditioned(raw).report.gyro_unit;
+    EXPECT_TRUE(!is_long || unit == GyroUnit::Degrees) << last;
+  }
+}
+
 TEST(ImuConditioner, DegreesPerSecondAreFoundOfAPlatformThatOnlyYaws)
 {
   std::vector<ImuSample> raw;
@@ -242,6 +285,17 @@ TEST(ImuConditioner, GapsInflateNoiseAndLongOnesBreakTheRun)
   const double gyro_std = M_PI / 6.0 * 0.055 / ImuOptions{}.max_gap;
   EXPECT_NEAR(c.samples[100].inflation->gyro_std, gyro_std, 1e-9);
   EXPECT_DOUBLE_EQ(c.samples[690].inflation->accel_std, 2.0);
+}
+
+TEST(ImuConditioner, ABreakStaysOneWhenTheFirstSampleBehindItIsImpossible)
+{
+  auto raw = tilting(1000);
+  raw.erase(raw.begin() + 700, raw.begin() + 900);  // 1 s
+  raw[700].accel = Vec3(1e7, 0.0, 0.0);
+  const Conditioned c = conditioned(raw);
+  ASSERT_EQ(c.samples.size(), raw.size() - 1);
+  EXPECT_TRUE(c.samples[700].after_break);
+  EXPECT_EQ(c.report.missing, 0U);
 }
 
 TEST(ImuConditioner, AGapCostsWhatTheMotionBeforeItShows)

@@ -56,7 +56,8 @@ class ImuBuffer
   template <typename Use>
   void forEachSample(std::int64_t begin_ns, std::int64_t end_ns, const Use& use) const
   {
-    for (std::size_t i = firstAfter(begin_ns - 1); i < firstAfter(end_ns); ++i)
+    const std::size_t end = firstAfter(end_ns);
+    for (std::size_t i = firstAfter(begin_ns - 1); i < end; ++i)
       use(samples_[i]);
   }
 

@@ -69,7 +69,7 @@ class ImuConditioner
 
   void decideAccelUnit();
   void scaled(ImuSample sample);
-  void emit(const TimedSample& timed);
+  void emit(TimedSample timed);
   void emitAll();
   void reportClockStep();
   void reportClipping(std::int64_t stamp_ns);

@@ -17,12 +17,15 @@ namespace fastlio
 class ImuSpikeGate
 {
  public:
-  /** \param max_gyro [rad/s]
+  /** \param max_gyro in the unit of the samples' rates
    * \param max_accel [m/s^2] a larger difference is absurd */
   ImuSpikeGate(double max_gyro, double max_accel) : max_gyro_(max_gyro), max_accel_(max_accel) {}
 
+  /** When the unit of the rates is found. */
+  void setMaxGyro(double max_gyro) { max_gyro_ = max_gyro; }
+
   /** Appends the samples that are believed now to \a out. */
-  void push(const TimedSample& timed, std::vector<TimedSample>& out);
+  void push(TimedSample timed, std::vector<TimedSample>& out);
   void finish(std::vector<TimedSample>& out);
 
   [[nodiscard]] std::size_t spikes() const { return spikes_; }
@@ -37,6 +40,7 @@ class ImuSpikeGate
   double max_gyro_, max_accel_;
   std::optional<ImuSample> previous_;
   std::optional<TimedSample> held_;
+  bool broken_ = false;  // a sample that was dropped came after a break
   std::size_t spikes_ = 0;
   std::int64_t latest_spike_ns_ = 0;
 };

@@ -20,9 +20,6 @@ enum class InertialFault
   Spike        //!< an absurd sample was left out
 };
 
-/** Printable name ("gap", ...). */
-[[nodiscard]] const char* toString(InertialFault fault);
-
 /** In a span of time the inputs are off by an error that is constant over each of them. */
 struct NoiseInflation
 {
