@@ -127,7 +127,7 @@ bool LocalMap::accepts(const InsertionCandidate& candidate) const
   if (candidate.status == ScanStatus::Tracking || candidate.status == ScanStatus::FirstScan)
     return true;
   if (candidate.status == ScanStatus::Diverged) return false;
-  // A sparse map has few planes: it must grow as long as the prediction knows where the scan is.
+  // Where the map has few planes it must grow, as long as the prediction knows where the scan is.
   const Matrix6 covariance = scanPoseCovariance(candidate.filter, candidate.scan.compensation);
   const Vec3 position_variance = covariance.diagonal().tail<3>() - begun_variance_;
   return position_variance.maxCoeff() < std::pow(kMaxInsertionStd, 2);

@@ -42,7 +42,7 @@ std::unique_ptr<SurfaceMap> makeSurfaceMap(
     const SavedMap& saved)
 {
   if (saved.planes && parameters.map.type == MapType::Planes)
-    return std::make_unique<VoxelPlaneMap>(*saved.planes);
+    return std::make_unique<VoxelPlaneMap>(*saved.planes, std::move(workers));
   auto surfaces = makeSurfaceMap(parameters, std::move(workers));
   insertSavedPoints(saved.points, *surfaces);
   return surfaces;

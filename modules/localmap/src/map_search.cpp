@@ -59,11 +59,10 @@ double headingBetween(const NavState& from, const Mat3& R)
 /** The prediction stays as it is. \param latest match of the scan \param best sums of the best one
  */
 MapSearchResult notFound(
-    MatchResult latest, const FilterState& predicted, const InformationSums& best, int iterations)
+    MatchResult latest, const FilterState& predicted, const InformationSums& best)
 {
   latest.update = {};
   latest.update.posterior = predicted;
-  latest.update.iterations = iterations;
   latest.update.last = best;
   return {std::move(latest), false, std::nullopt};
 }
@@ -99,14 +98,14 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
     if (latest.update.updated && latest.update.last.count > best.last.count) best = latest.update;
   }
   if (ratioOf(best) < kGivenMapInlierRatio)
-    return notFound(std::move(latest), predicted, best.last, 0);
+    return notFound(std::move(latest), predicted, best.last);
   // Once more, so that matches and constraints are those of the best.
   const FilterState from = withUncertainPlace(
       standingAt(predicted, best.posterior.x.pose()), options_.initialization,
       std::pow(kShrink, kGivenPosePasses));
   latest = matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_));
   if (!latest.update.updated || ratioOf(latest.update) < kGivenMapInlierRatio)
-    return notFound(std::move(latest), predicted, best.last, 0);
+    return notFound(std::move(latest), predicted, best.last);
   return {std::move(latest), true, std::nullopt};
 }
 
@@ -146,8 +145,7 @@ MapSearchResult MapSearch::postponed(const FilterState& predicted) const
 {
   // The matches that are handed over are those of the whole scan, as if it had been searched.
   return notFound(
-      matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_)), predicted, {},
-      0);
+      matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_)), predicted, {});
 }
 
 MapSearchResult MapSearch::around(
@@ -187,7 +185,7 @@ MapSearchResult MapSearch::around(
   }
   // The matches that are handed over are those of the whole scan, not of the sample.
   latest = matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_));
-  MapSearchResult refused = notFound(std::move(latest), predicted, {}, 0);
+  MapSearchResult refused = notFound(std::move(latest), predicted, {});
   if (!map_.empty()) refused.poses = poses;
   return refused;
 }

@@ -54,11 +54,6 @@ class PagedPool
 
   void release(std::uint32_t i) { free_.push_back(i); }
 
-  [[nodiscard]] std::size_t memoryBytes() const
-  {
-    return pages_.size() * kPageSize * sizeof(T) + free_.capacity() * sizeof(std::uint32_t);
-  }
-
  private:
   static constexpr std::uint32_t kPageSize = 1U << kPageBits;
   static constexpr std::uint32_t kMask = kPageSize - 1U;

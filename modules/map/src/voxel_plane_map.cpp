@@ -69,14 +69,18 @@ VoxelPlaneMap::VoxelPlaneMap(
 }
 
 VoxelPlaneMap::~VoxelPlaneMap() = default;
-VoxelPlaneMap::VoxelPlaneMap(const VoxelPlaneMap& other)
+VoxelPlaneMap::VoxelPlaneMap(const VoxelPlaneMap& other, std::shared_ptr<const Workers> workers)
     : SurfaceMap(other), impl_(std::make_unique<Impl>(*other.impl_))
 {
+  impl_->workers = std::move(workers);
 }
 
 VoxelPlaneMap& VoxelPlaneMap::operator=(const VoxelPlaneMap& other)
 {
-  if (this != &other) impl_ = std::make_unique<Impl>(*other.impl_);
+  if (this == &other) return *this;
+  auto copy = std::make_unique<Impl>(*other.impl_);
+  copy->workers = impl_->workers;
+  impl_ = std::move(copy);
   return *this;
 }
 
@@ -95,11 +99,6 @@ void VoxelPlaneMap::clear()
   impl_->shards = VoxelShards();
   impl_->sweep.fill(0);
   impl_->scan = 0;
-}
-
-std::size_t VoxelPlaneMap::memoryBytes() const
-{
-  return impl_->shards.memoryBytes();
 }
 
 std::uint32_t VoxelPlaneMap::insertionCount() const

@@ -59,7 +59,6 @@ class VoxelShards
 
   [[nodiscard]] std::size_t blockCount() const { return sum(&VoxelStorage::blockCount); }
   [[nodiscard]] std::size_t finestCount() const { return sum(&VoxelStorage::finestCount); }
-  [[nodiscard]] std::size_t memoryBytes() const { return sum(&VoxelStorage::memoryBytes); }
 
   /** Calls visit(storage, shard, block) for each block in use. */
   template <typename Visit>

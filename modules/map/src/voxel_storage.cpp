@@ -56,12 +56,4 @@ void VoxelStorage::drop(std::uint32_t number)
   --block_count_;
 }
 
-std::size_t VoxelStorage::memoryBytes() const
-{
-  std::size_t bytes = blocks_.memoryBytes() + voxels_.memoryBytes();
-  for (const auto& index : index_)
-    bytes += index.bucket_count() * (sizeof(std::uint64_t) + 2 * sizeof(std::uint32_t));
-  return bytes;
-}
-
 }  // namespace fastlio

@@ -67,8 +67,6 @@ class VoxelStorage
   /** Forgets a block and its voxels. */
   void drop(std::uint32_t number);
 
-  [[nodiscard]] std::size_t memoryBytes() const;
-
  private:
   /** Spreads the bits of a block key. */
   struct KeyHash

@@ -63,3 +63,23 @@ TEST(VoxelPlaneMap, IsTheSameWhoeverInsertsIt)
       ASSERT_TRUE(sameBits(matches[i], expected[i])) << threads << " threads, point " << i;
   }
 }
+
+// A copy is for another run, on another thread: loops of the same workers may not run at once.
+TEST(VoxelPlaneMap, ACopyHasWorkersOfItsOwn)
+{
+  const auto workers = std::make_shared<const Workers>(2),
+             others = std::make_shared<const Workers>(2);
+  VoxelPlaneMap map(VoxelPlaneOptions{}, workers);
+  walk(map);
+  VoxelPlaneMap copy(map);
+  EXPECT_EQ(workers.use_count(), 2);
+  VoxelPlaneMap assigned(VoxelPlaneOptions{}, others);
+  assigned = map;
+  EXPECT_EQ(workers.use_count(), 2);
+  EXPECT_EQ(others.use_count(), 2);
+  const VoxelPlaneMap shared(map, others);
+  EXPECT_EQ(others.use_count(), 3);
+  walk(copy);
+  walk(assigned);
+  EXPECT_EQ(copy.pointCount(), assigned.pointCount());
+}

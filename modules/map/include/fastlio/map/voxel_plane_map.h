@@ -48,7 +48,10 @@ class VoxelPlaneMap : public SurfaceMap
       std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
 
   ~VoxelPlaneMap() override;
-  VoxelPlaneMap(const VoxelPlaneMap& other);
+  /** A copy has workers of its own: both maps may insert at the same time. */
+  VoxelPlaneMap(
+      const VoxelPlaneMap& other,
+      std::shared_ptr<const Workers> workers = std::make_shared<const Workers>(1));
   VoxelPlaneMap& operator=(const VoxelPlaneMap& other);
 
   void match(
@@ -86,9 +89,6 @@ class VoxelPlaneMap : public SurfaceMap
    * map is then as it was */
   void writeTo(mrpt::serialization::CArchive& out) const;
   void readFrom(mrpt::serialization::CArchive& in);
-
-  /** Bytes held by blocks, voxels and their index. */
-  [[nodiscard]] std::size_t memoryBytes() const;
 
  private:
   class Impl;
