@@ -83,7 +83,8 @@ void propagateSample(benchmark::State& state)
 {
   FilterState s = someState();
   for (auto _ : state)
-    benchmark::DoNotOptimize(propagate(s, {0.1, 0.2, 0.3}, {0.1, 0.2, 9.8}, 0.005, ImuNoise{}));
+    benchmark::DoNotOptimize(
+        propagate({s, {}}, {0.1, 0.2, 0.3}, {0.1, 0.2, 9.8}, 0.005, ImuNoise{}));
 }
 
 void informationGain(benchmark::State& state)

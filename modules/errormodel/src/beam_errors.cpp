@@ -124,6 +124,7 @@ void BeamErrors::chooseColumns(const BodyPoints& body, const SensorFrame& frame)
   for (std::size_t i = 0; i < body.size(); ++i)
   {
     const Vec3 beam = frame.R_lidar_body * pointAt(body, i) - frame.origin;
+    if (!(beam.squaredNorm() > 0.0)) continue;
     const std::size_t bin = beamBin(beam.z() / beam.norm());
     first_bin_ = std::min(first_bin_, bin);
     last = std::max(last, bin);

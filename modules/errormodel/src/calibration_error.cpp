@@ -30,8 +30,15 @@ void CalibrationErrorModel::start(const NavState& x, bool tilted)
 
 void CalibrationErrorModel::propagate(const ErrorTransition& transition)
 {
-  S_ = transition.times(S_);
-  S_.block<kMotionDim, 18>(0, kGyroMatrixError) += transition.by_inertial;
+  S_ = propagated(transition);
+}
+
+CalibrationErrorModel::Sensitivity CalibrationErrorModel::propagated(
+    const ErrorTransition& transition) const
+{
+  Sensitivity S = transition.times(S_);
+  S.block<kMotionDim, 18>(0, kGyroMatrixError) += transition.by_inertial;
+  return S;
 }
 
 void CalibrationErrorModel::correct(const MotionGain& K)
@@ -98,10 +105,8 @@ StateMatrix CalibrationErrorModel::addition(const CalibrationErrorMatrix& moment
 StateMatrix CalibrationErrorModel::additionAfter(
     const ErrorTransition& transition, const CalibrationErrorMatrix& moment) const
 {
-  CalibrationErrorModel then;
-  then.S_ = S_;
-  then.propagate(transition);
-  return then.addition(moment);
+  const Sensitivity S = propagated(transition);
+  return productByTransposed(product(S, moment), S);
 }
 
 }  // namespace fastlio

@@ -57,7 +57,7 @@ Matrix6 weighInsertions(const GroupedMeasurements& scan, std::vector<Insertion>&
     if (insertion.weights.all > 0.0) insertion.weights = {};  // few of them: most are out of sight
   InsertionWeights of_unknown;
   double all = 0.0;
-  std::uint32_t looked_up = 0;  // no insertion has that number
+  std::uint32_t looked_up = 0;  // no scan's insertion: a given map has it, without errors
   InsertionWeights* weights = &of_unknown;
   for (const PlaneGroup& group : scan.groups)
   {

@@ -214,30 +214,23 @@ StateMatrix ErrorTransition::onBothSidesOf(const StateMatrix& P) const
   return assembled(P, rows, productByTransposed(rows, by_state));
 }
 
-ErrorTransition chain(
-    const ErrorTransition& before, const NavState& x, const Vec3& gyro, const Vec3& accel,
-    double dt)
-{
-  const ProcessBlocks F = processBlocks(x, gyro, accel, dt);
-  return {
-      chained(before.by_state, F, dt),
-      chained(before.by_inertial, F, gyro - x.gyro_bias, accel - x.accel_bias, dt)};
-}
-
 // Eq. 4 (mean, w = 0) and eq. 8 (covariance).
-FilterState propagate(
-    const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise)
+Prediction propagate(
+    const Prediction& before, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise)
 {
-  if (dt == 0.0) return s;
+  if (dt == 0.0) return before;
   if (!(dt > 0.0))
   {
     throw std::invalid_argument(
         "propagate: the time step is " + std::to_string(dt) +
         " s but must not be negative; sort the inertial samples by stamp");
   }
+  const NavState& x = before.state.x;
+  const ProcessBlocks F = processBlocks(x, gyro, accel, dt);
   return {
-      propagateMean(s.x, gyro, accel, dt),
-      propagateCovariance(s.P, processBlocks(s.x, gyro, accel, dt), dt, noise)};
+      {propagateMean(x, gyro, accel, dt), propagateCovariance(before.state.P, F, dt, noise)},
+      {chained(before.transition.by_state, F, dt),
+       chained(before.transition.by_inertial, F, gyro - x.gyro_bias, accel - x.accel_bias, dt)}};
 }
 
 }  // namespace fastlio

@@ -223,13 +223,13 @@ UpdateStep standardStep(
   return step;
 }
 
-// Eq. 15-20.
 double normalizedInnovation(const UpdateResult& update)
 {
   return update.last.weighted_squares /
          static_cast<double>(std::max<std::size_t>(update.last.count, 1));
 }
 
+// Eq. 15-20.
 UpdateResult iteratedUpdate(
     const FilterState& prior, const NavState& start, const MeasurementModel& model,
     const IterationLimits& limits, GainForm gain)

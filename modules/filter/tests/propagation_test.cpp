@@ -49,6 +49,19 @@ std::vector<Case> cases(unsigned seed)
   return all;
 }
 
+FilterState propagated(
+    const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise)
+{
+  return propagate({s, {}}, gyro, accel, dt, noise).state;
+}
+
+ErrorTransition chained(
+    const ErrorTransition& before, const NavState& x, const Vec3& gyro, const Vec3& accel,
+    double dt)
+{
+  return propagate({{x, StateMatrix::Zero()}, before}, gyro, accel, dt, ImuNoise{}).transition;
+}
+
 /** Q of eq. 8 for one sample: density^2 / dt per axis. */
 NoiseVector discreteVariances(const ImuNoise& noise, double dt)
 {
@@ -166,7 +179,7 @@ TEST(Propagation, CovarianceIsEquation8)
     const auto [Fx, Fw] = processJacobians(c.x, c.gyro, c.accel, c.dt);
     const Eigen::MatrixXd noises = Eigen::MatrixXd(discreteVariances(noise, c.dt).asDiagonal());
     const StateMatrix expected = testing::onBothSides(Fx, s.P) + testing::onBothSides(Fw, noises);
-    const FilterState out = propagate(s, c.gyro, c.accel, c.dt, noise);
+    const FilterState out = propagated(s, c.gyro, c.accel, c.dt, noise);
     EXPECT_LT((out.P - expected).norm(), 1e-13 * expected.norm());
     EXPECT_EQ((out.P - out.P.transpose()).norm(), 0.0);
     EXPECT_EQ(boxminus(out.x, propagateMean(c.x, c.gyro, c.accel, c.dt)).tail<15>().norm(), 0.0);
@@ -183,7 +196,7 @@ TEST(Propagation, NoiseGrowsWithTimeWhateverTheSampleRate)
     FilterState s{rest, StateMatrix::Zero()};
     for (int i = 0; i < 2 * rate; ++i)
     {
-      s = propagate(s, Vec3::Zero(), Vec3(0.0, 0.0, 9.81), 1.0 / rate, noise);
+      s = propagated(s, Vec3::Zero(), Vec3(0.0, 0.0, 9.81), 1.0 / rate, noise);
     }
     const StateVector variance = s.P.diagonal();
     EXPECT_NEAR(variance[kGyroBias], 2.0 * 1e-8, 1e-16) << rate;
@@ -202,7 +215,7 @@ TEST(Propagation, CovarianceStaysSymmetricAndPositiveWithoutUpdates)
   for (int i = 0; i < 2000; ++i)
   {
     const Vec3 accel = Vec3(0.0, 0.0, 9.81) + random.vector(1.0);
-    s = propagate(s, random.vector(1.0), accel, 0.005, ImuNoise{});
+    s = propagated(s, random.vector(1.0), accel, 0.005, ImuNoise{});
   }
   EXPECT_TRUE(isFinite(s.x));
   EXPECT_LT((s.x.R * s.x.R.transpose() - Mat3::Identity()).norm(), 1e-11);
@@ -214,7 +227,7 @@ TEST(Propagation, AStepOfNoLengthChangesNothing)
 {
   testing::Random random(17);
   const FilterState s{random.state(), random.covariance(1.0, 10.0)};
-  const FilterState out = propagate(s, random.vector(), random.vector(), 0.0, ImuNoise{});
+  const FilterState out = propagated(s, random.vector(), random.vector(), 0.0, ImuNoise{});
   EXPECT_EQ(out.P, s.P);
   EXPECT_EQ(out.x.R, s.x.R);
   EXPECT_EQ(out.x.p, s.x.p);
@@ -226,7 +239,7 @@ TEST(Propagation, AStepBackInTimeIsRefused)
   for (const double dt : {-0.005, std::numeric_limits<double>::quiet_NaN()})
   {
     EXPECT_THROW(
-        (void)propagate(s, Vec3::Zero(), Vec3::Zero(), dt, ImuNoise{}), std::invalid_argument);
+        (void)propagated(s, Vec3::Zero(), Vec3::Zero(), dt, ImuNoise{}), std::invalid_argument);
   }
 }
 
@@ -237,7 +250,7 @@ TEST(Propagation, TransitionIsTheProductOfTheJacobians)
   ErrorTransition transition;
   for (const Case& step : cases(19))
   {
-    transition = chain(transition, step.x, step.gyro, step.accel, step.dt);
+    transition = chained(transition, step.x, step.gyro, step.accel, step.dt);
     Phi = processJacobians(step.x, step.gyro, step.accel, step.dt).Fx * Phi;
   }
   const StateMatrix P = random.covariance(1.0, 10.0);
@@ -273,7 +286,7 @@ TEST(Propagation, SensitivityIsTheDerivativeByTheMatricesOfTheSensor)
     NavState x = steps[0].x;
     for (const Case& step : steps)
     {
-      transition = chain(transition, x, step.gyro, step.accel, step.dt);
+      transition = chained(transition, x, step.gyro, step.accel, step.dt);
       x = propagateMean(x, step.gyro, step.accel, step.dt);
     }
     for (int k = 0; k < 18; ++k)

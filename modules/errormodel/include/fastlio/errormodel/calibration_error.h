@@ -80,6 +80,7 @@ class CalibrationErrorModel
   };
   using Sensitivity = Eigen::Matrix<double, kStateDim, kCalibrationErrorDim, Eigen::DontAlign>;
 
+  [[nodiscard]] Sensitivity propagated(const ErrorTransition& transition) const;
   [[nodiscard]] PoseByCalibration ofScan(const ScanPoseJacobian& by_state) const;
   [[nodiscard]] PoseByCalibration ofMap(const Pose& T_world_scan, const GroupedMeasurements& scan);
 

@@ -67,21 +67,21 @@ struct ErrorTransition
   [[nodiscard]] StateMatrix onBothSidesOf(const StateMatrix& P) const;
 };
 
-/** The steps before, and one more from x.
- * \param gyro w_m [rad/s]
- * \param accel a_m [m/s^2]
- * \param dt [s] */
-[[nodiscard]] ErrorTransition chain(
-    const ErrorTransition& before, const NavState& x, const Vec3& gyro, const Vec3& accel,
-    double dt);
+/** A propagated state, and how the way to it passes errors on. */
+struct Prediction
+{
+  FilterState state;
+  ErrorTransition transition;
+};
 
-/** One step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block and symmetric
- * to the bit. The discrete noise of a zero-order-hold sample is density^2 / dt per axis.
+/** One more step of eq. 4 and eq. 8: P = Fx P Fx^T + Fw Q Fw^T, evaluated block by block and
+ * symmetric to the bit. The discrete noise of a zero-order-hold sample is density^2 / dt per axis.
  * \param gyro w_m [rad/s]
  * \param accel a_m [m/s^2]
  * \param dt [s], 0 changes nothing
  * \throw std::invalid_argument when dt is negative or not a number */
-[[nodiscard]] FilterState propagate(
-    const FilterState& s, const Vec3& gyro, const Vec3& accel, double dt, const ImuNoise& noise);
+[[nodiscard]] Prediction propagate(
+    const Prediction& before, const Vec3& gyro, const Vec3& accel, double dt,
+    const ImuNoise& noise);
 
 }  // namespace fastlio

@@ -130,8 +130,9 @@ struct UpdateStep
     const FilterState& prior, const NavState& iterate, const UpdateStep& step,
     const MeasurementEvaluation& evaluation);
 
-/** Eq. 15-20: iterate until every component's step is below its limit or max_iterations. The
- * posterior's covariance is symmetric and refers to the posterior's own tangent space.
+/** Eq. 15-20: iterate until every step (but that of the time offset) is below its limit, or
+ * max_iterations. The  * posterior's covariance is symmetric and refers to the posterior's own
+ * tangent space.
  * \param start of the iterations: the prior's mean, or what an earlier update has found
  * \throw std::invalid_argument when max_iterations < 1, or when the standard gain is chosen and the
  * model does not stack as many measurements as it counts */
