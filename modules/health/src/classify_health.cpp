@@ -193,8 +193,9 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
       {
         return mrpt::format(
             "scans and inertial data see different motions, %.0f times as far apart as their noise "
-            "explains: wrong mounting (T_imu_lidar), units, point times, clocks or inertial "
-            "readings?",
+            "explains: is the pose of the LiDAR (input.T_vehicle_lidar) wrong, or units, point "
+            "times, "
+            "clocks or inertial readings?",
             s.motion_innovation);
       });
 }
@@ -238,8 +239,7 @@ void considerInertialData(double inflated, const NavState& x, ScanHealth& health
 
 double maxMountingError(const CalibrationOptions& options)
 {
-  constexpr double kDegree = 0.017453292519943295;
-  return std::max(kDegree, 3.0 * options.extrinsic_rotation_std);
+  return std::max(kRadPerDeg, 3.0 * options.extrinsic_rotation_std);
 }
 
 double maxGyroScaleError(const CalibrationOptions& options)

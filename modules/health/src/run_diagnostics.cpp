@@ -57,6 +57,12 @@ void RunDiagnostics::consider(const ImuSample& sample)
           gyro_ratio, accel_ratio, gyro, accel));
 }
 
+void RunDiagnostics::forgetScatter()
+{
+  scatter_ = {};
+  scatter_reported_ = false;
+}
+
 void RunDiagnostics::consider(const ScanResult& result)
 {
   considerMounting(result);
@@ -76,8 +82,9 @@ void RunDiagnostics::considerMounting(const ScanResult& result)
       result.stamp_ns,
       mrpt::format(
           "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
-          "%.1f) deg about the axes of the IMU it would explain what both sensors see; "
-          "check the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu",
+          "%.1f) deg about the axes of the IMU it would explain what both sensors see; check the "
+          "sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu, or run "
+          "fastlio-calibrate",
           kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
 }
 
@@ -91,9 +98,9 @@ void RunDiagnostics::considerMotion(const ScanResult& result)
       result.stamp_ns,
       mrpt::format(
           "scans and inertial data see different motions, %.0f times as far apart as their noise "
-          "explains; a mounting (T_imu_lidar) or inertial sensor that is slightly off explains a "
-          "part of it, and the covariance counts that. Otherwise: check units, point times, clocks "
-          "and clipped or missing inertial readings",
+          "explains; a pose of the LiDAR (input.T_vehicle_lidar) or an inertial sensor that is "
+          "slightly off explains a part of it, and the covariance counts that. Otherwise: check "
+          "units, point times, clocks and clipped or missing inertial readings",
           innovation));
 }
 
@@ -103,10 +110,14 @@ void RunDiagnostics::considerStep(const ScanResult& result)
   step_reported_ = true;
   report(
       result.stamp_ns,
-      "from here on the inertial sensor is not what it was: the scans contradict it, so its biases "
-      "and the offset of the clocks are estimated anew and the covariance is wider. A shock, heat "
-      "or a motor that starts does that, and so do clipped readings and a clock that jumps. Or the "
-      "LiDAR sees what moves with it, as in an elevator: then the poses are wrong");
+      "from here on scans and inertial data contradict each other: biases and the offset of the "
+      "clocks are estimated anew, and the covariance is wider. Soon after the first motion, the "
+      "pose "
+      "of the LiDAR or the clocks are wrong: see fastlio-info. Later, the inertial sensor has "
+      "changed "
+      "(a shock, heat, a motor that starts, clipped readings, a clock that jumps), or the LiDAR "
+      "sees "
+      "what moves with it, as in an elevator: then the poses are wrong");
 }
 
 /** An offset that is nothing but a late clock costs little, as it is estimated. More often points
@@ -138,16 +149,20 @@ void RunDiagnostics::considerExtrinsic(const ScanResult& result)
       isOdd(check.translation, check.translation_std, calibration_.extrinsic_translation_std);
   if (extrinsic_reported_ || mounting_reported_ || (!turned && !moved)) return;
   extrinsic_reported_ = true;
-  const Vec3 rotation = kDegPerRad * check.rotation, rotation_std = kDegPerRad * check.rotation_std;
-  const Vec3 translation = 1e3 * check.translation, translation_std = 1e3 * check.translation_std;
+  const Vec3 rotation = -kDegPerRad * check.rotation,
+             rotation_std = kDegPerRad * check.rotation_std;
+  const Vec3 translation = -1e3 * check.translation, translation_std = 1e3 * check.translation_std;
   report(
       result.stamp_ns,
       mrpt::format(
           "the pose of the LiDAR in the IMU frame seems to be wrong: turned by (%.2f +- %.2f, %.2f "
-          "+- %.2f, %.2f +- %.2f) deg, moved by (%.0f +- %.0f, %.0f +- %.0f, %.0f +- %.0f) mm; the "
-          "covariance counts this, the trajectory does not. Check input.T_vehicle_lidar and "
-          "input.T_vehicle_imu, or set calibration.extrinsic_rotation_std and "
-          "extrinsic_translation_std to what is known of them",
+          "+- %.2f, %.2f +- %.2f) deg about the axes of the IMU, moved by (%.0f +- %.0f, %.0f +- "
+          "%.0f, %.0f +- %.0f) mm, it would explain a part of what both sensors see; the "
+          "covariance "
+          "counts this, the trajectory does not. Run fastlio-calibrate, or check "
+          "input.T_vehicle_lidar and input.T_vehicle_imu, or set "
+          "calibration.extrinsic_rotation_std "
+          "and extrinsic_translation_std to what is known of them",
           rotation.x(), rotation_std.x(), rotation.y(), rotation_std.y(), rotation.z(),
           rotation_std.z(), translation.x(), translation_std.x(), translation.y(),
           translation_std.y(), translation.z(), translation_std.z()));

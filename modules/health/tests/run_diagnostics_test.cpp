@@ -45,3 +45,24 @@ TEST(RunDiagnostics, KeepQuietAboutClocksThatAreAsGivenOrNotKnownYet)
   diagnostics.consider(scanWithClocksApart(0.098, 0.0));     // it is not estimated
   EXPECT_TRUE(diagnostics.all().empty());
 }
+
+/** Deg/s that count as rad/s scatter fifty times as much. */
+TEST(RunDiagnostics, TheScatterOfAWrongUnitIsForgotten)
+{
+  RunDiagnostics diagnostics{OdometryOptions{}};
+  const auto rest = [&](double rate, double from_s, double until_s)
+  {
+    for (int i = 0; i * 0.005 < until_s - from_s; ++i)
+    {
+      const auto stamp_ns = static_cast<std::int64_t>(1e9 * (100.0 + from_s + 0.005 * i));
+      diagnostics.consider(
+          ImuSample{stamp_ns, Vec3(i % 2 == 0 ? rate : -rate, 0.0, 0.0), Vec3(0.0, 0.0, 9.81)});
+    }
+  };
+  rest(0.5, 0.0, 4.0);
+  diagnostics.forgetScatter();
+  rest(0.001, 4.0, 12.0);
+  EXPECT_TRUE(diagnostics.all().empty());
+  rest(0.5, 12.0, 40.0);
+  EXPECT_EQ(diagnostics.all().size(), 1U);
+}

@@ -82,8 +82,9 @@ FilterState startInCarriedWorld(const FilterState& start, const CarriedPose& car
   const Mat3 g_cross = skew(carried.x.g);
   Mat3 tilt = g_cross * g_covariance * g_cross.transpose() / (g2 * g2);
   const Vec3 down = carried.x.g.normalized();
-  const Mat3 attitude_in_world = s.x.R * carried.P.block<3, 3>(kAttitude, kAttitude) * to_body;
-  tilt += down.dot(attitude_in_world * down) * down * down.transpose();
+  // The carried attitude error is in the axes of the carried body, which may be tilted otherwise.
+  const Vec3 axis = carried.x.R.transpose() * down;
+  tilt += axis.dot(carried.P.block<3, 3>(kAttitude, kAttitude) * axis) * down * down.transpose();
   s.P.block<3, 3>(kAttitude, kAttitude) += to_body * tilt * to_body.transpose();
   s.P.block<3, 3>(kPosition, kPosition) += carried.P.block<3, 3>(kPosition, kPosition);
   for (int i = kExtrinsicRotation; i < kStateDim; ++i)

@@ -27,9 +27,9 @@ class ForceIntegral
   }
 
   /** Goes on from one pose to the next; the attitude starts anew from each. */
-  void advance(const TimedPose& from, std::int64_t to_ns)
+  void advance(const StampedPose& from, std::int64_t to_ns)
   {
-    Mat3 R = from.T_world_imu.R;
+    Mat3 R = from.T_world_body.R;
     std::int64_t now_ns = from.stamp_ns;
     while (now_ns < to_ns && next_ < inputs_.size())
     {
@@ -84,7 +84,7 @@ struct Normal
 }  // namespace
 
 MotionFit fitMotion(
-    const std::vector<TimedPose>& poses, const std::vector<ImuSample>& inputs,
+    const std::vector<StampedPose>& poses, const std::vector<ImuSample>& inputs,
     const MotionFitPrior& prior)
 {
   constexpr int kIterations = 5;  // of the magnitude's linearisation
@@ -97,7 +97,7 @@ MotionFit fitMotion(
     force.advance(poses[k - 1], poses[k].stamp_ns);
     const double t = toSeconds(poses[k].stamp_ns - poses[0].stamp_ns);
     positions.addPosition(
-        t, poses[k].T_world_imu.p - force.position(), std::pow(prior.position_std, -2));
+        t, poses[k].T_world_body.p - force.position(), std::pow(prior.position_std, -2));
   }
   fit.g = prior.g;
   for (int i = 0; i < kIterations; ++i)

@@ -110,9 +110,12 @@ NavState propagatedBack(NavState x, const Inputs& inputs)
   {
     const double dt = inputs.duration(i);
     const ImuSample& u = inputs.samples[i];
-    x.R = x.R * expSO3(-dt * (u.gyro - x.gyro_bias));
-    x.v -= dt * (x.R * (u.accel - x.accel_bias) + x.g);
-    x.p -= dt * x.v;
+    const Vec3 rate = u.gyro - x.gyro_bias;
+    const Mat3 R_middle = x.R * expSO3(-0.5 * dt * rate);
+    const Vec3 acceleration = R_middle * (u.accel - x.accel_bias) + x.g;
+    x.p -= dt * (x.v - 0.5 * dt * acceleration);
+    x.v -= dt * acceleration;
+    x.R = x.R * expSO3(-dt * rate);
   }
   return x;
 }

@@ -2,31 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/initialization/static_initializer.h>
+#include <fastlio/math/angles.h>
 
 #include <Eigen/LU>
+#include <mrpt/core/format.h>
 
 #include <cmath>
-#include <cstdio>
 
 namespace fastlio
 {
 namespace
 {
-constexpr double kRadToDeg = 180.0 / M_PI;
 // A platform that rests moves by less than this: an idling engine, a hand [m/s].
 constexpr double kRestVelocityStd = 1e-3;
 // Of the averaged gyro bias, beyond the noise of the average: it wanders meanwhile [rad/s].
 constexpr double kRestGyroBiasStd = 1e-5;
-
-template <typename... Args>
-std::string format(const char* text, Args... args)
-{
-  const int length = std::snprintf(nullptr, 0, text, args...);
-  std::string out(static_cast<std::size_t>(length) + 1, '\0');
-  std::snprintf(out.data(), out.size(), text, args...);
-  out.pop_back();
-  return out;
-}
 
 Vec3 standardDeviation(const Vec3& sum_of_squares, const Vec3& mean, double n)
 {
@@ -131,23 +121,22 @@ std::size_t restingSamples(const std::vector<ImuSample>& samples)
 
 std::optional<std::string> whyNotAtRest(const RestStatistics& rest, const InitializationOptions& p)
 {
-  if (rest.samples < 2) return format("only %zu IMU samples in the resting start", rest.samples);
+  if (rest.samples < 2)
+    return mrpt::format("only %zu IMU samples in the resting start", rest.samples);
   const double gyro_std = rest.gyro_std.maxCoeff(), gyro_mean = rest.gyro_mean.norm();
   if (gyro_std > p.max_gyro_std || gyro_mean > p.max_gyro_mean)
-    return format(
-        "the platform does not rest: angular rate %.2f +- %.2f deg/s (limits %.2f and %.2f). Start "
-        "at rest, skip the moving part, or raise initialization.max_gyro_mean/max_gyro_std; a gyro "
-        "in deg/s instead of rad/s looks like this too",
-        gyro_mean * kRadToDeg, gyro_std * kRadToDeg, p.max_gyro_mean * kRadToDeg,
-        p.max_gyro_std * kRadToDeg);
+    return mrpt::format(
+        "the platform does not rest: angular rate %.2f +- %.2f deg/s (limits %.2f and %.2f). If it "
+        "did, is the gyro in deg/s (imu.gyro_unit)?",
+        gyro_mean * kDegPerRad, gyro_std * kDegPerRad, p.max_gyro_mean * kDegPerRad,
+        p.max_gyro_std * kDegPerRad);
   if (rest.accel_std.maxCoeff() > p.max_accel_std)
-    return format(
-        "the platform does not rest: specific force varies by %.3f m/s^2 (limit %.3f). Start at "
-        "rest, skip the moving part, or raise initialization.max_accel_std",
+    return mrpt::format(
+        "the platform does not rest: specific force varies by %.3f m/s^2 (limit %.3f)",
         rest.accel_std.maxCoeff(), p.max_accel_std);
   const double norm = rest.accel_mean.norm();
   if (std::abs(norm - p.gravity) > p.max_gravity_error)
-    return format(
+    return mrpt::format(
         "the mean specific force at rest is %.4f m/s^2, not %.4f +- %.2f. Is the accelerometer in "
         "units of g (a norm near 1) or is gravity removed (near 0)? It must deliver m/s^2 with "
         "gravity; see initialization.gravity and max_gravity_error",

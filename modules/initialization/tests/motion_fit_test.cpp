@@ -21,7 +21,7 @@ const Vec3 kGravityVector = Vec3(0.4, -0.3, -1.0).normalized() * 9.81;
 struct Drive
 {
   std::vector<ImuSample> inputs;
-  std::vector<TimedPose> poses;
+  std::vector<StampedPose> poses;
   MotionFitPrior prior;
 };
 
@@ -78,7 +78,7 @@ TEST(MotionFit, AnErrorThatAllPosesButTheFirstShareDoesNotMatter)
   Drive d = drive(1.0, 20);
   const MotionFit exact = fitMotion(d.poses, d.inputs, d.prior);
   for (std::size_t k = 1; k < d.poses.size(); ++k)
-    d.poses[k].T_world_imu.p += Vec3(0.05, -0.03, 0.02);
+    d.poses[k].T_world_body.p += Vec3(0.05, -0.03, 0.02);
   const MotionFit shifted = fitMotion(d.poses, d.inputs, d.prior);
   EXPECT_LT((shifted.velocity - exact.velocity).norm(), 1e-3);
   EXPECT_LT((shifted.g - exact.g).norm(), 1e-2);
@@ -88,7 +88,7 @@ TEST(MotionFit, KnowsTheMagnitudeOfGravity)
 {
   Drive d = drive(1.0, 20);
   for (std::size_t k = 0; k < d.poses.size(); ++k)
-    d.poses[k].T_world_imu.p += (k % 2 == 0 ? 0.01 : -0.01) * Vec3::Ones();
+    d.poses[k].T_world_body.p += (k % 2 == 0 ? 0.01 : -0.01) * Vec3::Ones();
   EXPECT_NEAR(fitMotion(d.poses, d.inputs, d.prior).g.norm(), 9.81, 0.02);
 }
 
@@ -103,7 +103,7 @@ TEST(MotionFit, FewPosesAreNotSolved)
 TEST(MotionFit, NumbersThatAreNotFiniteAreNotSolved)
 {
   Drive d = drive(1.0, 20);
-  d.poses[2].T_world_imu.p.x() = std::nan("");
+  d.poses[2].T_world_body.p.x() = std::nan("");
   EXPECT_FALSE(fitMotion(d.poses, d.inputs, d.prior).solved);
 }
 

@@ -14,7 +14,7 @@ namespace
 using Mat3f = Eigen::Matrix3f;
 using Vec3f = Eigen::Vector3f;
 
-// A first-order step of this angle leaves an error of angle^2/8 of the range: below 0.1 mm at 10 m.
+// A first-order step of this angle leaves an error of angle^2/8 of the range: 0.1 mm at 10 m.
 constexpr double kMaxStepAngle = 0.01;
 
 MotionStep stepAt(

@@ -47,6 +47,13 @@ Vector6 solveSymmetric(const Matrix6& m, const Vector6& b)
   return m.ldlt().solve(b);
 }
 
+Matrix6 withPositionTurned(const Mat3& R, const Matrix6& covariance)
+{
+  Matrix6 J = Matrix6::Identity();
+  J.bottomRightCorner<3, 3>() = R;
+  return J * covariance * J.transpose();
+}
+
 Mat3 rotationBetween(const Vec3& a, const Vec3& b)
 {
   // As Quaternion::FromTwoVectors(), whose singular value decomposition takes 4 s to compile.

@@ -62,6 +62,19 @@ TEST(LinearAlgebra, SolvesSymmetricSystems)
   EXPECT_TRUE(solveSymmetric(m, m * x).isApprox(x, 1e-9));
 }
 
+TEST(LinearAlgebra, OnlyThePositionOfACovarianceTurns)
+{
+  const Matrix6 P = symmetricMatrix();
+  const Mat3 R = expSO3({0.3, -0.2, 0.9});
+  const Matrix6 turned = withPositionTurned(R, P);
+  const Mat3 attitude = P.topLeftCorner<3, 3>(), shared = P.topRightCorner<3, 3>(),
+             position = P.bottomRightCorner<3, 3>();
+  EXPECT_TRUE((turned.topLeftCorner<3, 3>().isApprox(attitude, 1e-12)));
+  EXPECT_TRUE((turned.topRightCorner<3, 3>().isApprox(shared * R.transpose(), 1e-12)));
+  EXPECT_TRUE((turned.bottomRightCorner<3, 3>().isApprox(R * position * R.transpose(), 1e-12)));
+  EXPECT_TRUE(turned.isApprox(turned.transpose(), 1e-12));
+}
+
 TEST(LinearAlgebra, RotationBetweenIsThatOfEigen)
 {
   for (int i = 0; i < 100; ++i)

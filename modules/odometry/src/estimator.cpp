@@ -61,11 +61,13 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
       [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
   const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted.state.x);  // eq. 9-10
-  Work work{scan, deskewed, predicted, state_.filter.x, {}, Matrix6::Zero()};
+  Work work{scan, deskewed, predicted, state_.filter.x, {}, false, Matrix6::Zero()};
+  const bool enters = std::holds_alternative<EnteringMap>(mode_);
   const MapSearchResult matched = matchWithMap(work, span.end_ns);  // eq. 12-20
   const MatchResult& match = matched.match;
 
   work.outcome.search = matched.poses;
+  work.searched = enters || matched.poses;
   if (matched.poses) ambiguity_.add(*matched.poses);
   work.outcome.after_outage = matched.after_outage;
   state_.stamp_ns = span.end_ns;

@@ -115,6 +115,7 @@ class Estimator
     const ScanPrediction& predicted;
     NavState before;  //!< the state that the prediction began with
     ScanOutcome outcome;
+    bool searched = false;                //!< the place was, not only near the prediction
     Matrix6 explained = Matrix6::Zero();  //!< of the correction, by the extrinsic's prior
   };
 
@@ -140,7 +141,7 @@ class Estimator
   void adopt(const MatchResult& match, Work& work, ScanResult& result);
   double learnFromInnovation(
       const MatchResult& match, const ConsideredUpdate& considered, const LinearizedUpdate& update,
-      const FilterState& predicted);
+      const Work& work);
   void noteOpenDirections(const MatchResult& match, const ScanResult& result);
   void releaseBiasesAndClock();
   void report(ScanResult& result) const;

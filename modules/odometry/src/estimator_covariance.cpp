@@ -68,8 +68,8 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   const ConsideredUpdate considered =
       map_.considerUpdate(work.deskewed, match, update, beams_, agrees);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
-  const double surprise = learnFromInnovation(match, considered, update, work.predicted.state);
-  if (!work.outcome.search && !run().motion_window)
+  const double surprise = learnFromInnovation(match, considered, update, work);
+  if (!work.searched && !run().motion_window)
     ambiguity_.addCorrection(work.predicted.state.x, filter.x, surprise);
   // A start in motion does not know its biases yet, and a given map has errors of its own.
   result.statistics.inertial_step =
@@ -83,24 +83,28 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   result.statistics.imu_samples = predictor_.inputs().size();
 }
 
-/** Innovations show the errors of the calibration. \return the surprise, of CalibrationEvidence */
+/** Innovations show the errors of the calibration. Not those of a search: there the scan says how
+ * far off the guess was. And not those in a given map, whose own errors look like errors of the
+ * mounting.
+ * \return the surprise, of CalibrationEvidence */
 double Estimator::learnFromInnovation(
     const MatchResult& match, const ConsideredUpdate& considered, const LinearizedUpdate& update,
-    const FilterState& predicted)
+    const Work& work)
 {
   if (match.constraints.unconstrained > 0)
   {
     calibration_.addDegenerateScan();
     return 0.0;
   }
-  if (!match.update.updated)
+  if (!match.update.updated || work.searched)
   {
     calibration_.addUnmatchedScan();
     return 0.0;
   }
+  PoseByCalibration by_calibration = considered.by_calibration.innovation;
+  if (map_.isGiven()) by_calibration.setZero();
   return calibration_.add(
-      considered.by_calibration.innovation, update.by_state, predicted, match.update,
-      considered.map_mismatch);
+      by_calibration, update.by_state, work.predicted.state, match.update, considered.map_mismatch);
 }
 
 /** The position is lost along them, and what shows them again may be the wrong place. */

@@ -4,7 +4,6 @@
 // Starts of the estimator, and its state between scans.
 
 #include "estimator.h"
-#include <fastlio/initialization/calibration_prior.h>
 #include <fastlio/initialization/start_in_map.h>
 #include <fastlio/math/time.h>
 
@@ -126,7 +125,7 @@ void Estimator::reinitialise(
   const std::optional<Pose> T_map_imu =
       initializing != nullptr ? initializing->T_map_imu : std::nullopt;
   FilterRun run = startedRun(stamp_ns, false, motion_window);
-  state_ = {withCalibrationOf(state_.filter, startInCarriedWorld(start, carried)), stamp_ns};
+  state_ = {startInCarriedWorld(start, carried), stamp_ns};
   const double search_time = carried.new_map ? 0.0 : kMapSearchTime;
   if (T_map_imu)
     mode_ = EnteringMap{std::move(run), *T_map_imu};

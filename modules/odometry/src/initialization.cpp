@@ -16,12 +16,12 @@ namespace
 {
 // A window that does not rest moves on by this fraction of its length.
 constexpr double kWindowStep = 0.1;
-// After a refused start in motion this fraction of its window is given up.
-constexpr std::size_t kRefusedShare = 2;
+// After a refused start in motion the first of so many parts of its window is given up.
+constexpr std::size_t kRefusedParts = 2;
 // A platform that "rests" faster than this, and than its uncertainty allows, moves steadily.
 constexpr double kRestSpeed = 0.05;  // [m/s]
 constexpr double kRestSpeedSigmas = 4.0;
-constexpr const char* kStartInMotionHint = "; initialization.mode: auto also starts in motion";
+constexpr const char* kStartInMotionHint = "; initialization.mode: auto starts in motion, too";
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
 
@@ -135,7 +135,7 @@ StartDecision StartFinder::decideAtRest(const ScanQueue& scans, ImuBuffer& imu, 
   const ScanSpan span = scans.front().span;
   while (true)
   {
-    RestSearch search = searchRest(imu, parameters_.initialization, span.begin_ns);
+    RestSearch search = searchRest(imu, parameters_.initialization, span.latestStart());
     StartDecision& decision = search.decision;
     if (decision.state)
     {
@@ -179,15 +179,15 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
                 oldest.span.begin_ns, std::min(scans.back().span.end_ns, imu.newestStamp())),
             duration));
   MotionStart start = startInMotion(scans, count, imu, parameters_);
-  if (start.state) return startedInMotion(start, oldest.span.begin_ns);
-  refused_until_ns_ = scans[count / kRefusedShare].span.end_ns;
+  if (start.state) return startedInMotion(start, oldest.span.latestStart());
+  refused_until_ns_ = scans[count / kRefusedParts].span.end_ns;
   refusal_ = start.message;
   return waitOrDrop(true, refusal_);
 }
 
 StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
-  const std::int64_t begin_ns = scans.front().span.begin_ns;
+  const std::int64_t begin_ns = scans.front().span.latestStart();
   RestSearch search = searchRest(imu, parameters_.initialization, begin_ns);
   if (search.decision.state) return confirmRest(search.decision, scans, imu, at_end);
   if (!search.rejected && !at_end) return search.decision;
@@ -200,7 +200,7 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
 StartDecision StartFinder::confirmRest(
     StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const
 {
-  const std::int64_t begin_ns = scans.front().span.begin_ns;
+  const std::int64_t begin_ns = scans.front().span.latestStart();
   if (at_rest.stamp_ns != begin_ns || !inertialGap(scans, imu).empty()) return at_rest;
   const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
   if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");

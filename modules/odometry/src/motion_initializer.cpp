@@ -61,7 +61,7 @@ class Window
       const OdometryOptions& parameters)
       : scans_(scans), count_(count), imu_(imu), parameters_(parameters)
   {
-    const std::int64_t begin_ns = scans.front().span.begin_ns;
+    const std::int64_t begin_ns = scans.front().span.latestStart();
     all_ = inputsOf(imu, begin_ns, scans[count - 1].span.end_ns, parameters.imu.hold);
     window_ = motionWindowUntil(all_.end_ns, kWindowPoints);
     first_scan_ = inputsOf(imu, begin_ns, scans.front().span.end_ns, parameters.imu.hold);
@@ -84,11 +84,11 @@ class Window
     MotionWindow trial = window_;
     trial.trial = true;
     trial.pull_in = far_off;
-    estimator.start(start, scans_.front().span.begin_ns, trial);
+    estimator.start(start, scans_.front().span.latestStart(), trial);
     ScanResult last;
     std::size_t unmatched = 0;
     std::vector<double> contrast;  // of the least known direction to others
-    std::vector<TimedPose> poses;
+    std::vector<StampedPose> poses;
     for (std::size_t i = 0; i < count_; ++i)
     {
       if (scans_[i].span.end_ns <= estimator.stamp()) continue;  // out of order
@@ -108,10 +108,11 @@ class Window
 
  private:
   /** Velocity and gravity at the first scan's end from all poses, then back to its begin. */
-  void describeStart(const FilterState& end, const std::vector<TimedPose>& poses, Pass& pass) const
+  void describeStart(
+      const FilterState& end, const std::vector<StampedPose>& poses, Pass& pass) const
   {
     const InitializationOptions& p = parameters_.initialization;
-    const TimedPose& first = poses.front();
+    const StampedPose& first = poses.front();
     MotionFitPrior prior;
     prior.gyro_bias = end.x.gyro_bias;
     prior.g = p.gravity * end.x.g.normalized();
@@ -122,7 +123,7 @@ class Window
     if (!fit.solved) pass.problem = "too few of the first scans match each other";
 
     NavState x = end.x;
-    x.R = first.T_world_imu.R;
+    x.R = first.T_world_body.R;
     x.v = fit.velocity;
     x.g = fit.g;
     x.accel_bias.setZero();
@@ -169,7 +170,8 @@ std::string refusal(const Pass& pass, bool agreed)
 {
   if (!pass.problem.empty())
     return "no start in motion: " + pass.problem +
-           "; is the mounting of the LiDAR right (T_imu_lidar), do both sensors share a clock?";
+           "; is the pose of the LiDAR right (input.T_vehicle_lidar), do both sensors share a "
+           "clock?";
   if (pass.blind || !(pass.velocity_std < kMaxVelocityStd))
     return mrpt::format(
         "no start in motion: the scans leave the velocity along (%.2f, %.2f, %.2f) of the IMU open "

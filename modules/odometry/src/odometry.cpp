@@ -3,7 +3,6 @@
 
 #include "odometry_impl.h"
 
-#include <stdexcept>
 #include <utility>
 
 namespace fastlio
@@ -15,10 +14,6 @@ Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 
 void Odometry::startIn(const SavedMap& map)
 {
-  if (map.empty())
-    throw std::invalid_argument("Odometry::startIn: the map has no points; was it saved?");
-  if (impl_->estimator_.started())
-    throw std::logic_error("Odometry::startIn: call it before the first scan.");
   impl_->startIn(map);
 }
 

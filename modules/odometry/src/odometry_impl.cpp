@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace fastlio
@@ -40,6 +41,10 @@ Odometry::Impl::Impl(const OdometryOptions& options)
 
 void Odometry::Impl::startIn(const SavedMap& map)
 {
+  if (map.empty())
+    throw std::invalid_argument("Odometry::startIn: the map has no points; was it saved?");
+  if (estimator_.started() || reinitialization_.pending())
+    throw std::logic_error("Odometry::startIn: call it before the first scan.");
   estimator_.useSavedMap(map);
   map_origin_ = map.origin;
 }
@@ -86,6 +91,7 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
   if (conditioned.rescale_gyro != 1.0)
   {
     imu_.scaleGyro(conditioned.rescale_gyro);
+    diagnostics_.forgetScatter();
     reinitialization_.addBreak({sample.stamp_ns, sample.stamp_ns, true});
   }
   if (conditioned.after_break && !imu_.empty())

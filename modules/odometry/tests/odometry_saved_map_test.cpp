@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
+
 using namespace fastlio;
 using namespace fastlio::testing;
 
@@ -83,6 +85,9 @@ void expectInMap(const Results& results, const Pose& T_map_room, double toleranc
     const Pose expected = T_map_room * earlierRun().recording.truthAt(r.stamp_ns);
     EXPECT_LT((r.filter.x.p - expected.p).norm(), tolerance) << r.stamp_ns;
     EXPECT_LT(logSO3(expected.R.transpose() * r.filter.x.R).norm(), 0.02) << r.stamp_ns;
+    // How far off the guess was says nothing about the mounting.
+    EXPECT_LT(r.statistics.calibration.rotation.norm(), 0.01) << r.stamp_ns;
+    EXPECT_LT(r.statistics.calibration.translation.norm(), 0.02) << r.stamp_ns;
   }
   EXPECT_GT(poses, results.size() / 2);
 }
@@ -176,6 +181,33 @@ TEST(SavedMap, WhatIsKnownOfGravityAndBiasesDoesNotDependOnTheGuess)
     const auto sigma = first->filter.P.diagonal().segment<3>(kAccelBias).cwiseSqrt();
     EXPECT_GT(sigma.minCoeff(), 0.3 * parameters.initialization.accel_bias_std) << heading;
   }
+}
+
+TEST(SavedMap, IsRefusedOnTheWayAlsoWhileTheRunStartsAnew)
+{
+  RoomRecording recording = earlierRun().recording;
+  const std::int64_t gap_ns = kRecordingStart + 3'000'000'000;
+  const auto is_missing = [&](const ImuSample& s)
+  { return s.stamp_ns > gap_ns && s.stamp_ns < gap_ns + 1'500'000'000; };
+  recording.imu.erase(
+      std::remove_if(recording.imu.begin(), recording.imu.end(), is_missing), recording.imu.end());
+  Odometry odometry(roomParameters());
+  SavedMap map;
+  map.points = earlierRun().points;
+  std::size_t next_sample = 0;
+  for (const LidarScan& scan : recording.scans)
+  {
+    for (; next_sample < recording.imu.size() &&
+           recording.imu[next_sample].stamp_ns <= spanOf(scan).end_ns;
+         ++next_sample)
+      odometry.addImu(recording.imu[next_sample]);
+    odometry.addScan(scan);
+    Results results;
+    drain(odometry, results);
+    if (spanOf(scan).end_ns < kRecordingStart + 2'500'000'000) continue;
+    ASSERT_THROW(odometry.startIn(map), std::logic_error) << spanOf(scan).end_ns;
+  }
+  EXPECT_GT(odometry.diagnostics().size(), 0U);
 }
 
 TEST(SavedMap, GrowsOnWhenItMay)

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace fastlio;
 using namespace fastlio::testing;
 
@@ -194,5 +196,28 @@ TEST(OdometryStart, ClocksThatAreAnHourApartAreNamed)
     EXPECT_EQ(r.status, ScanStatus::Initializing);
     EXPECT_EQ(r.message.find(": -"), std::string::npos) << r.message;
     EXPECT_NE(r.message.find("clocks of LiDAR and IMU"), std::string::npos) << r.message;
+  }
+}
+
+// Such a scan begins and ends at its stamp, which is where the run starts.
+TEST(OdometryStart, TheFirstScanWithoutPointTimesIsNotLate)
+{
+  for (const InitializationMode mode : {InitializationMode::Rest, InitializationMode::Motion})
+  {
+    RoomRecording recording = roomForStart();
+    for (LidarScan& scan : recording.scans)
+    {
+      scan.stamp_ns = spanOf(scan).end_ns;
+      std::fill(scan.points.time_offset_ns.begin(), scan.points.time_offset_ns.end(), 0);
+    }
+    recording.scans.erase(recording.scans.begin() + 18, recording.scans.end());  // at rest
+    OdometryOptions parameters = roomParameters();
+    parameters.initialization.mode = mode;
+    Odometry odometry(parameters);
+    const Results results = runInOrder(odometry, recording);
+    EXPECT_EQ(odometry.inputStatistics().scans_out_of_order, 0U);
+    ASSERT_EQ(results.size(), recording.scans.size());
+    EXPECT_EQ(results.front().status, ScanStatus::FirstScan) << results.front().message;
+    EXPECT_EQ(results.back().status, ScanStatus::Tracking) << results.back().message;
   }
 }

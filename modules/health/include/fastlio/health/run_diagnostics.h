@@ -31,6 +31,8 @@ class RunDiagnostics
 
   /** Looks at the next inertial sample. */
   void consider(const ImuSample& sample);
+  /** The samples so far were in a wrong unit. */
+  void forgetScatter();
   /** Looks at the next result. */
   void consider(const ScanResult& result);
 

@@ -8,18 +8,10 @@
 #include <fastlio/filter/imu.h>
 #include <fastlio/math/pose.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace fastlio
 {
-/** Where a scan put the platform. */
-struct TimedPose
-{
-  std::int64_t stamp_ns = 0;
-  Pose T_world_imu;
-};
-
 /** The prior of the fit. */
 struct MotionFitPrior
 {
@@ -41,10 +33,11 @@ struct MotionFit
  * specific force between t_1 and t_k, integrated twice with the attitude of the poses. The map's
  * errors shift all poses but the first together, so that p is free and the first position does not
  * take part.
+ * \param poses of the IMU, where the scans put it
  * \param inputs hold from their stamps on, as ImuBuffer::inputsBetween() gives them from the first
  * pose to the last */
 [[nodiscard]] MotionFit fitMotion(
-    const std::vector<TimedPose>& poses, const std::vector<ImuSample>& inputs,
+    const std::vector<StampedPose>& poses, const std::vector<ImuSample>& inputs,
     const MotionFitPrior& prior);
 
 }  // namespace fastlio

@@ -35,7 +35,7 @@ struct Inputs
  * for the change of velocity. */
 [[nodiscard]] NavState firstGuess(const Inputs& inputs, const InitializationOptions& p);
 
-/** Eq. 4 backwards, exactly: attitude first, then velocity, then position. */
+/** Eq. 4 backwards: the inverse of propagateMean() with the biases of \a x. */
 [[nodiscard]] NavState propagatedBack(NavState x, const Inputs& inputs);
 
 /** The uncertainty of the prior. */

@@ -19,10 +19,10 @@ namespace fastlio
 /** The status of a scan. */
 enum class ScanStatus
 {
-  Initializing,    //!< still collecting the resting start; no pose yet
+  Initializing,    //!< the start, or the place in a given map, is not found yet; no pose
   FirstScan,       //!< the map was started with this scan
   Tracking,        //!< updated by the scan
-  PredictionOnly,  //!< too few matches or a rejected update: IMU prediction only, map untouched
+  PredictionOnly,  //!< too few matches or a rejected update: IMU prediction only
   Diverged         //!< prediction-only for too long, or a non-finite step: the pose is not trusted
 };
 

@@ -6,6 +6,7 @@
 
 #include <fastlio/math/pose.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -46,6 +47,10 @@ struct ScanSpan
 {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
+
+  /** The latest instant that a run may start at to take in the scan. One without point times begins
+   * and ends at its stamp. */
+  [[nodiscard]] std::int64_t latestStart() const { return std::min(begin_ns, end_ns - 1); }
 };
 
 /** Earliest and latest point time; both stamp_ns when the scan is empty. */

@@ -37,6 +37,10 @@ struct Eigensystem6
 /** x with m x = b for a symmetric positive semi-definite m. */
 [[nodiscard]] Vector6 solveSymmetric(const Matrix6& m, const Vector6& b);
 
+/** The covariance of a pose (attitude in its own frame, position in the world) in a world that R
+ * turns: the attitude does not see that, the position turns. */
+[[nodiscard]] Matrix6 withPositionTurned(const Mat3& R, const Matrix6& covariance);
+
 /** The smallest rotation that turns the direction of a into that of b. */
 [[nodiscard]] Mat3 rotationBetween(const Vec3& a, const Vec3& b);
 

@@ -6,6 +6,8 @@
 
 #include <fastlio/math/so3.h>
 
+#include <cstdint>
+
 namespace fastlio
 {
 /** Rotation and translation [m]: p_a = R p_b + p for a pose called T_a_b. */
@@ -17,6 +19,13 @@ struct Pose
   [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
   [[nodiscard]] Pose operator*(const Pose& b) const { return {R * b.R, R * b.p + p}; }
   [[nodiscard]] Vec3 operator*(const Vec3& point) const { return R * point + p; }
+};
+
+/** Where a body was at an instant. */
+struct StampedPose
+{
+  std::int64_t stamp_ns = 0;  //!< on the clock of whatever it is part of [ns]
+  Pose T_world_body;          //!< body to world; the body may be the IMU
 };
 
 }  // namespace fastlio

@@ -10,6 +10,9 @@
 
 namespace fastlio
 {
+/** Standard deviation over median absolute deviation, of normally distributed samples. */
+constexpr double kStdOverMedianDeviation = 1.4826;
+
 /** The upper median; 0 of nothing. */
 template <typename Number>
 [[nodiscard]] Number median(std::vector<Number> values)
