@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/loops/corrected_trajectory.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/time.h>
 #include <fastlio/posegraph/odometry_chain.h>
 #include <fastlio/run/pose_output.h>
@@ -66,6 +67,20 @@ Pose CorrectedTrajectory::correctionAt(std::int64_t stamp_ns, const Pose& T_worl
   return poseAt(placeOf(stamp_ns), T_world_imu) * T_world_imu.inverse();
 }
 
+namespace
+{
+/** Turns what the filter has in the world beside the pose: velocity and gravity. */
+void turnWorld(const Mat3& turn, FilterState& filter)
+{
+  filter.x.v = turn * filter.x.v;
+  filter.x.g = turn * filter.x.g;
+  StateMatrix T = StateMatrix::Identity();
+  T.block<3, 3>(kVelocity, kVelocity) = turn;
+  T.block<3, 3>(kGravity, kGravity) = turn;
+  filter.P = transformedCovariance(T, filter.P);
+}
+}  // namespace
+
 ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
 {
   if (!changes_ || nodes_.empty() || !hasPose(result.status)) return result;
@@ -73,11 +88,9 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   const Place place = placeOf(result.stamp_ns);
   const Pose odometry = result.filter.x.pose();
   const Pose pose = poseAt(place, odometry);
-  const Mat3 turn = pose.R * odometry.R.transpose();
-  NavState& x = moved.filter.x;
-  x.R = pose.R;
-  x.p = pose.p;
-  x.v = turn * x.v;
+  turnWorld(pose.R * odometry.R.transpose(), moved.filter);
+  moved.filter.x.R = pose.R;
+  moved.filter.x.p = pose.p;
   const TrackedPose here = mappingPoseOf(result);
   const Node& node = *place.before;
   OdometryChain chain(node.corrected, node.covariance);

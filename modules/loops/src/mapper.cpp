@@ -143,11 +143,9 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
  * a way in common; their sum is an upper bound. */
 RelativePose Mapper::predictedMotion(std::size_t a, std::size_t b) const
 {
-  Matrix6 turn = Matrix6::Identity();
-  turn.bottomRightCorner<3, 3>() = poses_[a].R.transpose();
   RelativePose motion{
       poses_[a].inverse() * poses_[b],
-      turn * (covariances_[a] + covariances_[b]) * turn.transpose()};
+      withPositionTurned(poses_[a].R.transpose(), covariances_[a] + covariances_[b])};
   const std::optional<RelativePose> alone = odometryMotion(a, b);
   if (alone && largestPositionStd(alone->covariance) < largestPositionStd(motion.covariance))
     motion = *alone;

@@ -62,10 +62,8 @@ void makeLevel(MappingResult& result)
   };
   std::for_each(estimate.nodes.begin(), estimate.nodes.end(), move);
   std::for_each(result.graph.nodes.begin(), result.graph.nodes.end(), move);
-  Matrix6 J = Matrix6::Identity();
-  J.bottomRightCorner<3, 3>() = turn;
   for (Matrix6& covariance : estimate.covariances)
-    covariance = J * covariance * J.transpose();
+    covariance = withPositionTurned(turn, covariance);
   moveWorld(T_level_world, estimate);
   result.graph.T_earth_world = estimate.T_earth_world;
   estimate.up = result.graph.up = Vec3::UnitZ();

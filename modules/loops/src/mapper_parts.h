@@ -40,6 +40,9 @@ struct Shortcoming
 [[nodiscard]] std::optional<Shortcoming> shortcomingOf(
     const Registration& registration, const ClosureLimits& limits);
 
+/** Accepted closures whose edges the estimate has turned off become contradicted. */
+void markContradicted(MappingResult& result);
+
 /** Without anything that corrects it, a map is that of the odometry, and no errors of its sensors
  * are found; covariances stay. */
 void stayAsOdometry(MappingResult& result);

@@ -6,6 +6,7 @@
 #include <fastlio/math/statistics.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,24 @@ bool MappingResult::moves(std::size_t session) const
   return corrected || was_placed;
 }
 
+void markContradicted(MappingResult& result)
+{
+  // Edges are not in the order of closures: one that waits for agreement gets its edge later.
+  std::map<std::pair<std::size_t, std::size_t>, double> weights;
+  for (std::size_t i = 0; i < result.graph.edges.size(); ++i)
+  {
+    const GraphEdge& edge = result.graph.edges[i];
+    if (edge.robust) weights[{edge.a, edge.b}] = result.estimate.edge_weights[i];
+  }
+  for (Closure& closure : result.closures)
+  {
+    if (closure.verdict != ClosureVerdict::Accepted) continue;
+    if (weights.at({closure.a, closure.b}) >= 0.5) continue;
+    closure.verdict = ClosureVerdict::Contradicted;
+    closure.reason += "; all other measurements exclude it";
+  }
+}
+
 namespace
 {
 /** How much larger the squared errors of closures are than their covariances say: surfaces that are
@@ -41,6 +60,7 @@ double closureExcess(const PoseGraph& graph, const GraphEstimate& estimate)
   }
   return median(std::move(errors)) / kMedian;
 }
+
 /** The optimum of everything, and what it makes of the closures. */
 MappingResult optimized(MappingResult result)
 {
@@ -53,16 +73,7 @@ MappingResult optimized(MappingResult result)
       if (edge.robust) edge.measured.covariance *= excess;
     result.estimate = optimize(graph);
   }
-  std::size_t edge = 0;
-  for (Closure& closure : result.closures)
-  {
-    if (closure.verdict != ClosureVerdict::Accepted) continue;
-    while (!graph.edges[edge].robust)
-      ++edge;
-    if (result.estimate.edge_weights[edge++] >= 0.5) continue;
-    closure.verdict = ClosureVerdict::Contradicted;
-    closure.reason += "; all other measurements exclude it";
-  }
+  markContradicted(result);
   result.corrected = result.accepted() > 0;
   if (result.corrected)
     makeLevel(result);

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "mapper_parts.h"
 #include "simulated_submaps.h"
 #include <fastlio/loops/mapper.h>
 #include <fastlio/math/time.h>
@@ -162,6 +163,30 @@ TEST(AgreeingClosures, ThreeOutvoteOne)
   EXPECT_EQ(closures[0].verdict, ClosureVerdict::Unpredicted) << closures[0].reason;
   for (std::size_t i = 1; i < closures.size(); ++i)
     EXPECT_EQ(closures[i].verdict, ClosureVerdict::Accepted) << closures[i].reason;
+}
+
+/** The first closure has waited for the third one to agree; by then, the second one was in the
+ * graph. The verdict goes to the closure whose edge was turned off. */
+TEST(AgreeingClosures, TheOneThatIsContradictedHasTheVerdict)
+{
+  MappingResult result;
+  for (const std::size_t b : {1U, 2U, 3U})
+  {
+    Closure closure;
+    closure.b = b;
+    accept(closure, "");
+    result.closures.push_back(closure);
+  }
+  const RelativePose any{};
+  for (std::size_t a = 0; a < 3; ++a)
+    result.graph.edges.push_back({a, a + 1, any, false});
+  for (const std::size_t b : {2U, 1U, 3U})
+    result.graph.edges.push_back({0, b, any, true});
+  result.estimate.edge_weights = {1.0, 1.0, 1.0, 0.0, 1.0, 1.0};
+  markContradicted(result);
+  EXPECT_EQ(result.closures[0].verdict, ClosureVerdict::Accepted) << result.closures[0].reason;
+  EXPECT_EQ(result.closures[1].verdict, ClosureVerdict::Contradicted) << result.closures[1].reason;
+  EXPECT_EQ(result.closures[2].verdict, ClosureVerdict::Accepted) << result.closures[2].reason;
 }
 
 /** Streets have no floors, and a long ride drifts by metres before it comes back. */

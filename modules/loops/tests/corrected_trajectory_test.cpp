@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 namespace fastlio
 {
 namespace
@@ -55,6 +58,37 @@ TEST(CorrectedTrajectory, ASessionThatWasPlacedMoves)
   EXPECT_LT((second.corrected(scan).filter.x.p - expected.p).norm(), 1e-9);
   const Pose correction = second.correctionAt(scan.stamp_ns, odometry);
   EXPECT_LT((correction.p - T_world_second.p).norm(), 1e-9);
+}
+
+/** A map that turns takes the whole state along: what the body feels of its velocity and of gravity
+ * stays the same, and so does what is known of them. */
+TEST(CorrectedTrajectory, VelocityAndGravityTurnWithThePose)
+{
+  const Pose T_world_second{expSO3({0.3, -0.2, 0.8}), {12.0, -3.0, 0.5}};
+  ScanResult scan = scanAt(2 * kSecond, {expSO3({0.0, 0.1, 0.1}), {1.0, 2.0, 0.0}});
+  NavState& x = scan.filter.x;
+  x.v = {3.0, -1.0, 0.2};
+  x.g = {0.3, 0.2, -9.8};
+  x.accel_bias = {0.01, 0.02, 0.03};
+  const StateMatrix root = StateMatrix::Random();
+  scan.filter.P = 1e-4 * (root * root.transpose() + StateMatrix::Identity());
+  const FilterState& before = scan.filter;
+  const FilterState after =
+      CorrectedTrajectory(twoSessions(T_world_second), 1).corrected(scan).filter;
+  EXPECT_LT((after.x.R.transpose() * after.x.v - x.R.transpose() * x.v).norm(), 1e-9);
+  EXPECT_LT((after.x.R.transpose() * after.x.g - x.R.transpose() * x.g).norm(), 1e-9);
+  EXPECT_EQ(after.x.accel_bias, x.accel_bias);
+  const auto inBody = [](const FilterState& filter, int row, int column) -> Mat3
+  { return filter.x.R.transpose() * filter.P.block<3, 3>(row, column) * filter.x.R; };
+  const std::vector<std::pair<int, int>> blocks = {
+      {kVelocity, kVelocity}, {kGravity, kGravity}, {kVelocity, kGravity}};
+  for (const auto& [row, column] : blocks)
+    EXPECT_LT((inBody(after, row, column) - inBody(before, row, column)).norm(), 1e-9)
+        << row << ", " << column;
+  const Mat3 by_bias = after.x.R.transpose() * after.P.block<3, 3>(kVelocity, kAccelBias);
+  const Mat3 by_bias_before = x.R.transpose() * before.P.block<3, 3>(kVelocity, kAccelBias);
+  EXPECT_LT((by_bias - by_bias_before).norm(), 1e-9);
+  EXPECT_LT((after.P - after.P.transpose()).norm(), 1e-9);
 }
 
 }  // namespace fastlio
