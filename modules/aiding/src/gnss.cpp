@@ -14,10 +14,11 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kLeastFixes = 10;
+constexpr std::size_t kLeastFixes = 10;
+// Fewer that agree are chance: their residuals say nothing about the receiver.
+constexpr double kLeastAgreeing = 0.5;     // part of the fixes
 constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
 constexpr double kMostCorrelation = 0.98;
-constexpr double kGaussian = 1.4826;  // standard deviation over median absolute deviation
 }  // namespace
 
 std::string gnssSentence(const GnssOutcome& outcome)
@@ -82,8 +83,8 @@ void measure(
     before = e;
     session_before = session;
   }
-  outcome.horizontal_std = std::max(0.005, kGaussian * median(std::move(horizontal)));
-  outcome.vertical_std = std::max(0.01, kGaussian * median(std::move(vertical)));
+  outcome.horizontal_std = std::max(0.005, kStdOverMedianDeviation * median(std::move(horizontal)));
+  outcome.vertical_std = std::max(0.01, kStdOverMedianDeviation * median(std::move(vertical)));
   outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
 }
 
@@ -119,9 +120,26 @@ double lastingOf(
   return lasting;
 }
 
+bool agrees(double weight)
+{
+  return weight >= 0.5;
+}
+
+/** Why fixes of which so many agree are not used; empty: they are. */
+std::string shortageOf(std::size_t agreeing, std::size_t fixes)
+{
+  const double least =
+      std::max(static_cast<double>(kLeastFixes), kLeastAgreeing * static_cast<double>(fixes));
+  if (static_cast<double>(agreeing) >= least) return {};
+  return mrpt::format(
+      "only %zu of %zu positions agree with each other and with the map as well as the receiver "
+      "claims",
+      agreeing, fixes);
+}
+
 /** Leaves out the fixes that contradict the others, and gives the rest the noise that was measured.
- * \return how many were left out */
-std::size_t keepAgreeing(
+ */
+void keepAgreeing(
     PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome, double lasting)
 {
   const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
@@ -130,13 +148,11 @@ std::size_t keepAgreeing(
   std::vector<PositionFactor> kept;
   for (std::size_t i = 0; i < graph.positions.size(); ++i)
   {
-    if (estimate.position_weights[i] < 0.5) continue;
+    if (!agrees(estimate.position_weights[i])) continue;
     kept.push_back(graph.positions[i]);
     kept.back().covariance = Vec3(h2, h2, v2).asDiagonal();
   }
-  const std::size_t rejected = graph.positions.size() - kept.size();
   graph.positions = std::move(kept);
-  return rejected;
 }
 }  // namespace
 
@@ -144,7 +160,7 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
 {
   GnssOutcome outcome;
   outcome.fixes = sightings_.size();
-  if (static_cast<double>(sightings_.size()) < kLeastFixes)
+  if (sightings_.size() < kLeastFixes)
   {
     outcome.reason = "there are " + std::to_string(sightings_.size()) +
                      " positions of GNSS at poses of the run: too few";
@@ -180,9 +196,13 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   for (const Sighting& sighting : sightings_)
     graph.positions.push_back(sighting.factor);
   GraphEstimate estimate = optimize(graph, false);
+  const auto agreeing = static_cast<std::size_t>(
+      std::count_if(estimate.position_weights.begin(), estimate.position_weights.end(), agrees));
+  outcome.rejected = outcome.fixes - agreeing;
+  outcome.reason = shortageOf(agreeing, outcome.fixes);
+  if (!outcome.reason.empty()) return outcome;
   measure(graph, estimate, result.submaps, outcome);
-  outcome.rejected =
-      keepAgreeing(graph, estimate, outcome, lastingOf(graph, estimate, result.submaps));
+  keepAgreeing(graph, estimate, outcome, lastingOf(graph, estimate, result.submaps));
   graph.nodes = estimate.nodes;
   graph.T_earth_world = estimate.T_earth_world;
   estimate = optimize(graph);
@@ -191,7 +211,6 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   makeLevel(result);
   outcome.used = true;
   outcome.T_enu_world = *result.estimate.T_earth_world;
-  outcome.covariance = result.estimate.earth_covariance;
   result.corrected = true;
   return outcome;
 }

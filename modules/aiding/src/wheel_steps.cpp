@@ -20,7 +20,6 @@ constexpr double kMoving = 0.01;     // way of a step that shows noise [m]
 constexpr std::size_t kAround = 20;  // steps on both sides that give the odometry's slow error
 constexpr double kSlip = 8.0;        // standard deviations of a step
 constexpr double kLeastSlip = 0.01;  // [m]
-constexpr double kWheelGaussian = 1.4826;  // standard deviation over median absolute deviation
 
 /** Where the wheels are at an instant, between two readings that are near. */
 std::optional<WheelPose> wheelsAt(const std::vector<WheelPose>& readings, std::int64_t stamp_ns)
@@ -91,8 +90,8 @@ WheelSteps wheelSteps(
     changes.push_back(std::abs(b.beyond - a.beyond));
     normalized.push_back(changes.back() / std::sqrt(way));
   }
-  result.noise_variance = std::pow(kWheelGaussian * median(std::move(normalized)), 2);
-  const double step_std = kWheelGaussian * median(std::move(changes)) / std::sqrt(2.0);
+  result.noise_variance = std::pow(kStdOverMedianDeviation * median(std::move(normalized)), 2);
+  const double step_std = kStdOverMedianDeviation * median(std::move(changes)) / std::sqrt(2.0);
   const double limit = std::max(kLeastSlip, kSlip * step_std);
   for (std::size_t i = 0; i < result.steps.size(); ++i)
     result.steps[i].slipped =

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <ctime>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,8 @@ const Vec3 kAntenna(-0.4, 0.2, 1.1);
 class Road
 {
  public:
-  Road(double length, unsigned seed) : engine_(seed)
+  /** \param claimed standard deviation of a fix by the receiver's account, horizontally [m] */
+  Road(double length, unsigned seed, double claimed = 2.0) : engine_(seed), claimed_(claimed)
   {
     truth_.push_back({Mat3::Identity(), Vec3::Zero()});
     OdometryChain chain(Pose{}, Matrix6::Zero());
@@ -96,8 +98,8 @@ class Road
     mapper_.add(std::move(submap));
     GnssFix fix;
     fix.stamp_ns = stamp_ns;
-    fix.horizontal_std = 2.0;
-    fix.vertical_std = 4.0;
+    fix.horizontal_std = claimed_;
+    fix.vertical_std = 2.0 * claimed_;
     fix.antenna = kAntenna;
     const Vec3 noise = normal3();
     fix.place = frame_.geodeticOf(
@@ -106,6 +108,7 @@ class Road
   }
 
   std::mt19937 engine_;
+  double claimed_;
   std::normal_distribution<double> normal_;
   LocalFrame frame_{GeodeticPoint{48.1, 11.6, 520.0}};
   std::vector<Pose> truth_;
@@ -137,7 +140,7 @@ EarthErrors errorsOf(const Road& road, const MappingResult& map, const GnssOutco
   const Vec3 off =
       gnss.T_enu_world.p - frame.enuOf(road.frame().geodeticOf(road.truth().front().p));
   const Vec3 e(std::atan2(R(1, 0), R(0, 0)), off.x(), off.y());
-  const Mat3 P = gnss.covariance.block<3, 3>(2, 2);  // heading, east, north
+  const Mat3 P = map.estimate.earth_covariance.block<3, 3>(2, 2);  // heading, east, north
   errors.nees = e.dot(P.ldlt().solve(e));
   return errors;
 }
@@ -158,6 +161,24 @@ TEST(Gnss, FiveKilometresWithAMetreOfNoise)
     EXPECT_NEAR(gnss.horizontal_std, kNoise, 0.15 * kNoise);
     EXPECT_LT(gnss.rejected, 5U);
   }
+}
+
+/** A receiver that promises centimetres and is off by a metre: the few fixes that agree are chance,
+ * and their residuals would seem to be millimetres. */
+TEST(Gnss, IsNotUsedWhereFewFixesAgree)
+{
+  Road road(1200.0, 1, 0.03);
+  const auto [map, gnss] = road.mapped();
+  EXPECT_FALSE(gnss.used);
+  EXPECT_EQ(gnss.fixes, map.submaps.size());
+  EXPECT_GT(2 * gnss.rejected, gnss.fixes);
+  EXPECT_NE(gnss.reason.find("positions agree with each other"), std::string::npos) << gnss.reason;
+  EXPECT_EQ(gnss.horizontal_std, 0.0);
+  EXPECT_FALSE(map.corrected);
+  EXPECT_FALSE(map.estimate.T_earth_world);
+  EXPECT_TRUE(map.graph.positions.empty());
+  for (std::size_t i = 0; i < map.submaps.size(); ++i)
+    EXPECT_EQ(map.estimate.nodes[i].p, map.submaps[i].reference.T_world_body.p);
 }
 
 /** The place of the map on the earth is known as well as its covariance says. */

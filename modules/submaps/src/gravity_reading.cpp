@@ -3,6 +3,7 @@
 
 #include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/pose_output.h>
 #include <fastlio/submaps/gravity_reading.h>
 
 #include <cmath>
@@ -13,6 +14,7 @@ namespace
 {
 constexpr double kShortestStretch = 0.5;     // stretch [s]
 constexpr double kMostMissing = 0.05;        // between samples, and of a stretch [s]
+constexpr double kLongestInterval = 0.5;     // between poses [s]
 constexpr double kMeasuredPosition = 0.002;  // surfaces that bend move scans by this [m]
 // Scale and mounting of the accelerometer are off by some tenths of a percent and of a degree: so
 // is what it feels of the motion, as a part of it.
@@ -36,8 +38,25 @@ bool GravityMeter::Stretch::usable() const
   return duration() >= kShortestStretch && std::abs(duration() - integrated) < kMostMissing;
 }
 
+void GravityMeter::dropSamplesUntil(std::int64_t stamp_ns)
+{
+  for (; !samples_.empty() && samples_.front().stamp_ns <= stamp_ns; samples_.pop_front())
+    sample_ns_ = samples_.front().stamp_ns;
+}
+
 void GravityMeter::addScan(const ScanResult& result)
 {
+  if (current_ && toSeconds(result.stamp_ns - current_->to.stamp_ns) > kLongestInterval)
+  {
+    former_.reset();
+    current_.reset();
+  }
+  if (!hasPose(result.status))
+  {
+    // Samples since a pose that is near may still lie between two poses.
+    if (!current_) dropSamplesUntil(result.stamp_ns);
+    return;
+  }
   Instant now;
   now.stamp_ns = result.stamp_ns;
   now.T_world_body = result.filter.x.pose();

@@ -109,12 +109,6 @@ BirdsEyeView::Spectrum BirdsEyeView::spectrum() const
   return grid;
 }
 
-std::size_t BirdsEyeView::occupied() const
-{
-  return static_cast<std::size_t>(
-      std::count_if(cells_.begin(), cells_.end(), [](float value) { return value > 0.0F; }));
-}
-
 void PlaceIndex::add(const std::vector<VoxelPlane>& planes, const Mat3& R_level_submap)
 {
   spectra_.push_back(BirdsEyeView(planes, R_level_submap, cell_).spectrum());

@@ -82,16 +82,16 @@ void SubmapBuilder::begin(
 std::optional<Submap> SubmapBuilder::add(
     const ScanResult& result, const WorldPoints& registered, const Vec3& origin)
 {
+  gravity_.addScan(result);
   if (!hasPose(result.status)) return std::nullopt;
   const TrackedPose pose = mappingPoseOf(result);
   if (last_.stamp_ns != 0) travel_ += (pose.T_world_body.p - last_.T_world_body.p).norm();
   last_ = pose;
-  gravity_.addScan(result);
   std::optional<Submap> ended;
   const Pose& reference = current_.reference.T_world_body;
   const bool is_full = travel_ - current_.travel >= length_ ||
                        logSO3(reference.R.transpose() * pose.T_world_body.R).norm() >= rule_.turn;
-  const bool may_end = static_cast<double>(current_.scans) >= rule_.least_scans;
+  const bool may_end = current_.scans >= rule_.least_scans;
   if (current_.scans > 0 && may_end && is_full) ended = finish();
   if (current_.scans == 0)
   {

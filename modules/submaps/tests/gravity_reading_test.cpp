@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fastlio
@@ -36,6 +37,7 @@ struct Platform
   static ScanResult scan(double t)
   {
     ScanResult result;
+    result.status = ScanStatus::Tracking;
     result.stamp_ns = toNanoseconds(100.0 + t);
     result.filter.x.R = attitude(t);
     result.filter.x.p = position(t);
@@ -79,6 +81,50 @@ TEST(GravityMeter, TellsNothingWhereSamplesAreMissing)
   feed(meter, 2005, 3001);
   EXPECT_FALSE(meter.take());
   feed(meter, 3005, 4001);
+  EXPECT_TRUE(meter.take());
+}
+
+/** While the LiDAR is silent, the attitude may do anything: a hump looks like level ground. */
+TEST(GravityMeter, TellsNothingAcrossATimeWithoutPoses)
+{
+  GravityMeter meter;
+  feed(meter, 0, 1001);
+  (void)meter.take();
+  for (int ms = 1005; ms < 3000; ms += 5)
+    meter.addImu(Platform::sample(1e-3 * ms));
+  feed(meter, 3000, 4001);
+  EXPECT_FALSE(meter.take());
+  feed(meter, 4005, 5001);
+  const auto reading = meter.take();
+  ASSERT_TRUE(reading);
+  const Vec3 gravity = Platform::attitude(4.0).transpose() * Vec3(0, 0, kPull);
+  EXPECT_LT((reading->force - reading->by_bias * kSensorBias - gravity).norm(), 0.02);
+}
+
+/** A run that waits for its start, or has lost its pose, for hours. */
+TEST(GravityMeter, KeepsNoSamplesWhileThereAreNoPoses)
+{
+  GravityMeter meter;
+  const auto mostWithoutPose = [&meter](int begin_ms, int end_ms)
+  {
+    std::size_t most = 0;
+    for (int ms = begin_ms; ms < end_ms; ms += 5)
+    {
+      meter.addImu(Platform::sample(1e-3 * ms));
+      ScanResult scan = Platform::scan(1e-3 * ms);
+      scan.status = begin_ms == 0 ? ScanStatus::Initializing : ScanStatus::Diverged;
+      if (ms % 100 == 0) meter.addScan(scan);
+      most = std::max(most, meter.waitingSamples());
+    }
+    return most;
+  };
+  EXPECT_LE(mostWithoutPose(0, 5000), 20U);
+  feed(meter, 5000, 6001);
+  EXPECT_LE(mostWithoutPose(6005, 20000), 130U);
+  EXPECT_LE(meter.waitingSamples(), 20U);
+  feed(meter, 20000, 21001);
+  EXPECT_FALSE(meter.take());
+  feed(meter, 21005, 22001);
   EXPECT_TRUE(meter.take());
 }
 

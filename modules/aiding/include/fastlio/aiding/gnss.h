@@ -31,10 +31,9 @@ struct GnssFix
 struct GnssOutcome
 {
   bool used = false;
-  std::string reason;   //!< why not
-  GeodeticPoint datum;  //!< origin of the East-North-Up frame
-  Pose T_enu_world;     //!< of the map
-  Matrix6 covariance = Matrix6::Zero();
+  std::string reason;                               //!< why not
+  GeodeticPoint datum;                              //!< origin of the East-North-Up frame
+  Pose T_enu_world;                                 //!< of the map
   std::size_t fixes = 0;                            //!< at poses of the runs
   std::size_t rejected = 0;                         //!< that contradict the others
   double horizontal_std = 0.0, vertical_std = 0.0;  //!< of a fix, by what is left over [m]
@@ -56,7 +55,7 @@ class GnssFactors
 
   /** Adds them to the graph of a map and optimises it: first with the receiver's standard
    * deviations, then with those that the first optimum shows, and with the correlation of errors in
-   * time. */
+   * time. The result stays as it is where too few of the fixes agree. */
   [[nodiscard]] GnssOutcome applyTo(MappingResult& result) const;
 
  private:

@@ -8,6 +8,7 @@
 #include <fastlio/interface/scan_result.h>
 #include <fastlio/math/pose.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -33,13 +34,17 @@ class GravityMeter
   /** Samples in the order of time; they may be ahead of the scans. */
   void addImu(const ImuSample& sample) { samples_.push_back(sample); }
 
-  /** The next scan with a pose. */
+  /** The next scan. Where poses are missing for too long, the attitude between them is not known:
+   * the stretch begins anew behind. */
   void addScan(const ScanResult& result);
 
   /** Ends a stretch at the latest scan and begins another one there.
    * \return gravity in the frame of the pose at which the stretch began; nothing where it or the
    * one before is too short, samples are missing, or the force is not that of gravity */
   [[nodiscard]] std::optional<GravityReading> take();
+
+  /** Samples that are kept for a scan to come. */
+  [[nodiscard]] std::size_t waitingSamples() const { return samples_.size(); }
 
  private:
   /** Of a scan. */
@@ -64,6 +69,7 @@ class GravityMeter
   };
   [[nodiscard]] static std::optional<GravityReading> between(
       const Stretch& former, const Stretch& latter);
+  void dropSamplesUntil(std::int64_t stamp_ns);
 
   std::deque<ImuSample> samples_;  // after the latest scan
   std::int64_t sample_ns_ = 0;     // of the latest sample that was taken in

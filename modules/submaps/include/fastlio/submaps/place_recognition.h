@@ -38,8 +38,6 @@ class BirdsEyeView
   using Spectrum = std::vector<std::complex<float>>;
   /** Of the view, scaled to the energy 1. */
   [[nodiscard]] Spectrum spectrum() const;
-  /** Cells with something in them. */
-  [[nodiscard]] std::size_t occupied() const;
 
  private:
   std::vector<float> cells_;
@@ -60,7 +58,6 @@ class PlaceIndex
       const std::vector<VoxelPlane>& planes, const Mat3& R_level_submap, std::size_t most) const;
 
   [[nodiscard]] double cell() const { return cell_; }
-  [[nodiscard]] std::size_t size() const { return spectra_.size(); }
 
  private:
   double cell_;

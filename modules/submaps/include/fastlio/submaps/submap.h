@@ -44,7 +44,7 @@ struct SubmapRule
   /** After so much travel [m]; 0: half of the median range of its first scan, 3 to 12 m. */
   double length = 0.0;
   double turn = 1.5707963267948966;  //!< or when the sensor has turned so much [rad]
-  double least_scans = 5;            //!< but not with fewer scans
+  std::size_t least_scans = 5;       //!< but not with fewer scans
 };
 
 /** Cuts a run into submaps. */
