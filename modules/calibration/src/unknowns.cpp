@@ -45,7 +45,6 @@ void PassFindings::add(const CalibrationRunResult& run)
   incidence.weighted += run.findings.incidence.weighted;
   upright_weight += run.findings.upright_weight;
   upright_range += run.findings.upright_range;
-  agreement += run.agreement;
   tracked += run.tracked;
   problems.insert(problems.end(), run.problems.begin(), run.problems.end());
 }

@@ -22,7 +22,6 @@ struct PassFindings
   double time_information = 0.0, time_weighted = 0.0;
   BiasSums incidence;
   double upright_weight = 0.0, upright_range = 0.0;  //!< as in CalibrationFindings
-  RunAgreement agreement;
   std::size_t tracked = 0;
   std::vector<std::string> problems;
 

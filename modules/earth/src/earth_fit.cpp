@@ -4,6 +4,7 @@
 #include "weighted_yaw_fit.h"
 #include <fastlio/earth/earth_fit.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/robust_weight.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
@@ -106,15 +107,6 @@ double sum(const std::vector<double>& weights)
   return total;
 }
 
-/** The weight of a point on the way from a convex cost (mu small) to the truncated one (Yang et
- * al., eq. 14). */
-double graduatedWeight(double squared, double gate, double mu)
-{
-  if (squared <= mu / (mu + 1.0) * gate) return 1.0;
-  if (squared >= (mu + 1.0) / mu * gate) return 0.0;
-  return std::sqrt(gate * mu * (mu + 1.0) / squared) - mu;
-}
-
 /** All points at first; those that fit badly lose their weight step by step. */
 Pose graduatedFit(const Problem& problem)
 {
@@ -130,7 +122,7 @@ Pose graduatedFit(const Problem& problem)
     bool is_decided = true;
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      weights[i] = graduatedWeight(problem.squared(pose, i), problem.gate(), mu);
+      weights[i] = truncatedWeight(problem.squared(pose, i), problem.gate(), mu);
       is_decided = is_decided && (weights[i] == 0.0 || weights[i] == 1.0);
     }
     if (sum(weights) <= 0) break;

@@ -65,7 +65,6 @@ class LasBytes
 /** The values that differ from file to file. */
 struct LasHeader
 {
-  std::string software;
   std::size_t wkt_bytes = 0;  //!< 0: there is no record of the reference system
   double scale_m = 0.001;
   Vec3 offset = Vec3::Zero(), least = Vec3::Zero(), most = Vec3::Zero();  //!< [m]

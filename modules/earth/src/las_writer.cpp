@@ -46,7 +46,6 @@ void requireWritable(const LasOptions& options)
     refuse(
         "a step of the coordinates of " + shortestText(options.scale_m) +
         " m; give 1e-6 to 1 m, like 0.001");
-  if (options.offset && !options.offset->allFinite()) refuse("the offset is not finite");
   if (!std::isfinite(options.intensity_scale) || options.intensity_scale < 0)
     refuse(
         "intensities times " + shortestText(options.intensity_scale) + "; give a factor above 0");
@@ -54,8 +53,6 @@ void requireWritable(const LasOptions& options)
     refuse(
         "a reference system of " + std::to_string(options.wkt.size()) +
         " bytes of WKT; the format holds " + std::to_string(kLongestLasWkt) + ", without zeros");
-  if (options.software.size() > kLasNameLength)
-    refuse("the name of the program is longer than " + std::to_string(kLasNameLength) + " bytes");
 }
 
 std::uint16_t sixteenBits(double intensity)
@@ -75,14 +72,13 @@ LasWriter::LasWriter(const std::string& path, LasOptions options)
         "cannot write '" + printable(path) +
         "' as LAS: its header is completed in the end, which a pipe or a device cannot; give a "
         "file");
-  if (options_.offset) offset_ = *options_.offset;
   file_.write(header());
   if (!options_.wkt.empty()) file_.write(lasWktRecord(options_.wkt));
 }
 
 void LasWriter::add(const LasPoint& point)
 {
-  if (count_ == 0 && !options_.offset && point.position.allFinite())
+  if (count_ == 0 && point.position.allFinite())
     offset_ = (point.position / kMetresOfOffset).array().floor() * kMetresOfOffset;
   const Steps steps = stepsOf(point.position);
   for (std::size_t axis = 0; axis < steps.size(); ++axis)
@@ -105,12 +101,6 @@ void LasWriter::add(const LasPoint& point)
   is_whole_ = true;
   latest_stamp_ns_ = std::max(latest_stamp_ns_, point.stamp_ns);
   ++count_;
-}
-
-void LasWriter::add(const std::vector<LasPoint>& points)
-{
-  for (const LasPoint& point : points)
-    add(point);
 }
 
 LasWriter::Steps LasWriter::stepsOf(const Vec3& position) const
@@ -142,7 +132,6 @@ double LasWriter::coordinateOf(int axis, std::int32_t steps) const
 std::string LasWriter::header() const
 {
   LasHeader header;
-  header.software = options_.software;
   header.wkt_bytes = options_.wkt.size();
   header.scale_m = options_.scale_m;
   header.offset = offset_;

@@ -241,13 +241,12 @@ GeodeticPoint ReferenceSystem::geodeticOf(const Vec3& projected) const
   return point;
 }
 
-std::string ReferenceSystem::wkt(WktDialect dialect) const
+std::string ReferenceSystem::wkt() const
 {
   proj_->message.clear();
   const std::array<const char*, 2> options = {"MULTILINE=NO", nullptr};
-  const char* text = proj_as_wkt(
-      proj_->context.get(), proj_->system.get(),
-      dialect == WktDialect::Wkt1 ? PJ_WKT1_GDAL : PJ_WKT2_2019, options.data());
+  const char* text =
+      proj_as_wkt(proj_->context.get(), proj_->system.get(), PJ_WKT1_GDAL, options.data());
   if (text == nullptr)
     throw std::runtime_error(
         "'" + printable(definition_) + "' cannot be written as WKT" + proj_->reason() +

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 namespace fastlio
 {
@@ -57,7 +58,7 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
   const LocalFrame frame(munich);
   const ReferenceSystem utm("utm", munich);
   LasOptions options;
-  options.wkt = utm.wkt(WktDialect::Wkt1);
+  options.wkt = utm.wkt();
   options.scale_m = 0.0001;
   LasWriter writer(folder_.file("map.las"), options);
   std::string rows;
@@ -91,7 +92,8 @@ TEST_F(LasReadBack, AMapWithoutAPlaceByCopc)
   LasWriter writer(folder_.file("map.las"), {});
   const std::vector<LasPoint> points = {
       {{-12.5, 3.25, -0.125}, 7, 2'000'000'000, 0}, {{999.999, -999.999, 0}, 65535, 0, 65535}};
-  writer.add(points);
+  for (const LasPoint& p : points)
+    writer.add(p);
   writer.commit();
   const std::string text = read(folder_.file("map.las"));
   EXPECT_NE(text.find("created 1 1970\n"), std::string::npos) << text;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace fastlio
 {
@@ -78,8 +79,10 @@ TEST(LasWriter, BoundsAreThoseOfThePointsAsTheyAreStored)
   std::vector<LasPoint> points;
   points.reserve(5000);
   for (int i = 0; i < 5000; ++i)
+  {
     points.push_back(point(691e3 + metres(random), 5334e3 + metres(random), metres(random)));
-  writer.add(points);
+    writer.add(points.back());
+  }
   EXPECT_EQ(writer.size(), 5000U);
   writer.commit();
   const std::string bytes = contentOf(folder.file("map.las"));

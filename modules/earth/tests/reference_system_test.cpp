@@ -131,9 +131,8 @@ TEST(ReferenceSystem, OtherFormsOfTheSameSystemAgree)
 {
   const ReferenceSystem code("EPSG:32632");
   for (const std::string& form :
-       {code.wkt(WktDialect::Wkt1), code.wkt(WktDialect::Wkt2_2019),
-        std::string("WGS 84 / UTM zone 32N"), std::string("+proj=utm +zone=32 +datum=WGS84"),
-        std::string("urn:ogc:def:crs:EPSG::32632")})
+       {code.wkt(), std::string("WGS 84 / UTM zone 32N"),
+        std::string("+proj=utm +zone=32 +datum=WGS84"), std::string("urn:ogc:def:crs:EPSG::32632")})
     EXPECT_LT(
         (ReferenceSystem(form).projectedOf(kMunichCity) - code.projectedOf(kMunichCity)).norm(),
         1e-6)
@@ -203,12 +202,11 @@ TEST(ReferenceSystem, MissingGridsAreRefusedInsteadOfApproximated)
 TEST(ReferenceSystem, WktNamesTheSystem)
 {
   const ReferenceSystem system("EPSG:32632");
-  const std::string wkt1 = system.wkt(WktDialect::Wkt1);
+  const std::string wkt1 = system.wkt();
   EXPECT_EQ(wkt1.find("PROJCS[\"WGS 84 / UTM zone 32N\","), 0U) << wkt1;
   EXPECT_NE(wkt1.find("AUTHORITY[\"EPSG\",\"32632\"]"), std::string::npos);
   EXPECT_EQ(wkt1.find('\n'), std::string::npos);
-  EXPECT_EQ(system.wkt(WktDialect::Wkt2_2019).find("PROJCRS["), 0U);
-  EXPECT_EQ(ReferenceSystem("EPSG:32632+5773").wkt(WktDialect::Wkt1).find("COMPD_CS["), 0U);
+  EXPECT_EQ(ReferenceSystem("EPSG:32632+5773").wkt().find("COMPD_CS["), 0U);
 }
 
 TEST(ReferenceSystem, SaysWhatIsWrongAndWhatToDo)

@@ -96,7 +96,6 @@ class VoteBlocks
   [[nodiscard]] std::vector<CellIndex> oldest(std::size_t most) const;
   void remove(const CellIndex& block);
 
-  [[nodiscard]] double edge() const { return edge_; }
   [[nodiscard]] std::size_t size() const { return cells_; }
 
  private:

@@ -143,10 +143,8 @@ class NormalEquations
       (addProduct(part, weighted, parts), ...);
     };
     (addRow(parts), ...);
-    cost_ += error.dot(information * error);
   }
 
-  [[nodiscard]] double cost() const { return cost_; }
   [[nodiscard]] const Eigen::VectorXd& gradient() const { return gradient_; }
   /** The lower triangle. */
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const
@@ -171,7 +169,6 @@ class NormalEquations
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::MatrixXd common_;
   Eigen::VectorXd gradient_;
-  double cost_ = 0.0;
 };
 
 }  // namespace fastlio

@@ -3,6 +3,7 @@
 
 #include "linearized_graph.h"
 #include "selected_inverse.h"
+#include <fastlio/math/robust_weight.h>
 #include <fastlio/posegraph/graph_factors.h>
 #include <fastlio/posegraph/pose_graph.h>
 
@@ -11,7 +12,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -86,9 +86,7 @@ class Optimizer
       for (std::size_t n = 0; n < estimate_.nodes.size(); ++n)
         move(estimate_.nodes[n], step, GraphLayout::at(n));
       moveCommon(step);
-      estimate_.cost = equations.cost();
       estimate_.converged = step.lpNorm<Eigen::Infinity>() < kSmallStep * std::max(1.0, scale());
-      ++estimate_.iterations;
     }
   }
 
@@ -123,22 +121,13 @@ class Optimizer
     return e.dot(informations_.positions[i] * e);
   }
 
-  /** The weight of truncated least squares at convexity \a mu (eq. 14 of the paper). */
-  static double weightOf(double squared_error, double limit, double mu)
-  {
-    const double low = mu / (mu + 1.0) * limit, high = (mu + 1.0) / mu * limit;
-    if (squared_error <= low) return 1.0;
-    if (squared_error >= high) return 0.0;
-    return std::sqrt(limit * mu * (mu + 1.0) / squared_error) - mu;
-  }
-
   /** Weights of all robust factors. \return whether all are 0 or 1 */
   bool reweigh(double mu)
   {
     bool decided = true;
     const auto set = [&](double& weight, double squared_error, double limit)
     {
-      weight = weightOf(squared_error, limit, mu);
+      weight = truncatedWeight(squared_error, limit, mu);
       decided = decided && (weight <= 0.0 || weight >= 1.0);
     };
     for (std::size_t i = 0; i < graph_.edges.size(); ++i)

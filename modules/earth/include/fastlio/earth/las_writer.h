@@ -10,9 +10,7 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 namespace fastlio
 {
@@ -32,13 +30,8 @@ struct LasOptions
   std::string wkt;
   /** The step of the coordinates [m]; 32 bits of it reach 2147 km to both sides at 0.001. */
   double scale_m = 0.001;
-  /** Origin of the coordinates [m]; none: the first point, rounded down to whole kilometres.
-   */
-  std::optional<Vec3> offset;
   /** LAS has 16 bits for intensities: they are multiplied by this, rounded and limited. */
   double intensity_scale = 1.0;
-  /** The program, in up to 32 characters of ASCII. */
-  std::string software = "mrpt_fastlio";
 };
 
 /** Writes points as they come, in constant memory; the file gets its name in commit().
@@ -62,7 +55,6 @@ class LasWriter
   /** \exception std::runtime_error the position is not finite or too far from the offset, or the
    * disk refused the bytes */
   void add(const LasPoint& point);
-  void add(const std::vector<LasPoint>& points);
 
   [[nodiscard]] std::uint64_t size() const { return count_; }
 
@@ -80,8 +72,8 @@ class LasWriter
 
   LasOptions options_;
   AtomicFile file_;
-  std::string record_;  //!< storage of add()
-  Vec3 offset_ = Vec3::Zero();
+  std::string record_;          //!< storage of add()
+  Vec3 offset_ = Vec3::Zero();  //!< the first point, rounded down to whole kilometres [m]
   Steps least_ = {}, most_ = {};
   std::int64_t latest_stamp_ns_ = 0;
   std::uint64_t count_ = 0;

@@ -17,13 +17,6 @@ namespace fastlio
  * \exception std::invalid_argument no place on the earth, or beyond the grid (80 S to 84 N) */
 [[nodiscard]] std::string utmCodeAt(const GeodeticPoint& point);
 
-/** Dialects of "well-known text", which defines the meaning of coordinates for other programs. */
-enum class WktDialect
-{
-  Wkt1,      //!< OGC 01-009 as GDAL writes it: what LAS 1.4 asks for
-  Wkt2_2019  //!< ISO 19162:2019
-};
-
 /** A projected coordinate reference system in metres, with axes East and North.
  *
  * Heights: a system of plane coordinates (EPSG:32632) leaves the height above the WGS84 ellipsoid
@@ -56,9 +49,10 @@ class ReferenceSystem
   /** \exception std::runtime_error no place on the earth has these coordinates */
   [[nodiscard]] GeodeticPoint geodeticOf(const Vec3& projected) const;
 
-  /** In one line.
-   * \exception std::runtime_error the dialect cannot express the system */
-  [[nodiscard]] std::string wkt(WktDialect dialect) const;
+  /** "Well-known text" in one line, which defines the meaning of coordinates for other programs:
+   * OGC 01-009 as GDAL writes it, what LAS 1.4 asks for.
+   * \exception std::runtime_error it cannot express the system */
+  [[nodiscard]] std::string wkt() const;
 
   /** As given; of "utm" the code of the zone. */
   [[nodiscard]] const std::string& definition() const { return definition_; }

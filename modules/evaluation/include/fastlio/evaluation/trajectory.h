@@ -5,26 +5,19 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/math/pose.h>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace fastlio
 {
-/** Where the body was at an instant. */
-struct StampedPose
-{
-  std::int64_t stamp_ns = 0;  //!< since the epoch of the trajectory's clock [ns]
-  Pose T_world_body;          //!< body to world
-};
-
 /** Poses in the order of time. Two trajectories that are compared share the clock and the body
  * frame; their world frames may differ (see Alignment). */
 struct Trajectory
 {
   std::string source;              //!< file or other name, for messages
-  std::vector<StampedPose> poses;  //!< stamps strictly increasing
+  std::vector<StampedPose> poses;  //!< stamps of one clock, strictly increasing
 
   /** One per pose, or empty. Order (rx, ry, rz, px, py, pz): attitude error [rad] in the body
    * frame, R = R_mean Exp(dtheta); position error [m] in the world frame. */

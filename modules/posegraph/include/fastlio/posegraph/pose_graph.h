@@ -87,8 +87,6 @@ struct GraphEstimate
   std::vector<Eigen::MatrixXd> sensor_covariances;  //!< of them
   std::optional<Pose> T_earth_world;
   Matrix6 earth_covariance = Matrix6::Zero();
-  double cost = 0.0;  //!< sum of squared normalized errors, with the weights
-  int iterations = 0;
   bool converged = false;
 };
 
