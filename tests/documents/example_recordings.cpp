@@ -23,7 +23,7 @@ try
   using namespace fastlio::testing;
   if (argc != 3) return 1;
   std::vector<Object> objects;
-  fastlio::RawlogSource source({argv[1]}, {0.0, true});
+  fastlio::RawlogSource source({argv[1]}, {0.0});
   while (auto observation = source.next())
     objects.push_back(std::move(observation));
   const std::string folder = std::string(argv[2]) + "/";

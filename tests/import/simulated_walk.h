@@ -45,7 +45,7 @@ class SimulatedWalk : public ::testing::Test
   static std::vector<Object> objectsOf(const std::string& rawlog)
   {
     std::vector<Object> objects;
-    RawlogSource source({rawlog}, {0.0, true});
+    RawlogSource source({rawlog}, {0.0});
     while (auto observation = source.next())
       objects.push_back(std::move(observation));
     return objects;

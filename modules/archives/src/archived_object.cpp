@@ -27,6 +27,7 @@ using mrpt::serialization::CSerializable;
 [[noreturn]] void failReading(const ObjectStream& stream, const std::string& why)
 {
   if (stream.file().end() == FileEnd::Corrupt) failObject("has damaged compressed data");
+  if (stream.isTooDeep()) failObject("is damaged: the objects in it are nested too deeply");
   if (stream.ranOut()) failObject("is cut off: it ends inside its object");
   failObject("is damaged: " + printable(why));
 }

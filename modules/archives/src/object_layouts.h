@@ -28,7 +28,7 @@ struct Field
     CountedLists,    // 32-bit count, so many of Counted
     NamedLists,      // 32-bit count, so many of a string and Counted
     Object,          // another object
-    CountedObjects,  // 32-bit count, so many objects
+    CountedObjects,  // 32-bit count, so many observations
     ImageSize,       // 16-bit rows and columns, which the images behind refer to
     RotatingImages,  // images of that size, in one of two layouts
     StoredCloud,     // 0 and an object, or another byte and the name of a file

@@ -15,6 +15,9 @@ namespace
 constexpr std::size_t kChunk = 1U << 15U;
 constexpr std::size_t kLongestClassName = 120;  // limit of MRPT's format
 constexpr unsigned char kHeaderFlag = 0x80;
+// MRPT reads objects in objects by recursion: this is a hundred of them, and whole files have five.
+// A small part of any thread's stack.
+constexpr std::uintptr_t kMostStack = 128U << 10U;
 const std::string kObservations = "mrpt::obs::";
 
 bool isClassNameCharacter(char c)
@@ -73,8 +76,17 @@ std::optional<ObjectHeader> ObjectStream::headerAtOffset(std::size_t offset)
   return headerAt(object_ + offset);
 }
 
+void ObjectStream::requireRoomOnStack()
+{
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  if (stack_ == 0) stack_ = here;
+  too_deep_ = too_deep_ || stack_ > here + kMostStack;
+  if (too_deep_) throw std::runtime_error("the objects in it are nested too deeply");
+}
+
 std::size_t ObjectStream::Read(void* data, std::size_t size)
 {
+  requireRoomOnStack();
   if (!require(size))
   {
     ran_out_ = true;
@@ -94,7 +106,8 @@ std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)
 void ObjectStream::beginObject()
 {
   object_ = position_;
-  ran_out_ = false;
+  stack_ = 0;
+  too_deep_ = ran_out_ = false;
   if (object_ < std::max(kChunk, bytes_.size() / 2))
     return;  // moving the rest costs in proportion to it
   bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(object_));

@@ -21,6 +21,8 @@ using mrpt::serialization::CArchive;
 
 constexpr const char* kName = "CObservationRotatingScan";
 constexpr std::uint8_t kSerialized = 1, kText = 2;
+// Of images in another file, whose lines may be few. No LiDAR has as many.
+constexpr std::size_t kMostPixels = 16'000'000;
 
 std::uint16_t shortAt(const std::array<std::uint8_t, 4>& bytes, std::size_t at)
 {
@@ -86,6 +88,10 @@ void readPoints(CArchive& in, RotatingScan& scan)
 
 void setExternal(RotatingScan& scan, std::uint8_t format, const std::string& file)
 {
+  if (Size{scan.columnCount, scan.rowCount}.count() > kMostPixels)
+    throw std::runtime_error(
+        "CObservationRotatingScan: claims images of " + std::to_string(scan.columnCount) + " x " +
+        std::to_string(scan.rowCount) + " pixels in a file of their own");
   if (format > kText)
     throw std::runtime_error(
         "CObservationRotatingScan: images are kept in format " + std::to_string(format) +

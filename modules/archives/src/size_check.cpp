@@ -5,6 +5,8 @@
 #include <fastlio/archives/rotating_scan_stream.h>
 #include <fastlio/archives/size_check.h>
 
+#include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservation.h>
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
@@ -31,8 +33,11 @@ class Walk
 
   [[nodiscard]] SizeVerdict verdict() const { return verdict_; }
 
-  bool object(int depth)
+  /** \param base class that MRPT expects there; null: it checks that itself before it reads */
+  bool object(int depth, const mrpt::rtti::TRuntimeClassId* base = nullptr)
   {
+    // MRPT reads objects in objects by recursion, as deep as the file says.
+    if (depth > kDeepest) return stop(SizeVerdict::Misaligned);
     const auto header = stream_.headerAtOffset(at_);
     if (!header)
       return stop(stream_.endsInsideHeader(at_) ? SizeVerdict::RunsOut : SizeVerdict::Misaligned);
@@ -41,10 +46,11 @@ class Walk
     // MRPT finds a class also when its namespace is another one.
     const auto* id = mrpt::rtti::findRegisteredClass(header->class_name);
     if (id == nullptr) return stop(SizeVerdict::Plausible);  // MRPT goes no further either
+    if (base != nullptr && !id->derivedFrom(base)) return stop(SizeVerdict::Misaligned);
     if (!skip(1)) return false;
     const Layout* layout = layoutOf(id->className, stream_.byteAt(at_ - 1));
     if (layout == nullptr && hasOneVersion(id->className)) return stop(SizeVerdict::Misaligned);
-    if (layout == nullptr || depth > kDeepest) return stop(SizeVerdict::Plausible);
+    if (layout == nullptr) return stop(SizeVerdict::Plausible);
     for (const Field& field : layout->fields)
       if (!walk(field, depth)) return false;
     return endFlag();
@@ -90,7 +96,8 @@ class Walk
   bool storedCloud(int depth)
   {
     if (!skip(1)) return false;
-    return stream_.byteAt(at_ - 1) == 0 ? object(depth + 1) : countedBytes(kString.size);
+    return stream_.byteAt(at_ - 1) == 0 ? object(depth + 1, CLASS_ID(mrpt::maps::CPointsMap))
+                                        : countedBytes(kString.size);
   }
 
   bool imageSize()
@@ -119,7 +126,7 @@ class Walk
     return true;
   }
 
-  // Inside of a frame MRPT itself reads them, and only its own layout.
+  // Inside of other objects only the layout of the installed MRPT is read.
   bool rotatingImages(int depth)
   {
     if (!stream_.holds(at_, 4)) return stop(SizeVerdict::RunsOut);
@@ -156,7 +163,7 @@ class Walk
       case Field::Object:
         return object(depth + 1);
       case Field::CountedObjects:
-        return repeated([&] { return object(depth + 1); });
+        return repeated([&] { return object(depth + 1, CLASS_ID(mrpt::obs::CObservation)); });
       case Field::ImageSize:
         return imageSize();
       case Field::RotatingImages:

@@ -59,6 +59,14 @@ mrpt::obs::CObservationPointCloud::Ptr observationOf(const mrpt::maps::CPointsMa
   return observation;
 }
 
+// A sensory frame with one object.
+std::string frameAround(const std::string& content)
+{
+  auto empty = serialize({mrpt::obs::CSensoryFrame::Create()});
+  empty.resize(empty.size() - 5);  // without its count and its end flag
+  return empty + std::string("\1\0\0\0", 4) + content + '\x88';
+}
+
 // Puts a length of 4 Gi - 1 at the given place.
 std::string withHostileLength(std::string bytes, std::size_t at)
 {
@@ -117,6 +125,30 @@ TEST_F(SizeCheckTest, HostileLengthsAreSeenWhereverTheyAre)
   std::string shifted = bytes;
   shifted.erase(pose_end + 100, 1);
   EXPECT_NE(verdictOn(shifted + "more of the file"), SizeVerdict::Plausible);
+}
+
+TEST_F(SizeCheckTest, FramesHoldObservationsAndCloudsHoldPoints)
+{
+  const std::string frame = frameAround(serialize({imuAt(0)}));
+  EXPECT_EQ(verdictOn(frame), SizeVerdict::Plausible);
+  EXPECT_EQ(verdictOn(frameAround(frame)), SizeVerdict::Misaligned);
+  const std::string points = serialize({mrpt::maps::CSimplePointsMap::Create()});
+  EXPECT_EQ(verdictOn(frameAround(points)), SizeVerdict::Misaligned);
+  std::string cloud = serialize({observationOf(nullptr)});
+  const std::string none = "\x87nullptr\x88";
+  ASSERT_NE(cloud.rfind(none), std::string::npos);
+  cloud.replace(cloud.rfind(none), none.size(), frame);
+  EXPECT_EQ(verdictOn(cloud), SizeVerdict::Misaligned);
+}
+
+TEST_F(SizeCheckTest, ObjectsInObjectsEndAtSomeDepth)
+{
+  // Each sample stands where the one around it has its pose.
+  const std::string sample = serialize({imuAt(0)});
+  std::string nested;
+  for (int i = 0; i < 12; ++i)
+    nested += sample.substr(0, 1 + 26 + 1);
+  EXPECT_EQ(verdictOn(nested + sample), SizeVerdict::Misaligned);
 }
 
 TEST_F(SizeCheckTest, OtherClassesAreLeftToMrpt)

@@ -49,10 +49,10 @@ class DecodeAheadSource::Impl
     return source_;
   }
 
-  [[nodiscard]] const ObservationBridge& bridge() const
+  [[nodiscard]] const BridgeStatistics& statistics() const
   {
     requireStopped();
-    return bridge_;
+    return statistics_;
   }
 
  private:
@@ -96,7 +96,10 @@ class DecodeAheadSource::Impl
 
   void join()
   {
-    if (thread_.joinable()) thread_.join();
+    if (!thread_.joinable()) return;
+    thread_.join();
+    statistics_ = bridge_.statistics();
+    statistics_.points_left_out = merger_.pointsLeftOut();
   }
 
   // The thread's work is visible to the others only once it has been joined.
@@ -112,7 +115,8 @@ class DecodeAheadSource::Impl
   ScanMerger merger_;  // idle with a single LiDAR
   BoundedQueue<DecodedInput> queue_;
   std::exception_ptr failure_;
-  std::thread thread_;  // last: starts when all else is there
+  BridgeStatistics statistics_;  // of everything, once the thread has been joined
+  std::thread thread_;           // last: starts when all else is there
 };
 
 DecodeAheadSource::DecodeAheadSource(
@@ -139,7 +143,7 @@ const std::vector<ReadProblem>& DecodeAheadSource::problems() const
 
 const BridgeStatistics& DecodeAheadSource::statistics() const
 {
-  return impl_->bridge().statistics();
+  return impl_->statistics();
 }
 
 }  // namespace fastlio

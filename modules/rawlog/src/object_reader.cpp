@@ -8,6 +8,8 @@
 #include <fastlio/compat/mrpt_messages.h>
 #include <fastlio/files/input_file.h>
 
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/os.h>
@@ -22,6 +24,19 @@ using fastlio::ReadProblemKind;
 bool isRegistered(const std::string& class_name)
 {
   return mrpt::rtti::findRegisteredClass(class_name) != nullptr;
+}
+
+/** Of MRPT's own class, under whichever of its names. */
+bool isFrame(const std::string& class_name)
+{
+  return mrpt::rtti::findRegisteredClass(class_name) == CLASS_ID(mrpt::obs::CSensoryFrame);
+}
+
+/** It may stand in a frame. A class that is not known fails where it is read. */
+bool belongsInAFrame(const std::string& class_name)
+{
+  const auto* id = mrpt::rtti::findRegisteredClass(class_name);
+  return id == nullptr || id->derivedFrom(CLASS_ID(mrpt::obs::CObservation));
 }
 
 std::string hintFor(ReadProblemKind kind)
@@ -51,10 +66,7 @@ std::string hintFor(ReadProblemKind kind)
 
 namespace fastlio
 {
-ObjectReader::ObjectReader(std::string path, bool recover)
-    : path_(std::move(path)), recover_(recover)
-{
-}
+ObjectReader::ObjectReader(std::string path) : path_(std::move(path)) {}
 
 std::uint64_t ObjectReader::compressedPosition() const
 {
@@ -134,17 +146,41 @@ NextObject ObjectReader::readOne()
   }
 }
 
-// MRPT reads rotating scans of its own layout only.
+// MRPT reads rotating scans of its own layout only, and in frames whatever stands there: frames in
+// frames, of any length and depth.
 mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHeader& header)
 {
   auto archive = mrpt::serialization::archiveFrom(*stream_);
-  if (header.class_name != kRotatingScanClass) return archive.ReadObject();
-  std::vector<std::uint8_t> head(header.length + 1);  // and the version, which is 0 in all layouts
+  const bool is_frame = isFrame(header.class_name);
+  if (header.class_name != kRotatingScanClass && !is_frame) return archive.ReadObject();
+  // And the version, which is the same in all layouts.
+  std::vector<std::uint8_t> head(header.length + 1);
   archive.ReadBuffer(head.data(), head.size());
-  auto scan = readRotatingScan(archive);
+  mrpt::serialization::CSerializable::Ptr object;
+  if (is_frame)
+    object = readFrame(archive);
+  else
+    object = readRotatingScan(archive);
   if (archive.ReadAs<std::uint8_t>() != kEndFlag)
     throw std::runtime_error("the object does not end where it should");
-  return scan;
+  return object;
+}
+
+mrpt::serialization::CSerializable::Ptr ObjectReader::readFrame(
+    mrpt::serialization::CArchive& archive)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  const auto count = archive.ReadAs<std::uint32_t>();  // checkSizes() has bounded it
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const auto header = stream_->peekHeader();
+    if (header && !belongsInAFrame(header->class_name))
+      throw std::runtime_error("a frame holds an object of class " + header->class_name);
+    const auto object = header ? readObject(*header) : archive.ReadObject();
+    if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+      frame->insert(observation);
+  }
+  return frame;
 }
 
 NextObject ObjectReader::atEndOfFile()
@@ -175,6 +211,9 @@ ReadProblem ObjectReader::diagnoseEnd(const std::string& class_name) const
 
 ReadProblem ObjectReader::diagnose(const std::string& class_name, const std::string& error) const
 {
+  if (stream_->isTooDeep())
+    return makeProblem(
+        ReadProblemKind::Corrupt, class_name, "the objects in it are nested too deeply");
   if (stream_->ranOut()) return diagnoseEnd(class_name);
   const auto inner = stream_->lastHeaderRead();
   if (inner && inner->class_name != class_name && !isRegistered(inner->class_name))
@@ -190,11 +229,15 @@ ReadProblem ObjectReader::diagnose(const std::string& class_name, const std::str
 NextObject ObjectReader::fail(ReadProblem problem)
 {
   const bool at_start = index_ == 0 && object_offset_ == 0;
-  stream_->rewindTo(0);
-  stream_->rewindTo(problem.class_name.empty() ? 0 : 1);
-  const bool found = (recover_ || at_start) && stream_->seekNextObservation();
-  finished_ = !found || !recover_;
-  if (!found && !at_start && recover_ && problem.class_name.empty() && stream_->skippedZerosOnly())
+  // What was nested too deeply would be so from each of its parts on: the search begins behind.
+  if (!stream_->isTooDeep())
+  {
+    stream_->rewindTo(0);
+    stream_->rewindTo(problem.class_name.empty() ? 0 : 1);
+  }
+  const bool found = stream_->seekNextObservation();
+  finished_ = !found;
+  if (!found && !at_start && problem.class_name.empty() && stream_->skippedZerosOnly())
     problem = makeProblem(
         ReadProblemKind::Truncated, "",
         "from there to its end the file holds " +

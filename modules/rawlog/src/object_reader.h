@@ -7,6 +7,7 @@
 #include <fastlio/archives/object_stream.h>
 #include <fastlio/rawlog/rawlog_source.h>
 
+#include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstddef>
@@ -28,10 +29,10 @@ using NextObject = std::variant<mrpt::serialization::CSerializable::Ptr, ReadPro
 class ObjectReader
 {
  public:
-  /** \param recover go on behind objects that cannot be decoded */
-  ObjectReader(std::string path, bool recover);
+  explicit ObjectReader(std::string path);
 
-  /** Never throws for what the file holds. Once EndOfObjects was returned it is returned again. */
+  /** Never throws for what the file holds. Behind an object that cannot be decoded it goes on at
+   * the next one that can be found. Once EndOfObjects was returned it is returned again. */
   [[nodiscard]] NextObject next();
 
   /** Bytes of the file as it lies on disk that have been used. */
@@ -40,6 +41,8 @@ class ObjectReader
  private:
   [[nodiscard]] NextObject readOne();
   [[nodiscard]] mrpt::serialization::CSerializable::Ptr readObject(const ObjectHeader& header);
+  [[nodiscard]] mrpt::serialization::CSerializable::Ptr readFrame(
+      mrpt::serialization::CArchive& archive);
   [[nodiscard]] NextObject atEndOfFile();
   [[nodiscard]] NextObject fail(ReadProblem problem);
   [[nodiscard]] ReadProblem diagnose(const std::string& class_name, const std::string& error) const;
@@ -49,7 +52,6 @@ class ObjectReader
   void skipFrameEnds();
 
   std::string path_;
-  bool recover_;
   std::unique_ptr<ObjectStream> stream_;
   std::size_t index_ = 0;            // of the object at hand
   std::uint64_t object_offset_ = 0;  // of the object at hand, uncompressed

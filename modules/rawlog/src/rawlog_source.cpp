@@ -72,7 +72,7 @@ class RawlogSource::Impl
 {
  public:
   Impl(std::vector<std::string> files, const RawlogSourceOptions& options)
-      : files_(std::move(files)), options_(options), sorter_(toNanoseconds(options.sorting_window))
+      : files_(std::move(files)), sorter_(toNanoseconds(options.sorting_window))
   {
     for (const std::string& file : files_)
       progress_.bytes_total += recordingBytes(file);
@@ -108,7 +108,6 @@ class RawlogSource::Impl
   void closeFile();
 
   std::vector<std::string> files_;
-  RawlogSourceOptions options_;
   TimeSorter sorter_;
   std::size_t file_ = 0;  // the one at hand
   std::optional<ObjectReader> reader_;
@@ -151,7 +150,7 @@ void RawlogSource::Impl::open()
   {
     foreign_ = std::make_unique<UnreadableRecording>(file, e.what());
   }
-  if (!foreign_) reader_.emplace(file, options_.recover);
+  if (!foreign_) reader_.emplace(file);
 }
 
 void RawlogSource::Impl::readForeign()

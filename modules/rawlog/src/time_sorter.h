@@ -14,8 +14,8 @@
 namespace fastlio
 {
 /** Holds observations back until those that may still come cannot precede them. Equal stamps keep
- * their order. An observation with an absurd stamp does not hold up the others; when time steps
- * back, what is held from before goes first. */
+ * their order. An observation with an absurd stamp does not hold up the others, and one without a
+ * time does not wait; when time steps back, what is held from before goes first. */
 class TimeSorter
 {
  public:
@@ -23,7 +23,8 @@ class TimeSorter
 
   void push(mrpt::obs::CObservation::Ptr observation);
 
-  /** An observation is due: the one pushed last is later by the window, or too many are held. */
+  /** An observation is due: the one pushed last is later by the window, or too many are held, or
+   * too many points. */
   [[nodiscard]] bool ready() const;
 
   [[nodiscard]] bool empty() const { return held_.empty(); }
@@ -37,6 +38,7 @@ class TimeSorter
     std::uint64_t epoch;
     std::int64_t stamp_ns;
     std::uint64_t sequence;
+    std::size_t points;
     mrpt::obs::CObservation::Ptr observation;
   };
   struct Later
@@ -52,6 +54,7 @@ class TimeSorter
   std::int64_t newest_ns_ = 0;  // of the observation pushed last
   std::uint64_t sequence_ = 0;
   std::uint64_t epoch_ = 0;  // times that time stepped back
+  std::size_t points_ = 0;   // of all that are held
   std::priority_queue<Held, std::vector<Held>, Later> held_;
 };
 

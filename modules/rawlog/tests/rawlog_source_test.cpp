@@ -82,8 +82,7 @@ TEST_F(RawlogSourceTest, SortsWithinTheWindow)
   EXPECT_EQ(
       readAll({file}).labels, (std::vector<std::string>{"b", "a", "b", "a", "late", "a", "a"}));
   EXPECT_EQ(
-      readAll({file}, {0.0, true}).seconds,
-      (std::vector<double>{1.0, 1.1, 1.0, 0.95, 2.0, 0.5, 3.0}));
+      readAll({file}, {0.0}).seconds, (std::vector<double>{1.0, 1.1, 1.0, 0.95, 2.0, 0.5, 3.0}));
 }
 
 TEST_F(RawlogSourceTest, StampsThatJumpBackOrMakeNoSenseLoseNothing)
@@ -285,5 +284,5 @@ TEST_F(RawlogSourceTest, ProgressReachesTheSizeOfTheFiles)
 TEST(RawlogSourceOptions, AreChecked)
 {
   EXPECT_THROW(RawlogSource({}), std::invalid_argument);
-  EXPECT_THROW(RawlogSource({"a"}, {-1.0, true}), std::invalid_argument);
+  EXPECT_THROW(RawlogSource({"a"}, {-1.0}), std::invalid_argument);
 }

@@ -40,8 +40,8 @@ class ObjectStream
   }
 
   /** Exactly \a size bytes.
-   * \exception std::runtime_error the file has fewer left, or the object is larger than the limit
-   */
+   * \exception std::runtime_error the file has fewer left, the object is larger than the limit, or
+   * the caller has come too far down the stack since the first call for this object */
   std::size_t Read(void* data, std::size_t size);
 
   /** \exception std::logic_error always: this stream is for reading */
@@ -83,10 +83,14 @@ class ObjectStream
   [[nodiscard]] bool atEnd();
   [[nodiscard]] std::uint64_t position() const { return origin_ + position_; }
   [[nodiscard]] bool ranOut() const { return ran_out_; }
+
+  /** Objects in the object at hand are nested so deeply that Read() has refused to go on. */
+  [[nodiscard]] bool isTooDeep() const { return too_deep_; }
   [[nodiscard]] const InflatingFile& file() const { return file_; }
 
  private:
   [[nodiscard]] std::size_t available() const { return bytes_.size() - position_; }
+  void requireRoomOnStack();
   bool require(std::size_t size);
   bool fill(std::size_t end);
   bool seekHeaderFlag();
@@ -98,6 +102,8 @@ class ObjectStream
   std::size_t object_ = 0;    // start of the object at hand, in bytes_
   std::size_t position_ = 0;  // in bytes_
   std::uint64_t origin_ = 0;  // of bytes_ in the file
+  std::uintptr_t stack_ = 0;  // where the object's first read was called; 0: there was none
+  bool too_deep_ = false;     // a read since beginObject() was refused for its depth
   bool ran_out_ = false;      // a read since beginObject() met the end
   bool skipped_zeros_only_ = false;
 };

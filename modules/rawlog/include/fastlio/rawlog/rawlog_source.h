@@ -31,9 +31,6 @@ struct RawlogSourceOptions
   /** Observations that arrive late by up to this are put in order of their stamps [s]; later ones
    * are delivered as they come. */
   double sorting_window = 0.2;
-
-  /** Go on behind an object that cannot be decoded, at the next one that can be found. */
-  bool recover = true;
 };
 
 /** Reads one or more recordings in the order given: rawlogs, plain or compressed, streams of
@@ -41,7 +38,8 @@ struct RawlogSourceOptions
  * formats of recordingFormats(). The content of a file determines its format.
  *
  * next() does not throw for anything that the files contain: what cannot be read ends up in
- * problems() and everything else is delivered. Not thread-safe; see DecodeAheadSource for reading
+ * problems() and everything else is delivered; behind an object that cannot be decoded reading goes
+ * on at the next one that can be found. Not thread-safe; see DecodeAheadSource for reading
  * on a thread. */
 class RawlogSource
 {

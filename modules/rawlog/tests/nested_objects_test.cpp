@@ -1,0 +1,100 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Objects in objects in objects, as no program writes them: MRPT would follow them by recursion.
+
+#include "rawlog_reading.h"
+#include <fastlio/compat/register_classes.h>
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+
+namespace
+{
+using namespace fastlio::testing;
+using fastlio::ReadProblem;
+using fastlio::ReadProblemKind;
+
+class NestedObjects : public RawlogTest
+{
+ protected:
+  NestedObjects() { fastlio::registerBridgeClasses(); }
+};
+
+/** No lengths of it are checked before it is read. */
+Object comment()
+{
+  auto observation = mrpt::obs::CObservationComment::Create();
+  observation->timestamp = imuAt(0)->timestamp;
+  return observation;
+}
+
+/** The beginning of an object that holds so many others, out of the bytes of an empty one. */
+std::string beginningOf(const Object& empty, char count)
+{
+  std::string bytes = serialize({empty});
+  bytes.resize(bytes.size() - 5);  // without its count and its end flag
+  return bytes + count + std::string(3, '\0');
+}
+
+/** Each holds \a first and the next one; the last one is empty. */
+std::string nested(const Object& empty, const std::string& first, std::size_t depth)
+{
+  const std::string beginning = beginningOf(empty, first.empty() ? '\1' : '\2') + first;
+  std::string bytes;
+  for (std::size_t i = 0; i < depth; ++i)
+    bytes += beginning;
+  return bytes + serialize({empty}) + std::string(depth, '\x88');
+}
+
+TEST_F(NestedObjects, FramesInFramesAreRefused)
+{
+  for (const std::string& first : {std::string(), serialize({comment()})})
+  {
+    const std::string frames = nested(mrpt::obs::CSensoryFrame::Create(), first, 30'000);
+    const Reading reading = readAll({fileOf(serialize(samples(3)) + frames)});
+    EXPECT_GE(reading.seconds.size(), 3U);
+    ASSERT_FALSE(reading.problems.empty());
+    EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt) << reading.problems[0].message;
+  }
+}
+
+TEST_F(NestedObjects, AFrameInAFrameTakesNoMemoryThatItClaims)
+{
+  const std::string inner =
+      beginningOf(mrpt::obs::CSensoryFrame::Create(), '\1').substr(0, 1 + 24 + 1) +
+      std::string("\x00\xE1\xF5\x05", 4);  // 100 million observations: 1.6 GB
+  const std::string frame =
+      beginningOf(mrpt::obs::CSensoryFrame::Create(), '\2') + serialize({comment()}) + inner;
+  const Reading reading = readAll({fileOf(serialize(samples(3)) + frame)});
+  ASSERT_FALSE(reading.problems.empty());
+  const std::string& message = reading.problems[0].message;
+  EXPECT_NE(message.find("a frame holds an object of class"), std::string::npos) << message;
+}
+
+TEST_F(NestedObjects, WhatMrptReadsByItselfEndsAtSomeDepth)
+{
+  const std::string actions = nested(mrpt::obs::CActionCollection::Create(), "", 5000);
+  const Reading reading =
+      readAll({fileOf(serialize(samples(3)) + actions + serialize(samples(2)))});
+  EXPECT_EQ(reading.seconds.size(), 5U);
+  EXPECT_TRUE(std::any_of(
+      reading.problems.begin(), reading.problems.end(),
+      [](const ReadProblem& problem)
+      { return problem.message.find("nested too deeply") != std::string::npos; }));
+}
+
+TEST_F(NestedObjects, FramesAreReadAsMrptReadsThem)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(imuAt(0));
+  frame->insert(std::dynamic_pointer_cast<mrpt::obs::CObservation>(comment()));
+  frame->insert(imuAt(0.01));
+  const Reading reading = readAll({fileOf(serialize({frame, imuAt(0.02)}))});
+  EXPECT_TRUE(reading.problems.empty());
+  EXPECT_EQ(reading.labels, (std::vector<std::string>{"imu", "", "imu", "imu"}));
+}
+}  // namespace
