@@ -49,8 +49,9 @@ std::vector<std::string> bagFilesOf(const std::string& path)
       {
         const auto stem = [](const std::string& file)
         {
-          const std::string name = fs::path(file).filename().string();
-          return name.substr(0, name.find('.'));
+          fs::path name = fs::path(file).filename();
+          if (name.extension() == ".zstd") name = name.stem();
+          return name.stem().string();  // a name may hold further dots: a date
         };
         const long number_a = numberAtEnd(stem(a)), number_b = numberAtEnd(stem(b));
         return number_a != number_b ? number_a < number_b : a < b;
@@ -93,7 +94,7 @@ std::optional<ReadProblem> BagFolder::openNext()
       readable = copy_->path();
     }
     if (isMcap(readable))
-      file_ = std::make_unique<McapFile>(readable);
+      file_ = std::make_unique<McapFile>(readable, file);
     else
       file_ = std::make_unique<Db3File>(readable, file);
     if (leave_out_) file_->leaveOutUnwanted();

@@ -19,18 +19,23 @@ namespace
 constexpr std::uint64_t kMostGrowth = 50;
 constexpr std::size_t kCopyPiece = std::size_t{1} << 18U;
 
+[[noreturn]] void failWriting(int error)
+{
+  throw std::runtime_error(
+      std::string("cannot be inflated to the folder for temporary files: ") + std::strerror(error) +
+      "; set TMPDIR to a folder with more room");
+}
+
 void copyInflated(FileBytes& file, std::FILE* to)
 {
   const std::uint64_t most = kMostGrowth * file.size() + kLargestRecord;
   StretchBytes bytes(file, file.size(), makeZstdInflater());
+  bytes.joinMembers();
   Bytes piece(kCopyPiece);
   for (std::uint64_t total = 0;;)
   {
     const std::size_t got = bytes.read(piece.data(), piece.size());
-    if (std::fwrite(piece.data(), 1, got, to) != got)
-      throw std::runtime_error(
-          std::string("cannot be inflated to the folder for temporary files: ") +
-          std::strerror(errno) + "; set TMPDIR to a folder with more room");
+    if (std::fwrite(piece.data(), 1, got, to) != got) failWriting(errno);
     total += got;
     if (total > most) throw std::runtime_error("claims to inflate to more than 50 times its size");
     if (got < piece.size()) return;  // what is missing or damaged shows when it is read
@@ -49,14 +54,17 @@ InflatedCopy::InflatedCopy(const std::string& path)
   try
   {
     copyInflated(file, to);
-    std::fclose(to);
   }
-  catch (const std::runtime_error&)
+  catch (const std::exception&)
   {
     std::fclose(to);
     unlink(path_.c_str());
     throw;
   }
+  if (std::fclose(to) == 0) return;  // it writes the last bytes
+  const int error = errno;
+  unlink(path_.c_str());
+  failWriting(error);
 }
 
 InflatedCopy::~InflatedCopy()

@@ -23,10 +23,11 @@ bool isStatic(const RosTopic& topic)
   return topic.name.find("static") != std::string::npos;
 }
 
-/** Each of its messages becomes an observation, which names its frame. */
+/** Each of its messages names the frame of a sensor. */
 bool isSensor(const RosTopic& topic)
 {
-  return topic.trouble.empty() && rosTypeOf(topic.type).read != nullptr;
+  const RosType& type = rosTypeOf(topic.type);
+  return topic.trouble.empty() && (type.read != nullptr || type.hasPackets());
 }
 
 bool tellsOfOthers(const RosTopic& topic)
@@ -78,7 +79,8 @@ void LookAhead::lookAt(const RosMessage& message)
     WireReader in(data.bytes().data(), data.bytes().size(), topic.format);
     const RosType& type = rosTypeOf(topic.type);
     if (isSensor(topic))
-      frames_[topic.name] = type.read(in, topic.name).frame;
+      noteFrame(
+          topic, type.hasPackets() ? readRosHeader(in).frame : type.read(in, topic.name).frame);
     else if (type.role == RosRole::Text)
       ouster_.takeMetadata(topic.name, in);
     else
@@ -90,6 +92,17 @@ void LookAhead::lookAt(const RosMessage& message)
     // A pose less; the run says which poses it uses.
     if (isSensor(topic)) frames_[topic.name];
   }
+}
+
+void LookAhead::noteFrame(const RosTopic& topic, const std::string& frame)
+{
+  frames_[topic.name] = frame;
+  if (rosTypeOf(topic.type).isLidarOrImu()) carried_.push_back(frame);
+}
+
+std::string LookAhead::vehicleFrame() const
+{
+  return transforms_.vehicleFrameOf(carried_).value_or("");
 }
 
 bool LookAhead::knowsEverySensor(const RosMessageSource& messages) const

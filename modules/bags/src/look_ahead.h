@@ -10,6 +10,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace fastlio
 {
@@ -27,15 +28,20 @@ class LookAhead
 
   void lookThrough(RosMessageSource& messages);
 
+  /** The frame that poses refer to, which LiDARs and IMUs decide; empty: none is known. */
+  [[nodiscard]] std::string vehicleFrame() const;
+
  private:
   void lookAt(const RosMessage& message);
+  void noteFrame(const RosTopic& topic, const std::string& frame);
   [[nodiscard]] bool isWanted(const RosTopic& topic) const;
   [[nodiscard]] bool knowsEverySensor(const RosMessageSource& messages) const;
 
   TransformTree& transforms_;
   OusterTopics& ouster_;
   std::map<std::string, std::string> frames_;  // of sensors, by topic
-  bool news_ = false;                          // the latest message was worth looking at
+  std::vector<std::string> carried_;  // frames of LiDARs and IMUs, in the order of the recording
+  bool news_ = false;                 // the latest message was worth looking at
 };
 
 }  // namespace fastlio

@@ -32,7 +32,10 @@ bool isMcap(const std::string& path)
   return headOf(path, mcapMagic().size()) == mcapMagic();
 }
 
-McapFile::McapFile(const std::string& path) : path_(path), file_(path)
+McapFile::McapFile(const std::string& path) : McapFile(path, path) {}
+
+McapFile::McapFile(const std::string& path, std::string shown_name)
+    : shown_name_(std::move(shown_name)), file_(path)
 {
   if (!isMcap(path)) throw std::runtime_error("is no MCAP file of version 0");
   readSummary();
@@ -67,7 +70,7 @@ NextMessage McapFile::next(const TopicFilter& wanted)
         readRecord(chunk_.bytes ? static_cast<ByteSource&>(*chunk_.bytes) : file_, wanted);
     if (!chunk_.refused.empty())
       return problemAt(
-          path_, ReadProblemKind::NotSupported, record_,
+          shown_name_, ReadProblemKind::NotSupported, record_,
           "its compression '" + printable(std::exchange(chunk_.refused, "")) +
               "' is not known (none, lz4 and zstd are). Its messages are left out.");
     if (step == Step::Message) return message_;
@@ -94,17 +97,17 @@ std::optional<ReadProblem> McapFile::closeChunk(Step step)
   finished_ = truncated;
   if (truncated)
     return problemAt(
-        path_, ReadProblemKind::Truncated, record_,
+        shown_name_, ReadProblemKind::Truncated, record_,
         "the file ends inside it. The recording or a copy of it was cut off; everything before was "
         "read.");
   if (corrupt || broken)
     return problemAt(
-        path_, ReadProblemKind::Corrupt, record_,
+        shown_name_, ReadProblemKind::Corrupt, record_,
         std::string(corrupt ? "its compressed data are damaged. " : "a record of it is damaged. ") +
             "Its messages from there on are left out. Copy the file anew, or check the medium.");
   if (differs)
     return problemAt(
-        path_, ReadProblemKind::Corrupt, record_,
+        shown_name_, ReadProblemKind::Corrupt, record_,
         "its checksum is wrong: some of its messages are damaged. Copy the file anew.");
   return std::nullopt;
 }
@@ -115,7 +118,7 @@ ReadProblem McapFile::endOfFile(Step step)
   {
     finished_ = true;
     return problemAt(
-        path_, ReadProblemKind::Truncated, record_,
+        shown_name_, ReadProblemKind::Truncated, record_,
         "the file ends without the mark of its end. The recording or a copy of it was cut off; "
         "everything before was read.");
   }
@@ -124,7 +127,7 @@ ReadProblem McapFile::endOfFile(Step step)
   finished_ = !chunk;
   file_.seek(chunk.value_or(file_.size()));
   return problemAt(
-      path_, ReadProblemKind::Corrupt, record_,
+      shown_name_, ReadProblemKind::Corrupt, record_,
       "it is no record of MCAP; " +
           (finished_ ? std::string("nothing behind it can be read. ")
                      : "reading goes on with the chunk at byte " +

@@ -17,6 +17,8 @@ class McapFile : public RosMessageSource
  public:
   /** \exception std::runtime_error it cannot be opened */
   explicit McapFile(const std::string& path);
+  /** \param shown_name the name of the file in messages */
+  McapFile(const std::string& path, std::string shown_name);
 
   [[nodiscard]] NextMessage next(const TopicFilter& wanted) override;
   [[nodiscard]] std::uint64_t position() const override { return file_.position(); }
@@ -55,7 +57,7 @@ class McapFile : public RosMessageSource
     std::string refused;         // its compression, which is not known
   };
 
-  std::string path_;
+  std::string shown_name_;
   FileBytes file_;
   Chunk chunk_;
   std::uint64_t record_ = 0;  // where the record of the file at hand begins

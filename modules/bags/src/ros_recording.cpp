@@ -9,8 +9,9 @@
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
-#include <algorithm>
 #include <new>
+#include <string_view>
+#include <utility>
 
 namespace fastlio
 {
@@ -31,11 +32,12 @@ std::optional<PacketMessage> packetsOf(RosRole role)
 }  // namespace
 
 RosRecording::RosRecording(std::string path, OpenMessages open)
-    : path_(std::move(path)), open_(std::move(open))
+    : path_(std::move(path)), open_(std::move(open)), packets_(path_)
 {
   LookAhead ahead(transforms_, ouster_);
   messages_ = open_();
   ahead.lookThrough(*messages_);
+  vehicle_ = ahead.vehicleFrame();
   messages_ = open_();
 }
 
@@ -43,6 +45,7 @@ NextRecorded RosRecording::next()
 {
   for (;;)
   {
+    if (auto lost = problemOfPackets()) return std::move(*lost);
     if (!queue_.empty())
     {
       auto observation = std::move(queue_.front());
@@ -54,7 +57,9 @@ NextRecorded RosRecording::next()
     if (std::holds_alternative<EndOfRecording>(next))
     {
       ouster_.flush(queue_);
-      packets_.flush(queue_);
+      packets_.flush();
+      queuePackets();
+      if (auto lost = problemOfPackets()) return std::move(*lost);
       if (queue_.empty()) return EndOfRecording{};
       continue;
     }
@@ -89,11 +94,14 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
     if (type.role == RosRole::OusterPackets)
       ouster_.takePacket(topic.name, in, queue_);
     else if (const auto kind = packetsOf(type.role))
-      takePackets(topic, *kind, in);
+    {
+      packets_.take(topic.name, *kind, in);
+      queuePackets();
+    }
     else
     {
       RosObservation result = type.read(in, topic.name);
-      setPose(*result.observation, result.frame);
+      setPose(*result.observation, result.frame, type.isLidarOrImu());
       queue_.push_back(std::move(result.observation));
     }
     ++counts_[topic.name].taken;
@@ -109,12 +117,21 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
   }
 }
 
-void RosRecording::takePackets(const RosTopic& topic, PacketMessage kind, WireReader& in)
+void RosRecording::queuePackets()
 {
-  const std::size_t before = queue_.size();
-  const std::string frame = packets_.take(topic.name, kind, in, queue_);
-  for (std::size_t i = before; i < queue_.size(); ++i)
-    if (queue_[i]->sensorLabel == topic.name) setPose(*queue_[i], frame);  // the IMU has its own
+  for (RosObservation& complete : packets_.takeObservations())
+  {
+    setPose(*complete.observation, complete.frame, true);
+    queue_.push_back(std::move(complete.observation));
+  }
+}
+
+std::optional<ReadProblem> RosRecording::problemOfPackets()
+{
+  const auto problem = packets_.takeProblem();
+  if (!problem) return std::nullopt;
+  return ReadProblem{
+      path_, ReadProblemKind::NotSupported, "", path_ + ": " + printable(*problem, 1000)};
 }
 
 ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string& what) const
@@ -127,29 +144,32 @@ ReadProblem RosRecording::problemOf(const RosMessage& message, const std::string
           std::to_string(message.offset) + ": " + printable(what, 1000) + "."};
 }
 
-void RosRecording::setPose(mrpt::obs::CObservation& observation, const std::string& frame)
+// Where the beginning of the recording has not decided on the vehicle's frame, the first LiDAR or
+// IMU does.
+void RosRecording::setPose(
+    mrpt::obs::CObservation& observation, const std::string& frame, bool is_lidar_or_imu)
 {
   const auto known = frames_.find(observation.sensorLabel);
-  if (vehicle_.empty()) vehicle_ = transforms_.vehicleFrameOf(frame).value_or("");
+  const std::string vehicle =
+      vehicle_.empty() ? transforms_.vehicleFrameOf({frame}).value_or("") : vehicle_;
+  if (is_lidar_or_imu) vehicle_ = vehicle;
   std::optional<Pose> pose;
-  if (!vehicle_.empty()) pose = transforms_.poseOf(frame, vehicle_);
+  if (!vehicle.empty()) pose = transforms_.poseOf(frame, vehicle);
   if (pose) observation.setSensorPose(toMrptPose(*pose));
   if (known != frames_.end()) return;
   frames_[observation.sensorLabel] =
       "'" + printable(frame) + "'" +
-      (pose ? ", pose in '" + printable(vehicle_) + "' " + poseText(*pose, 6) + " by tf"
+      (pose ? ", pose in '" + printable(vehicle) + "' " + poseText(*pose, 6) + " by tf"
             : ", no pose is recorded");
 }
 
 std::vector<TopicReport> RosRecording::topics() const
 {
   std::vector<TopicReport> reports;
+  std::set<std::string_view> seen;
   for (const RosTopic* topic : messages_->topics())
   {
-    const bool there = std::any_of(
-        reports.begin(), reports.end(),
-        [&](const TopicReport& report) { return report.name == topic->name; });
-    if (there) continue;
+    if (!seen.insert(topic->name).second) continue;
     TopicReport report{topic->name, topic->type, 0, 0, rosTypeOf(topic->type).meaning};
     if (!topic->trouble.empty()) report.reason = "not read: " + topic->trouble;
     if (const auto counts = counts_.find(topic->name); counts != counts_.end())

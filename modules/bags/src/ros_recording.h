@@ -13,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,8 +44,10 @@ class RosRecording : public RecordingReader
 
   [[nodiscard]] std::optional<ReadProblem> convert(const RosMessage& message);
   [[nodiscard]] ReadProblem problemOf(const RosMessage& message, const std::string& what) const;
-  void takePackets(const RosTopic& topic, PacketMessage kind, WireReader& in);
-  void setPose(mrpt::obs::CObservation& observation, const std::string& frame);
+  [[nodiscard]] std::optional<ReadProblem> problemOfPackets();
+  void queuePackets();
+  void setPose(
+      mrpt::obs::CObservation& observation, const std::string& frame, bool is_lidar_or_imu);
 
   std::string path_;
   OpenMessages open_;

@@ -8,6 +8,13 @@ namespace
 using namespace fastlio;
 using namespace fastlio::testing;
 
+TopicMessage fixedIn(const char* parent, const char* child, const Pose& T_parent_child)
+{
+  return {
+      "/tf_static", "tf2_msgs/TFMessage", kStart,
+      transformMessage(Wire::Ros1, parent, child, T_parent_child)};
+}
+
 class BagFileTest : public RecordingTest
 {
 };
@@ -69,6 +76,37 @@ TEST_F(BagFileTest, PosesOfSensorsComeFromTheTransforms)
   }
   ASSERT_EQ(bag.notes.size(), 2U);
   EXPECT_TRUE(contains(bag.notes[1], "base_link")) << bag.notes[1];
+}
+
+TEST_F(BagFileTest, LidarAndImuDecideOnTheFrameOfTheVehicle)
+{
+  Pose T_base_lidar;
+  T_base_lidar.p = Vec3(0.5, 0.0, 1.5);
+  WireWriter fix(Wire::Ros1);
+  fix.header(kStart, "gps").number(std::int8_t{0}).number(std::uint16_t{1});
+  fix.numbers({36.5, -4.25, 100.0}).numbers(std::vector<double>(9, 0.0)).number(std::uint8_t{0});
+  const TopicMessage gps{"/fix", "sensor_msgs/NavSatFix", kStart, fix.bytes()};
+  const TopicMessage camera{
+      "/camera", "sensor_msgs/Imu", kStart,
+      imuMessage(Wire::Ros1, kStart, Vec3(0, 0, 0), Vec3(0, 0, 9.8), "camera_imu")};
+  // A frame with a usual name goes before the tree of the first IMU; without one a GNSS has no say.
+  for (const auto& [first, vehicle] : {std::pair{camera, "base_link"}, {gps, "rig"}})
+  {
+    auto messages = smallRecording(Wire::Ros1, 2);
+    messages.insert(
+        messages.begin(),
+        {first, fixedIn("camera_link", "camera_imu", Pose{}), fixedIn("mast", "gps", Pose{}),
+         fixedIn(vehicle, "lidar", T_base_lidar), fixedIn(vehicle, "imu", Pose{})});
+    const Recorded bag = readRecording(fileOf(bagOf(messages)));
+    ASSERT_EQ(bag.count("/lidar"), 2U);
+    for (const auto& observation : bag.observations)
+    {
+      mrpt::poses::CPose3D pose;
+      observation->getSensorPose(pose);
+      const double z = observation->sensorLabel == "/lidar" ? 1.5 : 0.0;
+      EXPECT_NEAR(pose.z(), z, 1e-12) << observation->sensorLabel << " in " << vehicle;
+    }
+  }
 }
 
 TEST_F(BagFileTest, ACutBagGivesAllThatIsBeforeTheCut)

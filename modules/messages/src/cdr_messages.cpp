@@ -7,6 +7,7 @@
 #include <fastlio/packets/velodyne_scans.h>
 #include <fastlio/recordings/point_grid.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/velodyne_decoder.h>
 
 #include <mrpt/poses/CPose3DQuat.h>
 
@@ -139,7 +140,6 @@ std::string cloudMessageOf(
 std::string velodyneMessageOf(
     const mrpt::obs::CObservationVelodyneScan& scan, std::string_view frame)
 {
-  constexpr std::size_t kTimeAt = 1200;
   const std::int64_t stamp_ns = toNanoseconds(scan.timestamp);
   CdrWriter out;
   out.header(stamp_ns, frame);
@@ -147,10 +147,9 @@ std::string velodyneMessageOf(
   std::uint32_t first_us = 0;
   for (std::size_t i = 0; i < scan.scan_packets.size(); ++i)
   {
-    const std::string_view bytes(
-        reinterpret_cast<const char*>(&scan.scan_packets[i]), kVelodynePacketBytes);
-    std::uint32_t time_us = 0;
-    std::memcpy(&time_us, bytes.data() + kTimeAt, sizeof time_us);
+    const auto* packet = reinterpret_cast<const std::uint8_t*>(&scan.scan_packets[i]);
+    const std::string_view bytes(reinterpret_cast<const char*>(packet), kVelodynePacketBytes);
+    const std::uint32_t time_us = velodyneTimeOf(packet);
     if (i == 0) first_us = time_us;
     // The packets count within the hour; one that lies before the first one is in the next.
     const std::int64_t later_us = std::int64_t{time_us} - first_us;

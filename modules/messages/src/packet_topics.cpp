@@ -5,6 +5,8 @@
 #include <fastlio/messages/ros_messages.h>
 
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace fastlio
 {
@@ -35,62 +37,79 @@ PacketView variedPacket(WireReader& in)
 }
 }  // namespace
 
-std::string PacketTopics::take(
-    const std::string& topic, PacketMessage kind, WireReader& in, ObservationQueue& out)
+void PacketTopics::take(const std::string& topic, PacketMessage kind, WireReader& in)
 {
   const RosHeader header = readRosHeader(in);
+  frames_[topic] = header.frame;
   if (kind == PacketMessage::Single)
   {
     (void)in.take(2);
     const PacketView packet = variedPacket(in);
     takePacket(topic, packet.data, packet.size);
+    return;
   }
-  else
+  const bool fixed = kind == PacketMessage::Fixed;
+  const std::size_t packets = in.count(kStampBytes + (fixed ? kFixedBytes + 4 : 4));
+  for (std::size_t i = 0; i < packets; ++i)
   {
-    const bool fixed = kind == PacketMessage::Fixed;
-    const std::size_t packets = in.count(kStampBytes + (fixed ? kFixedBytes + 4 : 4));
-    for (std::size_t i = 0; i < packets; ++i)
+    if (!fixed)
     {
-      if (!fixed)
-      {
-        (void)in.number<std::uint32_t>();
-        (void)in.number<std::uint32_t>();
-      }
-      const PacketView packet = fixed ? fixedPacket(in) : variedPacket(in);
-      takePacket(topic, packet.data, packet.size);
+      (void)in.number<std::uint32_t>();
+      (void)in.number<std::uint32_t>();
     }
+    const PacketView packet = fixed ? fixedPacket(in) : variedPacket(in);
+    takePacket(topic, packet.data, packet.size);
   }
-  rename(queue_, out);
-  const auto problems = streams_.takeProblems();
-  if (!problems.empty()) throw std::runtime_error(problems.front());
-  return header.frame;
 }
 
 void PacketTopics::takePacket(const std::string& topic, const std::uint8_t* data, std::size_t size)
 {
+  // Most recordings have no such topics: the files beside them are not looked at.
+  if (!streams_) streams_ = PacketStreams::ofCapture(recording_, PacketLabels::Source);
   UdpPacket packet;
   packet.source = topic;
   packet.data = data;
   packet.size = size;
-  streams_.take(packet, queue_);
+  streams_->take(packet, queue_);
 }
 
-void PacketTopics::flush(ObservationQueue& out)
+void PacketTopics::flush()
 {
-  streams_.flush(queue_);
-  rename(queue_, out);
+  if (streams_) streams_->flush(queue_);
 }
 
-// "hesai_/pandar_packets" -> "/pandar_packets": who made the sensor needs no mention there.
-void PacketTopics::rename(ObservationQueue& from, ObservationQueue& to)
+std::string PacketTopics::frameOf(const std::string& label) const
 {
-  for (auto& observation : from)
+  constexpr std::string_view kImu = "_imu";
+  const auto topic = frames_.find(label);
+  if (topic != frames_.end()) return topic->second;
+  const bool sample = label.size() > kImu.size() &&
+                      label.compare(label.size() - kImu.size(), kImu.size(), kImu) == 0;
+  const auto lidar =
+      sample ? frames_.find(label.substr(0, label.size() - kImu.size())) : frames_.end();
+  return lidar == frames_.end() ? "" : lidar->second;
+}
+
+std::vector<RosObservation> PacketTopics::takeObservations()
+{
+  std::vector<RosObservation> complete;
+  for (auto& observation : std::exchange(queue_, {}))
   {
-    std::string& label = observation->sensorLabel;
-    if (const auto slash = label.find('/'); slash != std::string::npos) label.erase(0, slash);
-    to.push_back(std::move(observation));
+    const std::string frame = frameOf(observation->sensorLabel);
+    complete.push_back({std::move(observation), frame});
   }
-  from.clear();
+  return complete;
+}
+
+std::optional<std::string> PacketTopics::takeProblem()
+{
+  if (streams_)
+    for (std::string& problem : streams_->takeProblems())
+      problems_.push_back(std::move(problem));
+  if (problems_.empty()) return std::nullopt;
+  std::string first = std::move(problems_.front());
+  problems_.erase(problems_.begin());
+  return first;
 }
 
 }  // namespace fastlio

@@ -12,8 +12,11 @@
 #include <mrpt/obs/gnss_messages_novatel.h>
 #include <mrpt/poses/CPose2D.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 namespace fastlio
 {
@@ -37,10 +40,15 @@ std::optional<mrpt::math::CQuaternionDouble> quaternionOf(const std::array<doubl
   return mrpt::math::CQuaternionDouble(q[3] / norm, q[0] / norm, q[1] / norm, q[2] / norm);
 }
 
-Pose readPose(WireReader& in)
+/** Nothing: a number of it is not finite. */
+std::optional<Pose> readPose(WireReader& in)
 {
   const auto p = readDoubles<3>(in);
-  const auto quaternion = quaternionOf(readDoubles<4>(in));
+  const auto q = readDoubles<4>(in);
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!std::all_of(p.begin(), p.end(), finite) || !std::all_of(q.begin(), q.end(), finite))
+    return std::nullopt;
+  const auto quaternion = quaternionOf(q);
   const mrpt::poses::CPose3D pose(
       quaternion.value_or(mrpt::math::CQuaternionDouble()), p[0], p[1], p[2]);
   return toPose(pose);
@@ -107,7 +115,9 @@ RosObservation readNavSatFix(WireReader& in, const std::string& label)
   gps->sensorLabel = label;
   gps->timestamp = toMrptTime(header.stamp_ns);
   gps->originalReceivedTimestamp = gps->timestamp;
-  const auto in_a_day = toSeconds(header.stamp_ns % (86'400 * kSecondNs));
+  constexpr std::int64_t kDayNs = 86'400 * kSecondNs;
+  // A time before 1970 has a time of day, too.
+  const auto in_a_day = toSeconds((header.stamp_ns % kDayNs + kDayNs) % kDayNs);
   gnss::Message_NMEA_GGA gga;
   gga.fields.UTCTime.hour = static_cast<std::uint8_t>(in_a_day / 3600);
   gga.fields.UTCTime.minute = static_cast<std::uint8_t>(std::fmod(in_a_day, 3600) / 60);
@@ -125,7 +135,9 @@ RosObservation readOdometry(WireReader& in, const std::string& label)
 {
   const RosHeader header = readRosHeader(in);
   const std::string child(in.text());
-  const mrpt::poses::CPose3D pose = toMrptPose(readPose(in));
+  const auto T_header_child = readPose(in);
+  if (!T_header_child) throw std::runtime_error("its pose holds numbers that are not finite");
+  const mrpt::poses::CPose3D pose = toMrptPose(*T_header_child);
   (void)readDoubles<36>(in);
   const auto velocity = readDoubles<3>(in);
   const auto rate = readDoubles<3>(in);
@@ -149,7 +161,9 @@ std::vector<RosTransform> readTransforms(WireReader& in)
     transform.parent = readRosHeader(in).frame;
     transform.child = in.text();
     if (!transform.child.empty() && transform.child.front() == '/') transform.child.erase(0, 1);
-    transform.T_parent_child = readPose(in);
+    const auto T_parent_child = readPose(in);
+    if (!T_parent_child) continue;  // as if it were not there: others of the message are
+    transform.T_parent_child = *T_parent_child;
     transforms.push_back(std::move(transform));
   }
   return transforms;

@@ -63,10 +63,19 @@ TransformTree::Top TransformTree::climb(const std::string& frame, const std::str
   return top;
 }
 
-std::optional<std::string> TransformTree::vehicleFrameOf(const std::string& frame) const
+std::optional<std::string> TransformTree::vehicleFrameOf(
+    const std::vector<std::string>& frames) const
 {
   for (const char* vehicle : kVehicleFrames)
-    if (climb(frame, vehicle).frame == vehicle) return vehicle;
+    for (const std::string& frame : frames)
+      if (climb(frame, vehicle).frame == vehicle) return vehicle;
+  for (const std::string& frame : frames)
+    if (auto top = topOf(frame)) return top;
+  return std::nullopt;
+}
+
+std::optional<std::string> TransformTree::topOf(const std::string& frame) const
+{
   const Top top = climb(frame, "");
   if (top.frame == frame)
   {

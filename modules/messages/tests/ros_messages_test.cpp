@@ -140,6 +140,47 @@ TEST_P(MessageIn, FixesAndOdometryKeepTheirNumbers)
   EXPECT_EQ(planar.velocityLocal.omega, 0.25);
 }
 
+TEST_P(MessageIn, AFixBeforeTheEpochHasATimeOfDay)
+{
+  if (GetParam() == Wire::Ros1) return;  // its seconds have no sign
+  WireWriter fix(GetParam());
+  fix.header(kStart, "gps").number(std::int8_t{0}).number(std::uint16_t{1});
+  fix.numbers({36.5, -4.25, 100.0}).numbers(std::vector<double>(9, 0.0)).number(std::uint8_t{0});
+  std::string bytes = fix.bytes();
+  const std::int32_t before = -3600;  // 23:00 of the day before
+  for (std::size_t i = 0; i < sizeof before; ++i)
+  {
+    const std::size_t at = GetParam() == Wire::CdrBigEndian ? sizeof before - 1 - i : i;
+    bytes[4 + at] = static_cast<char>(static_cast<std::uint32_t>(before) >> (8 * i));
+  }
+  const auto gps = read(readNavSatFix, bytes);
+  const auto& gga = dynamic_cast<const mrpt::obs::CObservationGPS&>(*gps.observation)
+                        .getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>();
+  EXPECT_EQ(gga.fields.UTCTime.hour, 23);
+}
+
+TEST_P(MessageIn, PosesOfNumbersThatAreNotFiniteAreNotTaken)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto transform = [](WireWriter& out, const char* child, const std::vector<double>& numbers)
+  { out.header(0, "base_link").text(child).numbers(numbers); };
+  WireWriter tf(GetParam());
+  tf.number(std::uint32_t{3});
+  transform(tf, "place", {nan, 0, 0, 0, 0, 0, 1});
+  transform(tf, "turn", {0, 0, 0, 0, 0, nan, 1});
+  transform(tf, "imu", {1, 2, 3, 0, 0, 0, 1});
+  const std::string bytes = tf.bytes();
+  WireReader in = readerOf(bytes, GetParam());
+  const auto transforms = readTransforms(in);
+  ASSERT_EQ(transforms.size(), 1U);
+  EXPECT_EQ(transforms[0].child, "imu");
+
+  WireWriter wheels(GetParam());
+  wheels.header(kStart, "odom").text("base_link").numbers({1, nan, 0, 0, 0, 0, 1});
+  wheels.numbers(std::vector<double>(36, 0.0)).numbers({0.5, 0, 0, 0, 0, 0.25});
+  EXPECT_THROW((void)read(readOdometry, wheels.bytes()), std::runtime_error);
+}
+
 TEST_P(MessageIn, EveryCutMessageIsRefused)
 {
   const std::string whole = cloudMessage(GetParam(), smallScan());

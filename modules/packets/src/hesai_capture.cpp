@@ -70,8 +70,8 @@ class HesaiSensor : public PacketSensor
     told_ = true;
     return "the angles of '" + label_ +
            "' are missing, which each sensor of this type has for itself: put the maker's table "
-           "(Channel,Elevation,Azimuth) beside the capture, with its name and .csv instead of "
-           ".pcap.";
+           "(Channel,Elevation,Azimuth) beside the recording, under its name with the ending "
+           ".csv.";
   }
 
  private:

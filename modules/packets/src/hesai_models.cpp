@@ -277,11 +277,14 @@ std::optional<HesaiBeams> hesaiAnglesBeside(const std::string& capture)
 {
   namespace fs = std::filesystem;
   constexpr std::size_t kLargestTable = 1U << 16U;
-  const fs::path path = fs::path(capture).replace_extension(".csv");
+  fs::path path(capture);
+  if (!path.has_filename()) path = path.parent_path();  // of a folder, as the shell completes it
   std::error_code error;
-  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kLargestTable)
-    return std::nullopt;
-  return hesaiAnglesOf(headOf(path.string(), kLargestTable));
+  for (const fs::path& table :
+       {fs::path(path).replace_extension(".csv"), fs::path(path.string() + ".csv")})
+    if (fs::is_regular_file(table, error) && fs::file_size(table, error) <= kLargestTable)
+      return hesaiAnglesOf(headOf(table.string(), kLargestTable));
+  return std::nullopt;
 }
 
 }  // namespace fastlio

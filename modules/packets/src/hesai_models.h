@@ -59,7 +59,8 @@ struct HesaiBeams
  * Nothing: the text is no such table. */
 [[nodiscard]] std::optional<HesaiBeams> hesaiAnglesOf(const std::string& text);
 
-/** The table beside a capture: NAME.csv for NAME.pcap. Nothing: there is none. */
+/** The table beside a recording: NAME.csv for NAME.pcap, or for the folder NAME. Nothing: there is
+ * none. */
 [[nodiscard]] std::optional<HesaiBeams> hesaiAnglesBeside(const std::string& capture);
 
 }  // namespace fastlio

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 
 namespace fastlio
 {
@@ -75,12 +74,8 @@ struct LivoxPacket
 /** Year since 2000, month, day, hour, microseconds in the hour. */
 std::int64_t fromUtc(const std::uint8_t* bytes)
 {
-  std::tm date{};
-  date.tm_year = 100 + bytes[0];
-  date.tm_mon = bytes[1] - 1;
-  date.tm_mday = bytes[2];
-  date.tm_hour = bytes[3];
-  return std::int64_t{timegm(&date)} * kSecondNs +
+  const std::array<std::uint8_t, 5> hour{bytes[1], bytes[2], bytes[3], 0, 0};
+  return secondsOfDate(2000 + bytes[0], hour.data()) * kSecondNs +
          std::int64_t{littleAt<std::uint32_t>(bytes + 4)} * 1000;
 }
 

@@ -118,11 +118,10 @@ void readImuFormat(const Json& all, OusterMetadata& metadata)
   const std::string profile =
       format.value("udp_profile_imu", config.value("udp_profile_imu", "LEGACY"));
   if (profile == "LEGACY") return;
-  if (profile != "ACCEL32_GYRO32_NMEA")
-    throw std::runtime_error(
-        "the profile '" + printable(profile) + "' of its inertial packets is not known");
-  metadata.imu_samples =
-      all.at("imu_data_format").at("imu_measurements_per_packet").get<std::size_t>();
+  if (profile == "ACCEL32_GYRO32_NMEA" && all.contains("imu_data_format"))
+    metadata.imu_samples =
+        all.at("imu_data_format").value("imu_measurements_per_packet", std::size_t{0});
+  if (metadata.imu_samples == 0) metadata.unread_imu = profile;
 }
 
 void requireSane(const OusterMetadata& metadata)
@@ -164,8 +163,8 @@ std::optional<OusterMetadata> onlyMetadataIn(const fs::path& folder)
       OusterMetadata found = parseOusterMetadata(*text);
       if (metadata)
         throw std::invalid_argument(
-            "several files beside the capture are metadata of an Ouster; give the right one the "
-            "name of the capture, with .json");
+            "several files beside the recording are metadata of an Ouster; give the right one the "
+            "name of the recording, with the ending .json");
       metadata = std::move(found);
     }
     catch (const std::runtime_error&)
@@ -189,6 +188,7 @@ std::size_t OusterMetadata::packetBytes() const
 std::size_t OusterMetadata::imuBytes() const
 {
   constexpr std::size_t kLegacy = 48, kFoot = 32;
+  if (!unread_imu.empty()) return 0;
   if (imu_samples == 0) return kLegacy;
   return kOusterImuHead + imu_samples * kOusterSampleBytes + kFoot;
 }

@@ -40,12 +40,12 @@ OusterSensor::OusterSensor(OusterMetadata metadata, std::string label)
 
 bool OusterSensor::isMine(const UdpPacket& packet) const
 {
-  return packet.size == metadata_.packetBytes() || packet.size == metadata_.imuBytes();
+  return packet.size == metadata_.packetBytes() || metadata_.isImuSize(packet.size);
 }
 
 void OusterSensor::take(const UdpPacket& packet, ObservationQueue& out)
 {
-  if (packet.size == metadata_.imuBytes())
+  if (metadata_.isImuSize(packet.size))
     takeImu(packet, out);
   else if (packet.size == metadata_.packetBytes())
     for (std::size_t i = 0; i < metadata_.columns_per_packet; ++i)
@@ -106,7 +106,8 @@ void OusterSensor::takeColumn(const Column& column, ObservationQueue& out)
   constexpr std::int64_t kLongestScanNs = 2'000'000'000;
   if (!column.valid) return;
   const std::int64_t age_ns = column.stamp_ns - stamp_ns_;
-  if (begun_ && (column.id < last_id_ || age_ns < 0 || age_ns > kLongestScanNs)) flush(out);
+  const bool anew = column.id < last_id_ || age_ns < 0 || age_ns > kLongestScanNs;
+  if (begun_ && (anew || columns_.size() > kMostPointsPerScan)) flush(out);
   if (!begun_) stamp_ns_ = column.stamp_ns;
   begun_ = true;
   last_id_ = column.id;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "packet_kinds.h"
+#include <fastlio/options/printable.h>
 #include <fastlio/packets/ouster_sensor.h>
 #include <fastlio/packets/packet_streams.h>
 
@@ -47,7 +48,7 @@ std::string hesaiContent(const UdpPacket& /*packet*/)
 struct PacketMaker
 {
   const char* name;
-  const char* label;  //!< the address of the sender follows
+  const char* kind;  //!< the address of the sender follows
   bool (*recognises)(const UdpPacket&);
   std::string (*content)(const UdpPacket&);  //!< for people
   std::unique_ptr<PacketSensor> (*make)(const std::string& label, const Sidecars&);
@@ -69,13 +70,14 @@ PacketStreams::PacketStreams(const std::string& metadata) : files_(std::make_uni
     files_->ouster = std::make_unique<OusterMetadata>(parseOusterMetadata(metadata));
 }
 
-PacketStreams PacketStreams::ofCapture(const std::string& path)
+PacketStreams PacketStreams::ofCapture(const std::string& path, PacketLabels labels)
 {
   PacketStreams streams;
+  streams.labels_ = labels;
   Sidecars& files = *streams.files_;
   files.hesai_angles = hesaiAnglesBeside(path);
   files.ouster_trouble =
-      "put the sensor's metadata beside the capture, with its name and .json instead of .pcap";
+      "put the sensor's metadata beside the recording, under its name with the ending .json";
   try
   {
     if (auto metadata = ousterMetadataBeside(path))
@@ -102,10 +104,14 @@ void PacketStreams::take(const UdpPacket& packet, ObservationQueue& out)
   if (stream.sensor == nullptr && stream.packets <= kLooks && packet.size > 0 && room)
     recognise(packet, stream);
   if (stream.sensor == nullptr) return;
-  if (stream.type == "Velodyne" && !isVelodynePacket(packet)) return;
   stream.sensor->take(packet, out);
   note(*stream.sensor);
   ++stream.taken;
+}
+
+const std::string& PacketStreams::labelOf(const std::string& name, const UdpPacket& packet) const
+{
+  return labels_ == PacketLabels::Source ? packet.source : name;
 }
 
 void PacketStreams::note(PacketSensor& sensor)
@@ -133,9 +139,9 @@ void PacketStreams::recognise(const UdpPacket& packet, Stream& stream)
     recogniseOuster(packet, stream);
     return;
   }
-  const std::string label = maker->label + packet.source;
-  auto& sensor = sensors_[label];
-  if (!sensor) sensor = maker->make(label, *files_);
+  const std::string name = maker->kind + packet.source;
+  auto& sensor = sensors_[name];
+  if (!sensor) sensor = maker->make(labelOf(name, packet), *files_);
   stream.type = maker->name;
   stream.reason = maker->content(packet);
   stream.sensor = sensor.get();
@@ -144,13 +150,13 @@ void PacketStreams::recognise(const UdpPacket& packet, Stream& stream)
 void PacketStreams::recogniseOuster(const UdpPacket& packet, Stream& stream)
 {
   const auto& ouster = files_->ouster;
-  const bool imu = ouster && packet.size == ouster->imuBytes();
+  const bool imu = ouster && ouster->isImuSize(packet.size);
   if (ouster && (packet.size == ouster->packetBytes() ||
                  (imu && (ouster->imu_port == 0 || ouster->imu_port == packet.port))))
   {
-    const std::string label = "ouster_" + packet.source;
-    auto& sensor = sensors_[label];
-    if (!sensor) sensor = std::make_unique<OusterSensor>(*ouster, label);
+    const std::string name = "ouster_" + packet.source;
+    auto& sensor = sensors_[name];
+    if (!sensor) sensor = std::make_unique<OusterSensor>(*ouster, labelOf(name, packet));
     stream.type = "Ouster";
     stream.reason = imu ? "IMU, converted to rad/s and m/s^2" : "LiDAR";
     stream.sensor = sensor.get();
@@ -158,6 +164,9 @@ void PacketStreams::recogniseOuster(const UdpPacket& packet, Stream& stream)
   }
   const bool first = stream.reason.empty();
   stream.reason = "not read: no LiDAR that this program knows";
+  if (ouster && !ouster->unread_imu.empty() && ouster->imu_port == packet.port)
+    stream.reason = "not read: inertial packets of an Ouster, of the profile '" +
+                    printable(ouster->unread_imu) + "', which is not known";
   if (!maybeOuster(packet.size)) return;
   const std::string why =
       ouster ? "the metadata ask for packets of " + std::to_string(ouster->packetBytes()) + " bytes"

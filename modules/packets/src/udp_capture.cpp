@@ -3,6 +3,7 @@
 
 #include "udp_capture.h"
 
+#include "packet_numbers.h"
 #include <fastlio/math/time.h>
 #include <fastlio/recordings/byte_source.h>
 
@@ -26,11 +27,6 @@ constexpr std::uint16_t kIp4Type = 0x0800, kIp6Type = 0x86DD, kVlanType = 0x8100
 constexpr std::size_t kMostFragmented = 64;  // packets that are put together at a time
 constexpr std::size_t kLargestPacket = 65535;
 constexpr std::int64_t kLatestSecond = kLatestStamp / kSecondNs;
-
-std::uint16_t bigEndian16(const std::uint8_t* bytes)
-{
-  return static_cast<std::uint16_t>((bytes[0] << 8U) | bytes[1]);
-}
 }  // namespace
 
 bool isCapture(const std::string& path)
@@ -73,7 +69,7 @@ std::optional<UdpPacket> UdpCapture::next()
     if (!ip || ip->size == 0) continue;
     auto packet = ip->data[0] >> 4U == 4 ? udpOverIp4(*ip) : udpOverIp6(*ip);
     if (!packet) continue;
-    // The file counts nanoseconds where it says microseconds: libpcap was asked for them.
+    // tv_usec holds nanoseconds, whatever the file has: libpcap was asked for them.
     const std::int64_t seconds = std::clamp<std::int64_t>(head->ts.tv_sec, 0, kLatestSecond);
     packet->stamp_ns =
         seconds * kSecondNs + std::clamp<std::int64_t>(head->ts.tv_usec, 0, 999'999'999);
@@ -90,9 +86,9 @@ std::optional<UdpCapture::View> UdpCapture::ipOf(View frame) const
   {
     if (frame.size < kEthernet) return std::nullopt;
     at = kEthernet;
-    std::uint16_t type = bigEndian16(frame.data + at - 2);
+    std::uint16_t type = big16At(frame.data + at - 2);
     for (; (type == kVlanType || type == kQinqType) && frame.size >= at + kVlan; at += kVlan)
-      type = bigEndian16(frame.data + at + 2);
+      type = big16At(frame.data + at + 2);
     if (type != kIp4Type && type != kIp6Type) return std::nullopt;
   }
   else if (link_ == DLT_LINUX_SLL)
@@ -113,11 +109,11 @@ namespace
 std::optional<UdpPacket> udpAt(const std::uint8_t* at, std::size_t size, std::string source)
 {
   if (size < kUdpHead) return std::nullopt;
-  const std::size_t length = bigEndian16(at + 4);
+  const std::size_t length = big16At(at + 4);
   if (length < kUdpHead) return std::nullopt;
   UdpPacket packet;
   packet.source = std::move(source);
-  packet.port = bigEndian16(at + 2);
+  packet.port = big16At(at + 2);
   packet.data = at + kUdpHead;
   packet.size = std::min(length, size) - kUdpHead;
   return packet;
@@ -129,7 +125,7 @@ std::optional<UdpPacket> UdpCapture::udpOverIp4(View ip)
   constexpr std::size_t kShortest = 20;
   if (ip.size < kShortest) return std::nullopt;
   const std::size_t head = std::size_t{ip.data[0] & 0x0FU} * 4;
-  const std::size_t length = bigEndian16(ip.data + 2);
+  const std::size_t length = big16At(ip.data + 2);
   if (head < kShortest || length < head || ip.size < length || ip.data[9] != kUdpProtocol)
     return std::nullopt;
   const auto whole = join(ip, {ip.data + head, length - head});
@@ -146,14 +142,14 @@ std::optional<UdpPacket> UdpCapture::udpOverIp6(View ip)
   if (ip.size < kHead || ip.data[kNextHeader] != kUdpProtocol) return std::nullopt;
   std::string source;
   for (std::size_t i = 0; i < 16; i += 2)
-    source += mrpt::format(i == 0 ? "%x" : ":%x", unsigned{bigEndian16(ip.data + kSource + i)});
+    source += mrpt::format(i == 0 ? "%x" : ":%x", unsigned{big16At(ip.data + kSource + i)});
   return udpAt(ip.data + kHead, ip.size - kHead, std::move(source));
 }
 
 // A packet of its own at once; one in parts with the last part to come.
 std::optional<UdpCapture::View> UdpCapture::join(View ip, View payload)
 {
-  const std::uint16_t word = bigEndian16(ip.data + 6);
+  const std::uint16_t word = big16At(ip.data + 6);
   const bool more = (word & 0x2000U) != 0;
   const std::size_t offset = std::size_t{word & 0x1FFFU} * 8;
   if (!more && offset == 0) return payload;

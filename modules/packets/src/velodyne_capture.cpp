@@ -23,6 +23,7 @@ class VelodyneSensor : public PacketSensor
 
   void take(const UdpPacket& packet, ObservationQueue& out) override
   {
+    if (!isVelodynePacket(packet)) return;  // its position packets
     const int azimuth = packet.data[kAzimuthAt] | (packet.data[kAzimuthAt + 1] << 8U);
     if (!packets_.empty() && (azimuth < azimuth_ || packets_.size() == kMostPacketsPerScan))
       flush(out);

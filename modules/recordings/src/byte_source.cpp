@@ -95,6 +95,15 @@ void StretchBytes::load()
   truncated_ |= end_ < wanted;
 }
 
+bool StretchBytes::beginsAnotherMember()
+{
+  if (!joins_members_) return false;
+  if (begin_ == end_) load();
+  if (begin_ == end_) return false;
+  inflater_->reset();
+  return true;
+}
+
 std::size_t StretchBytes::inflate(std::uint8_t* data, std::size_t size)
 {
   if (begin_ == end_) load();
@@ -105,7 +114,7 @@ std::size_t StretchBytes::inflate(std::uint8_t* data, std::size_t size)
   corrupt_ = step.status == InflateStatus::Corrupt;
   const bool stuck = step.consumed == 0 && step.produced == 0;
   if (stuck && !corrupt_ && !truncated_) corrupt_ = step.status == InflateStatus::Going;
-  ended_ = corrupt_ || stuck || step.status == InflateStatus::MemberEnd;
+  ended_ = corrupt_ || stuck || (step.status == InflateStatus::MemberEnd && !beginsAnotherMember());
   return step.produced;
 }
 

@@ -19,10 +19,6 @@ namespace
 constexpr std::array<std::size_t, 11> kFieldSizes{0, 1, 1, 2, 2, 4, 4, 4, 8, 8, 8};
 
 // First those that can mean nothing else.
-constexpr std::array<std::string_view, 15> kTimeNames{
-    "t",          "time",       "timestamp",   "time_stamp",    "timeStamp",
-    "timeOffset", "timeoffset", "time_offset", "offset_time",   "offsetTime",
-    "point_time", "time_ns",    "t_offset",    "relative_time", "stamp"};
 constexpr std::array<std::string_view, 6> kRingNames{"ring", "line",     "channel",
                                                      "row",  "laser_id", "scan_line"};
 constexpr std::array<std::string_view, 4> kIntensityNames{
@@ -133,7 +129,7 @@ CloudColumns columnsOf(
     columns.intensity = columnOf<float>(grid, *intensity);
   if (const PointField* ring = fieldOf(fields, kRingNames, grid.step))
     columns.ring = columnOf<std::uint16_t>(grid, *ring);
-  if (const PointField* time = fieldOf(fields, kTimeNames, grid.step))
+  if (const PointField* time = fieldOf(fields, kPointTimeNames, grid.step))
   {
     columns.time = columnOf<double>(grid, *time);
     columns.single_precision_time = time->type == kFloat32;

@@ -48,7 +48,7 @@ struct RosTransform
   Pose T_parent_child;
 };
 
-/** tf2_msgs/TFMessage. */
+/** tf2_msgs/TFMessage, without transforms whose numbers are not finite. */
 [[nodiscard]] std::vector<RosTransform> readTransforms(WireReader& in);
 
 }  // namespace fastlio

@@ -31,6 +31,19 @@ struct RosType
       nullptr;  //!< null: it is not read
   RosRole role = RosRole::Observation;
 
+  /** Packets of LiDARs behind a header, which names the frame. */
+  [[nodiscard]] bool hasPackets() const
+  {
+    return role == RosRole::FixedPackets || role == RosRole::VariedPackets ||
+           role == RosRole::SinglePackets;
+  }
+
+  /** Its messages become observations of a LiDAR or of an IMU. */
+  [[nodiscard]] bool isLidarOrImu() const
+  {
+    return isTaken() && read != readNavSatFix && read != readOdometry;
+  }
+
   /** Its messages become observations. */
   [[nodiscard]] bool isTaken() const
   {

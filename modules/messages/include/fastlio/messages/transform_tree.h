@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fastlio
 {
@@ -24,9 +25,11 @@ class TransformTree
   /** Of tf: kept as long as it repeats itself. */
   void addMoving(const RosTransform& transform);
 
-  /** The frame that poses of sensors refer to: base_link or another usual name, otherwise the one
-   * at the top of \a frame; nothing where nothing is known of the frame. */
-  [[nodiscard]] std::optional<std::string> vehicleFrameOf(const std::string& frame) const;
+  /** The frame that poses of sensors refer to: base_link or another usual name that any of the
+   * frames hangs under, otherwise the top of the first one that something is known of; nothing
+   * where nothing is known of any. */
+  [[nodiscard]] std::optional<std::string> vehicleFrameOf(
+      const std::vector<std::string>& frames) const;
 
   /** It is connected by tf_static to base_link, which goes before other names of the vehicle. */
   [[nodiscard]] bool isFixedToVehicle(const std::string& frame) const;
@@ -52,6 +55,7 @@ class TransformTree
 
   void add(const RosTransform& transform, bool fixed);
   [[nodiscard]] const Edge* edgeOf(const std::string& child) const;
+  [[nodiscard]] std::optional<std::string> topOf(const std::string& frame) const;
   [[nodiscard]] Top climb(const std::string& frame, const std::string& until) const;
 
   std::map<std::string, Edge> edges_;  // by child

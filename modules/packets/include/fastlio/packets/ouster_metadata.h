@@ -38,11 +38,14 @@ struct OusterMetadata
   Pose T_sensor_lidar, T_sensor_imu;
   std::uint16_t lidar_port = 0, imu_port = 0;  //!< 0: not given
   std::size_t imu_samples = 0;  //!< in a packet of the newer profile; 0: the older one
+  std::string unread_imu;  //!< profile of inertial packets that are not read, or that never come
 
   [[nodiscard]] bool isLegacy() const { return profile.name == "LEGACY"; }
   /** Of a packet without the heads of the network. */
   [[nodiscard]] std::size_t packetBytes() const;
+  /** 0: inertial packets are not read. */
   [[nodiscard]] std::size_t imuBytes() const;
+  [[nodiscard]] bool isImuSize(std::size_t size) const { return size > 0 && size == imuBytes(); }
 };
 
 /** \name The IMU's packets of the newer profile (ACCEL32_GYRO32_NMEA): a head, a sentence of a GNSS
@@ -51,8 +54,9 @@ struct OusterMetadata
 inline constexpr std::size_t kOusterImuHead = 32 + 100, kOusterSampleBytes = 36;
 /** @} */
 
-/** All forms since firmware 1.13. \a text comes from a file or from a topic.
- * \exception std::runtime_error it is not metadata, or of a profile that is not read */
+/** All forms since firmware 1.13. \a text comes from a file or from a topic. A profile of inertial
+ * packets that is not known costs these only.
+ * \exception std::runtime_error it is not metadata, or of a profile of points that is not read */
 [[nodiscard]] OusterMetadata parseOusterMetadata(const std::string& text);
 
 /** The metadata beside a capture: NAME.json, NAME_0.json, or the only JSON file of its folder that

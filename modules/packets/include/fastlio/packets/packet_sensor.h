@@ -19,7 +19,8 @@ class PacketSensor
   PacketSensor(const PacketSensor&) = delete;
   PacketSensor& operator=(const PacketSensor&) = delete;
 
-  /** A packet that the sensor's kind was recognised by, or another one of that size. */
+  /** A packet from the sender and to the port where the sensor was recognised; what is none of its
+   * own is left alone. */
   virtual void take(const UdpPacket& packet, ObservationQueue& out) = 0;
 
   /** The observations left at the end. */

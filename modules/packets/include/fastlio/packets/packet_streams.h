@@ -29,6 +29,13 @@ struct UdpPacket
   std::size_t size = 0;
 };
 
+/** How sensors are called. */
+enum class PacketLabels
+{
+  KindAndSource,  //!< "hesai_192.168.1.201"
+  Source          //!< as the sender
+};
+
 /** Velodyne's data packets, which look like no other maker's. */
 [[nodiscard]] bool isVelodynePacket(const UdpPacket& packet);
 
@@ -41,9 +48,10 @@ class PacketStreams
   /** \param metadata JSON of an Ouster; empty: none
    * \exception std::runtime_error it is not such metadata */
   explicit PacketStreams(const std::string& metadata = {});
-  /** With the metadata and the table of angles beside a capture, if there are any. Metadata that
+  /** With the metadata and the table of angles beside a recording, if there are any. Metadata that
    * cannot be used are reported when packets of an Ouster come. */
-  [[nodiscard]] static PacketStreams ofCapture(const std::string& path);
+  [[nodiscard]] static PacketStreams ofCapture(
+      const std::string& path, PacketLabels labels = PacketLabels::KindAndSource);
   ~PacketStreams();
   PacketStreams(PacketStreams&&) noexcept;
   PacketStreams& operator=(PacketStreams&&) noexcept;
@@ -74,10 +82,13 @@ class PacketStreams
 
   void recognise(const UdpPacket& packet, Stream& stream);
   void recogniseOuster(const UdpPacket& packet, Stream& stream);
+  /** The label of a sensor with this name. */
+  [[nodiscard]] const std::string& labelOf(const std::string& name, const UdpPacket& packet) const;
   void note(PacketSensor& sensor);
 
   std::unique_ptr<Sidecars> files_;
-  std::map<std::string, std::unique_ptr<PacketSensor>> sensors_;     // by label
+  PacketLabels labels_ = PacketLabels::KindAndSource;
+  std::map<std::string, std::unique_ptr<PacketSensor>> sensors_;     // by kind and sender
   std::map<std::pair<std::string, std::uint16_t>, Stream> streams_;  // by sender and port
   std::vector<std::string> problems_;
 };

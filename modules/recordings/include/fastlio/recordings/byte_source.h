@@ -89,6 +89,10 @@ class StretchBytes : public ByteSource
   std::size_t read(std::uint8_t* data, std::size_t size) override;
   bool skip(std::uint64_t size) override;
 
+  /** Members (frames, streams) that follow each other are one, as the programs that compress whole
+   * files take them. */
+  void joinMembers() { joins_members_ = true; }
+
   /** The compressed data are damaged. */
   [[nodiscard]] bool corrupt() const { return corrupt_; }
   /** The file ends inside the stretch. */
@@ -100,6 +104,7 @@ class StretchBytes : public ByteSource
 
  private:
   void load();
+  bool beginsAnotherMember();
   std::size_t inflate(std::uint8_t* data, std::size_t size);
   std::size_t takeReady(std::uint8_t* data, std::size_t size);
 
@@ -111,6 +116,7 @@ class StretchBytes : public ByteSource
   std::size_t begin_ = 0, end_ = 0;
   Bytes ready_;  // inflated, for small reads
   std::size_t ready_begin_ = 0;
+  bool joins_members_ = false;
   bool ended_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
   std::uint32_t checksum_ = 0;
 };

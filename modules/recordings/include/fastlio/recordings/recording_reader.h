@@ -32,7 +32,7 @@ struct TopicReport
   std::string name;          //!< also the label of its observations
   std::string type;          //!< as the recording calls it
   std::size_t messages = 0;  //!< met so far
-  std::size_t taken = 0;     //!< of these became observations
+  std::size_t taken = 0;     //!< of these went into observations
   std::string reason;        //!< what the topic is taken as, or why it is not
 };
 
@@ -42,7 +42,8 @@ using ObservationQueue = std::deque<mrpt::obs::CObservation::Ptr>;
 /** Observations out of one recording, in the order of the file.
  *
  * Times of points stay as they were recorded: findPointTimes() decides their unit and reference.
- * Labels are the names of the topics. Memory is bounded by the largest message. */
+ * Labels are the names of the topics. Memory is bounded: by the largest message, and for packets by
+ * a scan of each sensor. */
 class RecordingReader
 {
  public:
