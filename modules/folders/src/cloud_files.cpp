@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace fastlio
@@ -26,11 +27,13 @@ Bytes contentOf(const std::string& path)
   return bytes;
 }
 
-std::vector<std::string_view> wordsOf(std::string_view line)
+/** Not more than \a most, whatever the length of the line is. */
+std::vector<std::string_view> wordsOf(std::string_view line, std::size_t most)
 {
   constexpr std::string_view kBlanks = " \t\r";
   std::vector<std::string_view> words;
-  for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;)
+  std::size_t begin = line.find_first_not_of(kBlanks);
+  while (begin != std::string_view::npos && words.size() < most)
   {
     const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
     words.push_back(line.substr(begin, end - begin));
@@ -82,9 +85,11 @@ const std::vector<std::string_view>& lineOf(const Lines& lines, std::string_view
   throw std::runtime_error("its head has no line " + std::string(name));
 }
 
+constexpr std::size_t kMostPcdFields = 100;
+
 PcdHead headOfLines(const Lines& lines)
 {
-  constexpr std::size_t kMostPcdFields = 100, kMostCount = 10'000;
+  constexpr std::size_t kMostCount = 10'000;
   const auto& names = lineOf(lines, "FIELDS");
   const auto &sizes = lineOf(lines, "SIZE"), &types = lineOf(lines, "TYPE");
   const auto counts = std::find_if(
@@ -97,6 +102,8 @@ PcdHead headOfLines(const Lines& lines)
   {
     const std::size_t size = sizeIn(sizes[i], 8);
     head.counts.push_back(counts == lines.end() ? 1 : sizeIn((*counts)[i], kMostCount));
+    if ((size != 1 && size != 2 && size != 4 && size != 8) || head.counts.back() == 0)
+      throw std::runtime_error("its head gives a field a size that no number has");
     head.fields.push_back({std::string(names[i]), head.step, pcdType(types[i].front(), size)});
     head.step += size * head.counts.back();
   }
@@ -113,7 +120,7 @@ PcdHead readHead(std::string_view text)
   for (std::size_t at = 0; at < std::min(text.size(), kLongest);)
   {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    auto words = wordsOf(text.substr(at, end - at));
+    auto words = wordsOf(text.substr(at, end - at), kMostPcdFields + 2);
     at = end + 1;
     if (words.empty() || words.front().front() == '#') continue;
     lines.push_back(std::move(words));
@@ -132,18 +139,22 @@ CloudColumns fromAscii(const PcdHead& head, std::string_view text)
   std::vector<double> values;
   for (std::size_t i = 0; i < fields.size(); ++i)
     fields[i] = {fields[i].name, i * sizeof(double), kFloat64};
+  const std::size_t numbers =
+      std::accumulate(head.counts.begin(), head.counts.end(), std::size_t{0});
   std::size_t points = 0;
-  for (std::size_t at = 0; at < text.size() && points < head.points; ++points)
+  for (std::size_t at = 0; at < text.size() && points < head.points;)
   {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const auto words = wordsOf(text.substr(at, end - at));
+    const auto words = wordsOf(text.substr(at, end - at), numbers);
     at = end + 1;
+    if (words.empty()) continue;
+    if (words.size() < numbers)
+      throw std::runtime_error("a line of its data has fewer numbers than its head says");
     std::size_t word = 0;
     for (std::size_t i = 0; i < fields.size(); word += head.counts[i++])
-    {
-      const auto value = word < words.size() ? parsed<double>(words[word]) : std::nullopt;
-      values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-    }
+      values.push_back(
+          parsed<double>(words[word]).value_or(std::numeric_limits<double>::quiet_NaN()));
+    ++points;
   }
   PointGrid grid;
   grid.data = reinterpret_cast<const std::uint8_t*>(values.data());

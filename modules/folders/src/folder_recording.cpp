@@ -4,6 +4,7 @@
 #include "folder_recording.h"
 
 #include "stamp_text.h"
+#include <fastlio/math/statistics.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/recordings/byte_source.h>
 
@@ -120,12 +121,39 @@ std::string timesOf(const std::string& path, const std::string& clouds)
   return "";
 }
 
+std::vector<std::string> stemsOf(const std::vector<std::string>& files)
+{
+  std::vector<std::string> stems;
+  for (const std::string& file : files)
+    stems.push_back(fs::path(file).stem().string());
+  return stems;
+}
+
 std::vector<std::int64_t> stampsOfNames(const std::vector<std::string>& files)
 {
+  const std::vector<std::string> stems = stemsOf(files);
+  const std::int64_t unit_ns = stampUnitOf(stems, kCloudRhythm);
   std::vector<std::int64_t> stamps;
-  for (const std::string& file : files)
-    if (const auto stamp = stampOf(fs::path(file).stem().string())) stamps.push_back(*stamp);
+  for (const std::string& stem : stems)
+    if (const auto stamp = stampOf(stem, unit_ns)) stamps.push_back(*stamp);
   return stamps;
+}
+
+/** The names count the clouds ("000123.bin"): they are no times. */
+bool areNumbered(const std::vector<std::string>& files)
+{
+  constexpr std::int64_t kLargest = 100'000'000, kMostApart = 10;
+  std::vector<std::int64_t> numbers, steps;
+  for (const std::string& stem : stemsOf(files))
+  {
+    const auto number = parsed<std::int64_t>(stem);
+    if (!number || *number < 0 || *number > kLargest) return false;
+    numbers.push_back(*number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 1; i < numbers.size(); ++i)
+    steps.push_back(numbers[i] - numbers[i - 1]);
+  return median(steps) < kMostApart;
 }
 }  // namespace
 
@@ -214,6 +242,10 @@ std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)
 {
   const std::string clouds = cloudsOf(path), times = timesOf(path, clouds), table = tableOf(path);
   const auto files = filesIn(clouds, {".pcd", ".bin"});
+  if (times.empty() && areNumbered(files))
+    throw std::runtime_error(
+        "holds clouds whose names are numbers and no times; put a file times.txt beside them, with "
+        "the time of each cloud [s] in a line");
   std::vector<std::unique_ptr<TimedStream>> streams;
   streams.push_back(std::make_unique<CloudStream>(
       "lidar", timed(files, times.empty() ? stampsOfNames(files) : stampsOfFile(times), times),

@@ -12,13 +12,26 @@
 
 namespace fastlio
 {
-/** Nanoseconds since 1970 from "2011-09-26 13:02:25.594360375" (read as UTC), seconds with decimals
- * or an exponent, or a whole number whose size determines its unit: s, ms, us or ns. Decimals are
- * exact.
- */
-[[nodiscard]] std::optional<std::int64_t> stampOf(std::string_view text);
+/** How times follow each other [s]. */
+struct StampRhythm
+{
+  double usual = 0, longest = 0;  //!< step, of which the second one is rare
+};
+inline constexpr StampRhythm kCloudRhythm{0.1, 100.0}, kSampleRhythm{0.005, 0.5};
 
-/** The first word of each line, as far as they are times. */
+/** What numbers count [ns]: one unit for all times of a file or of a list of names. Seconds, where
+ * one has decimals. Of whole numbers the unit in which the newest is a date of our days and they
+ * follow each other as they should; of a clock that counts from something else, the one in which
+ * they follow each other most like the usual step.
+ * \param texts in any order; what is no number is left alone */
+[[nodiscard]] std::int64_t stampUnitOf(
+    const std::vector<std::string>& texts, const StampRhythm& rhythm);
+
+/** Nanoseconds since 1970 from "2011-09-26 13:02:25.594360375" (read as UTC), or from a number of
+ * \a unit_ns, also with decimals or an exponent. Decimals are exact. Nothing behind 2112. */
+[[nodiscard]] std::optional<std::int64_t> stampOf(std::string_view text, std::int64_t unit_ns);
+
+/** The first word of each line, as far as they are times of clouds. */
 [[nodiscard]] std::vector<std::int64_t> stampsOfFile(const std::string& path);
 
 }  // namespace fastlio

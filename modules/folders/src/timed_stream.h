@@ -66,7 +66,8 @@ class CloudStream : public TimedStream
 };
 
 /** A table of inertial samples: time, angular rate, specific force, one sample a line. A first line
- * with names orders the columns; without one they are time, three rates, three accelerations. */
+ * with names orders the columns, and may give the unit of the times; without one they are time,
+ * three rates, three accelerations. */
 class ImuTable : public TimedStream
 {
  public:
@@ -79,13 +80,18 @@ class ImuTable : public TimedStream
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
 
  private:
-  void readNames(const std::string& line);
+  /** \return the unit of the times that the names give [ns]; 0: none */
+  [[nodiscard]] std::int64_t readNames(const std::string& line);
+  [[nodiscard]] std::vector<std::string> firstTimes();
+  void findUnit(std::int64_t named_ns);
   void advance();
   [[nodiscard]] bool parseLine(std::string_view line);
 
   std::string path_;
   std::ifstream in_;
-  std::vector<std::size_t> columns_;  // of time, three rates, three accelerations
+  std::vector<std::size_t> columns_;        // of time, three rates, three accelerations
+  std::optional<std::size_t> nanoseconds_;  // column of the rest of each second
+  std::int64_t unit_ns_ = 1;                // of times; any, as long as it is not known
   std::optional<std::int64_t> stamp_ns_;
   std::vector<double> values_;  // three rates, three accelerations
   std::size_t lines_ = 0, taken_ = 0, bad_ = 0;
@@ -93,7 +99,7 @@ class ImuTable : public TimedStream
   std::uint64_t bytes_ = 0;
 };
 
-/** One file of KITTI's OXTS a sample: acceleration, rate and position. */
+/** One file of KITTI's OXTS a sample: acceleration and rate. */
 class OxtsStream : public TimedStream
 {
  public:
@@ -109,6 +115,9 @@ class OxtsStream : public TimedStream
   std::size_t next_ = 0, taken_ = 0;
   std::uint64_t bytes_ = 0;
 };
+
+/** A file that cannot be read, or a part of it. */
+[[nodiscard]] ReadProblem fileProblem(const std::string& path, const std::string& what);
 
 /** Files of a folder with one of the extensions (".bin"), by name. */
 [[nodiscard]] std::vector<std::string> filesIn(

@@ -37,16 +37,20 @@ class Folders : public RecordingTest
 
 TEST(StampText, EveryFormIsExact)
 {
-  EXPECT_EQ(stampOf("1403636580.838555648"), 1'403'636'580'838'555'648);
-  EXPECT_EQ(stampOf("1403636580838555648"), 1'403'636'580'838'555'648);
-  EXPECT_EQ(stampOf("1403636580838555"), 1'403'636'580'838'555'000);
-  EXPECT_EQ(stampOf("1403636580838"), 1'403'636'580'838'000'000);
-  EXPECT_EQ(stampOf("1403636580"), 1'403'636'580'000'000'000);
-  EXPECT_EQ(stampOf("0.1"), 100'000'000);
-  EXPECT_EQ(stampOf("1.037875e-01"), 103'787'500);
-  EXPECT_EQ(stampOf("2011-09-26 13:02:25.594360375"), 1'317'042'145'594'360'375);
-  for (const char* wrong : {"", "x", "-1", "1e300", "nan", "2011-09-26 xx:02:25", "1.2.3"})
-    EXPECT_FALSE(stampOf(wrong)) << wrong;
+  const auto stamp_of = [](const std::string& text)
+  { return stampOf(text, stampUnitOf({text}, kCloudRhythm)); };
+  EXPECT_EQ(stamp_of("1403636580.838555648"), 1'403'636'580'838'555'648);
+  EXPECT_EQ(stamp_of("1403636580838555648"), 1'403'636'580'838'555'648);
+  EXPECT_EQ(stamp_of("1403636580838555"), 1'403'636'580'838'555'000);
+  EXPECT_EQ(stamp_of("1403636580838"), 1'403'636'580'838'000'000);
+  EXPECT_EQ(stamp_of("1403636580"), 1'403'636'580'000'000'000);
+  EXPECT_EQ(stamp_of("0.1"), 100'000'000);
+  EXPECT_EQ(stamp_of("1.037875e-01"), 103'787'500);
+  EXPECT_EQ(stamp_of("2011-09-26 13:02:25.594360375"), 1'317'042'145'594'360'375);
+  for (const char* wrong :
+       {"", "x", "-1", "-0.5", "1e300", "nan", "2011-09-26 xx:02:25", "1.2.3",
+        "9999-12-31 00:00:00", "1969-12-31 23:59:59"})
+    EXPECT_FALSE(stamp_of(wrong)) << wrong;
 }
 
 TEST_F(Folders, AKittiDriveGivesCloudsAndSamplesInOrder)
