@@ -73,7 +73,8 @@ void toSecondsAfterStamp(
   const double unit = secondsPer(reading.unit);
   if (reading.reference == PointTimeReference::Absolute)
   {
-    // The difference of large numbers: taken in the field's own unit, where both are exact.
+    // The difference of large numbers is taken in the field's own unit: there the times are exact,
+    // and the stamp is so to some hundred nanoseconds.
     const double stamp = toSeconds(stamp_ns) / unit;
     for (double& t : times)
       t = (t - stamp) * unit;

@@ -98,16 +98,20 @@ PointTimeFinding ambiguousClock(const Question& question, PointTimeUnit unit, do
   finding.verdict = PointTimeVerdict::Ambiguous;
   finding.candidates = {{unit, PointTimeReference::Start}, {unit, PointTimeReference::End}};
   const std::string length = durationText(question.facts.span * secondsPer(unit));
-  finding.evidence = "point times can be read in two ways: they are a clock in " +
-                     std::string(nameOf(unit)) + " (it advances with the stamps) that is " +
-                     durationText(offset) + " ahead of the stamps; with start, points lie 0 to " +
-                     length + " after the stamp; with end, the same before it";
-  if (std::abs(offset) < kLeapSeconds)
+  const bool may_be_absolute = std::abs(offset) < kLeapSeconds;
+  finding.evidence = "point times can be read in " +
+                     std::string(may_be_absolute ? "three" : "two") +
+                     " ways: they are a clock in " + std::string(nameOf(unit)) +
+                     " (it advances with the stamps) that is " + durationText(offset) +
+                     " ahead of the stamps; with start, points lie 0 to " + length +
+                     " after the stamp; with end, the same before it";
+  if (may_be_absolute)
   {
     finding.candidates.push_back({unit, PointTimeReference::Absolute});
     finding.evidence += "; with absolute, the stamps are wrong by that time";
   }
-  finding.evidence += ". Say which with input.point_time_reference: start, end or absolute";
+  finding.evidence += ". Say which with input.point_time_reference: start" +
+                      std::string(may_be_absolute ? ", end or absolute" : " or end");
   return finding;
 }
 

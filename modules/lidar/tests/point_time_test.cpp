@@ -134,6 +134,8 @@ TEST_P(EveryUnit, ForeignClockIsAmbiguousUntilTheReferenceIsGiven)
   EXPECT_EQ(finding.candidates[1].reference, Reference::End);
   expectText(finding, "input.point_time_reference");
   expectText(finding, "-1.7e+09 s ahead");
+  expectText(finding, "in two ways");
+  expectText(finding, "input.point_time_reference: start or end");
   const PointTimeFinding given = findPointTimes(driver.samples(), {Unit::Auto, Reference::End});
   expectFound(given, GetParam(), Reference::End);
   EXPECT_NEAR(given.end, 0.0, 1e-9);
@@ -154,6 +156,8 @@ TEST(PointTime, LeapSecondsLeaveThreeReadings)
   EXPECT_EQ(finding.verdict, PointTimeVerdict::Ambiguous);
   EXPECT_EQ(finding.candidates.size(), 3U);
   expectText(finding, "37 s ahead");
+  expectText(finding, "in three ways");
+  expectText(finding, "input.point_time_reference: start, end or absolute");
 }
 
 TEST(PointTime, BothUnitsAreShownWhenBothMakeSense)

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/live/live_sensors.h>
-#include <fastlio/sensors/conversions.h>
-
-#include <mrpt/obs/CObservationIMU.h>
+#include <fastlio/recordings/sensor_imu.h>
+#include <fastlio/sensors/velodyne_decoder.h>
 
 #include <array>
 #include <charconv>
@@ -15,18 +14,9 @@ namespace fastlio
 namespace
 {
 constexpr std::int64_t kHour = 3'600'000'000'000;  // after which Velodyne's clock begins again [ns]
-constexpr std::size_t kVelodyneTimeAt = 1200;      // microseconds, four bytes, the lowest first
 constexpr std::size_t kMostClocks = 64;            // senders; more are not stamped by their clocks
 constexpr std::size_t kSampleNumbers = 6;
 constexpr std::string_view kBetween = " \t,;\r";
-
-std::int64_t velodyneTime(const std::uint8_t* packet)
-{
-  std::int64_t time_us = 0;
-  for (std::size_t i = 4; i-- > 0;)
-    time_us = time_us << 8 | packet[kVelodyneTimeAt + i];
-  return 1000 * time_us;
-}
 
 /** Takes the next number off the line. */
 template <typename Number>
@@ -45,7 +35,6 @@ bool takeNumber(std::string_view& line, Number& number)
 mrpt::obs::CObservation::Ptr sampleOfText(
     std::string_view line, std::int64_t arrival_ns, const std::string& label)
 {
-  using namespace mrpt::obs;
   std::int64_t stamp_ns = 0;
   std::array<double, kSampleNumbers> numbers{};
   bool good = takeNumber(line, stamp_ns);
@@ -53,14 +42,9 @@ mrpt::obs::CObservation::Ptr sampleOfText(
     good = good && takeNumber(line, number) && std::isfinite(number);
   if (!good || stamp_ns < 0 || line.find_first_not_of(kBetween) != std::string_view::npos)
     return nullptr;
-  auto sample = CObservationIMU::Create();
-  sample->sensorLabel = label;
-  sample->timestamp = toMrptTime(stamp_ns == 0 ? arrival_ns : stamp_ns);
-  constexpr std::array<TIMUDataIndex, kSampleNumbers> kFields{IMU_WX,    IMU_WY,    IMU_WZ,
-                                                              IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC};
-  for (std::size_t i = 0; i < kFields.size(); ++i)
-    sample->set(kFields.at(i), numbers.at(i));
-  return sample;
+  return makeImu(
+      label, stamp_ns == 0 ? arrival_ns : stamp_ns, Vec3(numbers[0], numbers[1], numbers[2]),
+      Vec3(numbers[3], numbers[4], numbers[5]));
 }
 
 LiveSensors::LiveSensors(std::optional<std::uint16_t> imu_port, const std::string& metadata)
@@ -78,7 +62,8 @@ void LiveSensors::take(UdpPacket packet, ObservationQueue& out)
   const bool known = clocks_.count(packet.source) > 0 || clocks_.size() < kMostClocks;
   if (known && isVelodynePacket(packet))
     packet.stamp_ns = clocks_.try_emplace(packet.source, kHour)
-                          .first->second.stampOf(velodyneTime(packet.data), packet.stamp_ns);
+                          .first->second.stampOf(
+                              1000 * std::int64_t{velodyneTimeOf(packet.data)}, packet.stamp_ns);
   streams_.take(packet, out);
 }
 

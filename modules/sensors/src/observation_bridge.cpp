@@ -207,13 +207,15 @@ BridgeOutput ObservationBridge::convertScan(const CObservation& observation, std
   }
   try
   {
+    const Pose T_imu_lidar = extrinsicOf(observation, options);
     LidarScan scan = toScan(observation, options.timing, statistics_);
     scan.stamp_ns = toNanoseconds(observation.timestamp) + options.stamp_shift_ns;
-    scan.T_imu_lidar = extrinsicOf(observation, options);
+    scan.T_imu_lidar = T_imu_lidar;
     // In a merged scan distances are those to the first LiDAR.
     if (lidar > 0) dropNear(scan, further_min_range_);
     ++statistics_.scans_converted;
     statistics_.points_converted += scan.points.size();
+    if (lidar > 0) statistics_.points_of_further += scan.points.size();
     return scan;
   }
   catch (const std::bad_alloc&)
@@ -234,7 +236,11 @@ Pose ObservationBridge::extrinsicOf(
   if (lidar.T_imu_lidar) return *lidar.T_imu_lidar;
   mrpt::poses::CPose3D T_vehicle_lidar;
   observation.getSensorPose(T_vehicle_lidar);
-  return T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);
+  const Pose T_imu_lidar = T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);
+  if (!T_imu_lidar.R.allFinite() || !T_imu_lidar.p.allFinite())
+    throw std::runtime_error(
+        "the pose of the LiDAR or of the IMU holds numbers that are not finite");
+  return T_imu_lidar;
 }
 
 }  // namespace fastlio

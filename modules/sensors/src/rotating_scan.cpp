@@ -3,6 +3,7 @@
 
 #include "velodyne_models.h"
 #include <fastlio/math/time.h>
+#include <fastlio/sensors/point_cloud_conversion.h>
 #include <fastlio/sensors/rotating_scan.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 
@@ -64,7 +65,7 @@ class Collector
 {
  public:
   explicit Collector(const Scan& scan)
-      : scan_(scan), columns_(usedColumns(scan)), timed_(scan.sweepDuration > 0.0)
+      : scan_(scan), columns_(usedColumns(scan)), timed_(hasColumnTimes(scan))
   {
     result_.has_point_times = timed_;
   }
@@ -136,7 +137,7 @@ RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
   const auto calibration = model == VelodyneModel::Hdl64e ? defaultVelodyneCalibration("HDL64")
                                                           : mrpt::obs::VelodyneCalibration{};
   const std::vector<LaserGeometry> lasers = lasersOf(model, calibration);
-  const double turn_rate = scan.sweepDuration > 0 ? scan.azimuthSpan / scan.sweepDuration : 0.0;
+  const double turn_rate = hasColumnTimes(scan) ? scan.azimuthSpan / scan.sweepDuration : 0.0;
   Collector collector(scan);
   for (int column = 0; column < collector.columns(); ++column)
     for (int row = 0; row < scan.rowCount; ++row)
@@ -163,6 +164,11 @@ RotatingScanPoints fromRanges(const Scan& scan, VelodyneModel model)
   return collector.take();
 }
 }  // namespace
+
+bool hasColumnTimes(const mrpt::obs::CObservationRotatingScan& scan)
+{
+  return scan.sweepDuration > 0.0 && scan.sweepDuration <= kMaxTimeOffset;
+}
 
 RotatingScanPoints pointsOf(const mrpt::obs::CObservationRotatingScan& scan)
 {

@@ -5,6 +5,7 @@
 #include <fastlio/sensors/scan_merger.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace fastlio
 {
@@ -44,7 +45,12 @@ std::optional<LidarScan> ScanMerger::next(std::int64_t now_ns)
 
 std::optional<LidarScan> ScanMerger::flush()
 {
-  if (first_.empty()) return std::nullopt;
+  if (first_.empty())
+  {
+    for (const Further& further : std::exchange(further_, {}))
+      left_out_ += further.scan.points.size();
+    return std::nullopt;
+  }
   LidarScan merged = std::move(first_.front());
   first_.pop_front();
   ScanSpan window = spanOf(merged);

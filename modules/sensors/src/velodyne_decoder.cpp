@@ -190,7 +190,9 @@ VelodyneSweep decodeVelodyne(const mrpt::obs::CObservationVelodyneScan& scan)
   for (const Packet& packet : scan.scan_packets)
   {
     layouts.push_back(layoutOf(packet, sensor, angles));
-    times.push_back({timeOf(packet), packetDuration(layouts.back(), sensor.timing)});
+    times.push_back(
+        {velodyneTimeOf(reinterpret_cast<const std::uint8_t*>(&packet)),
+         packetDuration(layouts.back(), sensor.timing)});
   }
   const std::vector<double> offsets = packetOffsets(times, sweep.counts.bad_packet_times);
   sweep.points.reserve(scan.scan_packets.size() * kBlocks * kReturnsPerBlock);

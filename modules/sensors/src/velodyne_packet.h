@@ -19,7 +19,6 @@ namespace packet_layout
 {
 constexpr std::size_t kHeader = 0, kAzimuth = 2, kReturns = 4, kBytesPerReturn = 3;  // in a block
 constexpr std::size_t kIntensity = 2;                                                // in a return
-constexpr std::size_t kTime = 1200;                                                  // in a packet
 
 inline std::uint16_t uint16At(const void* object, std::size_t offset)
 {
@@ -51,14 +50,6 @@ inline std::uint8_t intensityOf(const VelodyneBlock& block, std::size_t index)
 {
   const auto* bytes = reinterpret_cast<const unsigned char*>(&block) + packet_layout::kReturns;
   return bytes[packet_layout::kBytesPerReturn * index + packet_layout::kIntensity];
-}
-
-/** Microseconds past the hour. */
-inline std::uint32_t timeOf(const VelodynePacket& packet)
-{
-  const std::uint32_t low = packet_layout::uint16At(&packet, packet_layout::kTime);
-  const std::uint32_t high = packet_layout::uint16At(&packet, packet_layout::kTime + 2);
-  return low | (high << 16U);
 }
 
 }  // namespace fastlio

@@ -43,9 +43,9 @@ void readFields(const mrpt::maps::CGenericPointsMap& cloud, CloudColumns& column
   columns.intensity = fastlio::genericField<float>(cloud, {"intensity", "i", "I", "reflectivity"});
   columns.ring = fastlio::genericField<std::uint16_t>(
       cloud, {"ring", "r", "R", "line", "channel", "laser_id"});
-  columns.time = fastlio::genericField<double>(
-      cloud, {"t", "time", "timestamp", "time_offset", "offset_time", "T"},
-      &columns.single_precision_time);
+  std::vector<std::string> times(fastlio::kPointTimeNames.begin(), fastlio::kPointTimeNames.end());
+  times.emplace_back("T");  // only here: elsewhere it may be a temperature
+  columns.time = fastlio::genericField<double>(cloud, times, &columns.single_precision_time);
 }
 
 void checkLength(const char* name, std::size_t length, std::size_t points, bool may_be_empty)

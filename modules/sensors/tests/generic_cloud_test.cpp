@@ -8,6 +8,7 @@
 #include <fastlio/compat/CGenericPointsMap.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
+#include <cmath>
 #include <cstring>
 
 namespace
@@ -154,6 +155,17 @@ TEST_F(GenericCloud, TruncationAndHostileLengthsAreProblems)
 }
 
 #if !FASTLIO_MRPT_HAS_GENERIC_MAP
+TEST_F(GenericCloud, NumbersOfLinesThatAreNoneAreZero)
+{
+  CGenericPointsMap map;
+  map.resize(4);
+  map.float_fields["ring"] = {NAN, -1.0F, 70000.0F, 3.0F};
+  map.double_fields["time_stamp"] = {1, 2, 3, 4};
+  const CloudColumns columns = readColumns(map);
+  EXPECT_EQ(columns.ring, (std::vector<std::uint16_t>{0, 0, 0, 3}));
+  EXPECT_EQ(columns.time, (std::vector<double>{1, 2, 3, 4}));  // one of the usual names
+}
+
 TEST_F(GenericCloud, WritesWhatItReads)
 {
   auto map = CGenericPointsMap::Create();

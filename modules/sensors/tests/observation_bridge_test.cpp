@@ -78,6 +78,17 @@ TEST_F(ObservationBridgeTest, CountsEverything)
   EXPECT_EQ(s.points_converted, 6U);
 }
 
+TEST_F(ObservationBridgeTest, APoseThatIsNotFiniteCostsItsScans)
+{
+  ObservationBridge bridge(select(recording(1)));
+  auto cloud = cloudAt(0);
+  cloud->sensorPose.x(NAN);
+  EXPECT_EQ(bridge.convert(*cloud).index(), 0U);
+  EXPECT_EQ(bridge.statistics().scans_unreadable, 1U);
+  EXPECT_EQ(bridge.statistics().points_converted, 0U);
+  EXPECT_TRUE(contains(bridge.statistics().last_error, "not finite"));
+}
+
 TEST_F(ObservationBridgeTest, PacketsGoThrough)
 {
   Packet packet = makePacket(0, 40, 0, 5000);

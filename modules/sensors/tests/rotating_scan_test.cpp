@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 
 namespace
@@ -102,6 +103,33 @@ TEST_F(RotatingScanTest, RangesOfKnownModelsBecomePoints)
   EXPECT_NEAR(read.points.z[1], 5.0 * std::sin(elevation), 1e-3);
   EXPECT_EQ(read.points.time_offset_ns[1], 2304);
   EXPECT_EQ(read.points.time_offset_ns[16], 1'000'000);
+}
+
+TEST_F(RotatingScanTest, ADurationThatNoSweepHasGivesNoTimes)
+{
+  for (const double duration : {-1.0, 0.0, 3.0, 1e9, std::numeric_limits<double>::infinity()})
+  {
+    auto scan = rangeScan();
+    scan->sweepDuration = duration;
+    const RotatingScanPoints read = pointsOf(*scan);
+    EXPECT_FALSE(read.has_point_times) << duration;
+    ASSERT_EQ(read.points.size(), std::size_t{kRows} * (kColumns - 1));
+    EXPECT_EQ(read.points.time_offset_ns.back(), 0) << duration;
+    EXPECT_TRUE(std::isfinite(read.points.x.back())) << duration;
+    EXPECT_FALSE(select({scan, imuAt(0)}).lidar.times_by_sensor) << duration;
+  }
+}
+
+TEST_F(RotatingScanTest, ImagesOfAnySizeInAnotherFileAreRefused)
+{
+  std::string bytes = properties(*rangeScan()) + '\2';   // as text
+  bytes.replace(bytes.find("lidar") + 5, 4, 4, '\xFF');  // rows and columns
+  const std::string name = "scan.txt";
+  put(bytes, static_cast<std::uint32_t>(name.size()));
+  EXPECT_FALSE(readOne(bytes + name + '\x88'));
+  ASSERT_EQ(problems_.size(), 1U);
+  EXPECT_EQ(problems_[0].kind, ReadProblemKind::Corrupt);
+  EXPECT_TRUE(contains(problems_[0].message, "65535")) << problems_[0].message;
 }
 
 TEST_F(RotatingScanTest, ColumnsThatMrptLeavesEmptyTakeNoTime)

@@ -68,7 +68,7 @@ TEST(ScanMerger, EveryPointOnceAtItsOwnTimeAndPlace)
   while (const auto scan = merger.flush())
     take(*scan);
   EXPECT_EQ(scans, 20U);
-  EXPECT_EQ(merger.pointsLeftOut(), 0U);
+  EXPECT_EQ(merger.pointsLeftOut(), 40U);
   ASSERT_EQ(seen.size(), 1960U);  // to the end of the front LiDAR's last scan
   for (const auto& [time_ms, count] : seen)
     EXPECT_EQ(count, 1) << time_ms;
@@ -103,18 +103,26 @@ TEST(ScanMerger, PausesOfTheFirstLidarDoNotStretchItsScans)
 
 class MergedRecording : public BridgeTest
 {
+ protected:
+  /** The first LiDAR scans at 10 Hz until it fails, the rear one at 10 Hz for 3 s. */
+  std::vector<Object> twoLidars(int first_scans)
+  {
+    std::vector<Object> objects;
+    int scan = 0;
+    for (const Object& object : recording(30))
+    {
+      const bool cloud =
+          std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object) != nullptr;
+      if (!cloud || scan < first_scans) objects.push_back(object);
+      if (cloud) objects.push_back(cloudAt(0.1 * scan++ + 0.05, "rear", {0.0F, 0.1F}));
+    }
+    return objects;
+  }
 };
 
 TEST_F(MergedRecording, ComesOutOfTheSourceAsOneLidar)
 {
-  std::vector<Object> objects;
-  int scan = 0;
-  for (const Object& object : recording(30))
-  {
-    objects.push_back(object);
-    if (std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object))
-      objects.push_back(cloudAt(0.1 * scan++ + 0.05, "rear", {0.0F, 0.1F}));
-  }
+  const auto objects = twoLidars(30);
   SensorOptions sensors;
   sensors.further_lidars[0].sensor_label = "rear";
   LidarOptions lidar;
@@ -136,4 +144,24 @@ TEST_F(MergedRecording, ComesOutOfTheSourceAsOneLidar)
   EXPECT_EQ(samples, 600U);
   // Each rear scan's second point is measured 0.15 s after the front scan's stamp.
   EXPECT_NEAR(static_cast<double>(points), 30 * 2 + 30, 2.0);
+}
+
+TEST_F(MergedRecording, PointsThatFindNoScanAreCounted)
+{
+  for (const int first_scans : {30, 15})
+  {
+    const std::string file = fileOf(twoLidars(first_scans));
+    SensorPatterns patterns{"lidar", "", {"rear"}};
+    const auto selection = selectSensors(surveySensors({file}, patterns), patterns);
+    DecodeAheadSource source(RawlogSource({file}), ObservationBridge(selection));
+    while (source.next())
+    {
+    }
+    const BridgeStatistics& s = source.statistics();
+    EXPECT_EQ(s.points_of_further, 60U);
+    if (first_scans == 30)
+      EXPECT_LE(s.points_left_out, 2U);  // behind the last scan
+    else
+      EXPECT_NEAR(static_cast<double>(s.points_left_out), 30.0, 2.0);
+  }
 }

@@ -8,7 +8,6 @@
 #include <fastlio/survey/input_plan.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -266,8 +265,7 @@ InputPlan planInput(
     FurtherLidarConversion options;
     options.timing = plan.lidars.back().timing;
     // The offset of the first LiDAR is added to all points later on.
-    options.stamp_shift_ns =
-        std::llround(toNanoseconds(further[i].time_offset - lidar.time_offset));
+    options.stamp_shift_ns = toNanoseconds(further[i].time_offset - lidar.time_offset);
     if (further[i].T_vehicle_lidar)
       options.T_imu_lidar = T_imu_vehicle * *further[i].T_vehicle_lidar;
     plan.bridge.further_lidars.push_back(options);

@@ -29,6 +29,7 @@ constexpr double kLongestPause = 1.0;
 constexpr double kLongestOverlap = 0.3;
 // The opening's fraction of the bytes gives the duration to within this factor.
 constexpr double kDurationMargin = 10.0;
+constexpr double kLongestRecording = 1e8;  // [s]: three years
 
 /** How a recording begins. */
 struct Opening
@@ -84,9 +85,9 @@ Opening openingOf(const std::string& file)
                        static_cast<double>(std::max<std::uint64_t>(progress.bytes_total, 1));
   const double seconds = toSeconds(covered->second - covered->first);
   opening.first_ns = covered->first;
-  opening.likely_end_ns =
-      at_end ? covered->second
-             : covered->first + toNanoseconds(kDurationMargin * seconds / std::max(share, 1e-6));
+  const double likely =
+      std::min(kDurationMargin * seconds / std::max(share, 1e-6), kLongestRecording);
+  opening.likely_end_ns = at_end ? covered->second : covered->first + toNanoseconds(likely);
   return opening;
 }
 

@@ -146,7 +146,9 @@ std::vector<Vec3> everySoMany(const std::vector<Vec3>& points)
 std::optional<Pose> matchScans(
     const PointColumns& earlier, const PointColumns& later, const Pose& guess)
 {
-  const PlaneFinder planes(thinned(earlier, kMapSpacing));
+  const std::vector<Vec3> map = thinned(earlier, kMapSpacing);
+  if (map.size() < kNeighbors) return std::nullopt;  // a search in an empty map throws
+  const PlaneFinder planes(map);
   const std::vector<Vec3> points = everySoMany(thinned(later, kPointSpacing));
   Pose T = guess;
   for (int i = 0; i < kIterations; ++i)

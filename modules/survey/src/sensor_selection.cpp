@@ -63,7 +63,8 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
     return std::string("No ") + nameOf(kind) + " found in the recording. " +
            (kind == SensorKind::Imu
                 ? "Odometry needs a CObservationIMU with acceleration and angular rate."
-                : "Odometry needs CObservationVelodyneScan or CObservationPointCloud.") +
+                : "Odometry needs CObservationVelodyneScan, CObservationPointCloud or "
+                  "CObservationRotatingScan.") +
            " Where it was recorded in another file, make one of both: fastlio-import --merge LIDAR "
            "IMU -o BOTH.rawlog";
   if (!pattern.empty())

@@ -130,7 +130,7 @@ void noteTimes(SensorSummary& sensor, const CObservation& observation)
   {
     const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation);
     const auto* rotating = dynamic_cast<const mrpt::obs::CObservationRotatingScan*>(&observation);
-    sensor.times_by_sensor |= rotating != nullptr && rotating->sweepDuration > 0.0;
+    sensor.times_by_sensor |= rotating != nullptr && hasColumnTimes(*rotating);
     sensor.times_by_sensor |=
         scan != nullptr && (!scan->scan_packets.empty() || !scan->point_cloud.timestamp.empty());
     sensor.point_times.push_back(sampleOf(stamp_ns, {}, false));

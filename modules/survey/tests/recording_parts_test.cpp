@@ -124,3 +124,13 @@ TEST_F(RecordingPartsTest, WhatCannotBeReadStaysAlone)
       joined({missing, b, rubbish, pipe, a}),
       (std::vector<Files>{{missing}, {rubbish}, {pipe}, {a, b}}));
 }
+
+TEST_F(RecordingPartsTest, AStampOfAnotherCenturyLeavesNoNumberOutOfRange)
+{
+  std::vector<Object> objects = recording(30);
+  std::dynamic_pointer_cast<mrpt::obs::CObservation>(objects[3])->timestamp =
+      toMrptTime(kLatestStamp - 1);
+  const std::string wild = folder_.file("wild"), next = fileFrom(3, 3, "next");
+  write(wild, gzip(serialize(objects)));
+  EXPECT_NO_THROW((void)joined({wild, next}));
+}

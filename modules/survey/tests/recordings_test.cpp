@@ -58,7 +58,7 @@ TEST(Recordings, AreReadToTheLastByteAndWrittenBackAsTheyWere)
   for (const std::string& file : files)
   {
     const std::string original = unpacked(file);
-    RawlogSource source({file}, {0.0, true});
+    RawlogSource source({file}, {0.0});
     std::size_t at = 0;
     while (const auto observation = source.next())
     {

@@ -151,6 +151,12 @@ TEST(MotionCheck, ScansOfARoomTellHowTheyWereTurned)
   EXPECT_LT(logSO3(found->R.transpose() * T_first_second.R).norm(), 0.003);
   EXPECT_LT((found->p - T_first_second.p).norm(), 0.01);
   EXPECT_FALSE(matchScans(first, PointColumns{}));
+  // A scan without a point in reach: of a covered LiDAR, or of an empty file.
+  EXPECT_FALSE(matchScans(PointColumns{}, first));
+  PointColumns near;
+  for (int i = 0; i < 100; ++i)
+    near.push_back(0.001F * static_cast<float>(i), 0.5F, 0.0F, 0, 0, 0);
+  EXPECT_FALSE(matchScans(near, first));
 }
 
 }  // namespace fastlio

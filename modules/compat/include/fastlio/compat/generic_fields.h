@@ -7,7 +7,7 @@
 
 #include <fastlio/compat/CGenericPointsMap.h>
 
-#include <initializer_list>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -37,6 +37,19 @@ const auto* storedField(const mrpt::maps::CGenericPointsMap& map, const std::str
 #endif
 }
 
+/** What is no such number, as NaN or -1 for a line, is 0. */
+template <typename Wanted, typename Stored>
+Wanted fieldNumber(Stored value)
+{
+  if constexpr (std::is_integral_v<Wanted>)
+  {
+    const auto number = static_cast<double>(value);
+    if (!(number >= 0.0 && number <= static_cast<double>(std::numeric_limits<Wanted>::max())))
+      return Wanted{0};
+  }
+  return static_cast<Wanted>(value);
+}
+
 /** Appends nothing unless \a to is empty and the field is as long as the map. */
 template <typename Stored, typename Wanted>
 bool takeField(
@@ -46,7 +59,7 @@ bool takeField(
   if (!to.empty() || values == nullptr || values->size() != map.size()) return false;
   to.reserve(values->size());
   for (const Stored value : *values)
-    to.push_back(static_cast<Wanted>(value));
+    to.push_back(fieldNumber<Wanted>(value));
   return true;
 }
 
@@ -54,11 +67,11 @@ bool takeField(
  * \param single_precision set when the values are stored as float */
 template <typename Wanted>
 std::vector<Wanted> genericField(
-    const mrpt::maps::CGenericPointsMap& map, std::initializer_list<const char*> names,
+    const mrpt::maps::CGenericPointsMap& map, const std::vector<std::string>& names,
     bool* single_precision = nullptr)
 {
   std::vector<Wanted> values;
-  for (const char* name : names)
+  for (const std::string& name : names)
   {
     const bool is_float = takeField<float>(map, name, values);
     if (is_float && single_precision != nullptr) *single_precision = true;

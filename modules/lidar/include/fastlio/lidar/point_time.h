@@ -57,7 +57,7 @@ enum class PointTimeVerdict
   Absent,         //!< no scan has times
   Instantaneous,  //!< all points of a scan have the same time: nothing to compensate
   Found,          //!< reading is certain
-  Ambiguous,      //!< two readings make sense
+  Ambiguous,      //!< several readings make sense
   Unusable        //!< no reading makes sense
 };
 
@@ -66,7 +66,7 @@ struct PointTimeFinding
 {
   PointTimeVerdict verdict = PointTimeVerdict::Absent;
   PointTimeReading reading;                  //!< Found: how to read them
-  std::vector<PointTimeReading> candidates;  //!< Ambiguous: both
+  std::vector<PointTimeReading> candidates;  //!< Ambiguous: all that make sense
   std::string evidence;                      //!< for people: the verdict with its numbers
   std::size_t scans = 0;                     //!< with times, that were looked at
   double scan_period = 0;                    //!< median time between stamps [s]; 0: unknown

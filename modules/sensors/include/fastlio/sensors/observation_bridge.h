@@ -52,6 +52,8 @@ struct BridgeStatistics
   std::size_t scans_unreadable = 0;  //!< see last_error
 
   std::size_t points_converted = 0;
+  std::size_t points_of_further = 0;  //!< of those: of LiDARs beside the first one
+  std::size_t points_left_out = 0;    //!< of those: no scan of the first one is near in time
   std::size_t points_no_return = 0;
   std::size_t points_out_of_range = 0;
   std::size_t points_invalid = 0;  //!< NaN, infinite, at the origin

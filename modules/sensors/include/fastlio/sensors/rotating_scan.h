@@ -40,10 +40,13 @@ class RotatingScan : public mrpt::obs::CObservationRotatingScan
 struct RotatingScanPoints
 {
   PointColumns points;           //!< times from the first column on
-  bool has_point_times = false;  //!< the scan gives the duration of a sweep
+  bool has_point_times = false;  //!< those of the columns, see hasColumnTimes()
   std::size_t no_return = 0;     //!< pixels without a range
   std::size_t out_of_range = 0;  //!< outside of the observation's [minRange, maxRange]
 };
+
+/** The scan gives the duration of a sweep, and one that a LiDAR may have. */
+[[nodiscard]] bool hasColumnTimes(const mrpt::obs::CObservationRotatingScan& scan);
 
 /** \exception std::runtime_error there are no points, and no way to make them (says why) */
 [[nodiscard]] RotatingScanPoints pointsOf(const mrpt::obs::CObservationRotatingScan& scan);

@@ -34,7 +34,8 @@ class ScanMerger
    * recording has reached */
   [[nodiscard]] std::optional<LidarScan> next(std::int64_t now_ns);
 
-  /** The same at the end of the recording. */
+  /** The same at the end of the recording. Once there is none, what is left of the others is left
+   * out. */
   [[nodiscard]] std::optional<LidarScan> flush();
 
   /** Points of the others that no scan of the first LiDAR is near in time. */

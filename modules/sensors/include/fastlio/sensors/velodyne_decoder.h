@@ -14,6 +14,7 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace fastlio
@@ -41,6 +42,16 @@ struct VelodyneSweep
 /** Name of the sensor model that the packets (or a calibration of 64 lasers) name, e.g. "VLP-16".
  */
 [[nodiscard]] std::string velodyneModelName(const mrpt::obs::CObservationVelodyneScan& scan);
+
+/** Microseconds past the hour. \param packet its 1206 bytes */
+[[nodiscard]] inline std::uint32_t velodyneTimeOf(const std::uint8_t* packet)
+{
+  constexpr std::size_t kTimeAt = 1200, kTimeBytes = 4;  // the lowest first
+  std::uint32_t time_us = 0;
+  for (std::size_t i = kTimeBytes; i-- > 0;)
+    time_us = time_us << 8U | packet[kTimeAt + i];
+  return time_us;
+}
 
 /** Decodes all packets: VLP-16 and Puck LITE, Puck Hi-Res, HDL-32E, HDL-64E; strongest, last and
  * dual returns. Angles come from the observation's calibration when it fits the model, else from

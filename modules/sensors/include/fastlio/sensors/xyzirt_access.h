@@ -8,8 +8,10 @@
 #include <fastlio/compat/CPointsMapXYZIRT.h>
 #include <fastlio/lidar/scan.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -26,6 +28,13 @@ struct CloudColumns
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
 };
+
+/** Usual names of a field with the times of points, in messages, in files and in clouds of MRPT.
+ * First those that can mean nothing else. */
+inline constexpr std::array<std::string_view, 15> kPointTimeNames{
+    "t",          "time",       "timestamp",   "time_stamp",    "timeStamp",
+    "timeOffset", "timeoffset", "time_offset", "offset_time",   "offsetTime",
+    "point_time", "time_ns",    "t_offset",    "relative_time", "stamp"};
 
 /** Copies the fields of any MRPT point map: all of CPointsMapXYZIRT; of CGenericPointsMap those
  * with a usual name ("t", "time", "timestamp", "ring", "intensity", ...) and any type; intensity of
