@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 namespace fastlio
 {
@@ -197,7 +198,8 @@ void MapOutputs::take(const PlacedScan& scan)
   of_sessions_.back().onScan(scan.result);
   if (scan.points.size() == 0) return;
   if (planes_) planes_->insert(scan.points, scan.sensor_origin);
-  if (!plan_.wantsMap()) return;
+  // A map with gaps is of no use, and what the disk refuses would pile up in memory.
+  if (!plan_.wantsMap() || !map_problem_.empty()) return;
   try
   {
     map_.insert(outputPointsOf(scan.points, scan.fields));
@@ -240,7 +242,14 @@ void MapOutputs::finish(
   write(
       "g2o", [&](const std::string& path)
       { return writeFileAtomically(path, g2oGraphText(graph.poses, graph.edges)); });
-  write("las", [&](const std::string& path) { return writeLasMap(path, map_, place); });
+  write(
+      "las",
+      [&](const std::string& path)
+      {
+        if (!map_problem_.empty())
+          throw std::runtime_error("cannot write '" + path + "': " + map_problem_);
+        return writeLasMap(path, map_, place);
+      });
 }
 
 }  // namespace fastlio

@@ -6,6 +6,7 @@
 #if FASTLIO_MOLA_HAS_DIAGNOSTICS
 
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/run_health.h>
 
 #include <string>
 
@@ -13,7 +14,6 @@ namespace fastlio
 {
 void MolaDiagnostics::getDiagnostics(std::vector<mola::DiagnosticStatusMsg>& status)
 {
-  constexpr double kLimit = 0.5;  // below it a measure of the health exceeds its limit
   const std::lock_guard lock(mutex_);
   mola::DiagnosticStatusMsg& message = status.emplace_back();
   message.name = "odometry";
@@ -25,9 +25,9 @@ void MolaDiagnostics::getDiagnostics(std::vector<mola::DiagnosticStatusMsg>& sta
   }
   const ScanHealth& health = latest_->health;
   message.level = latest_->status == ScanStatus::Diverged ? mola::DiagnosticLevel::ERROR
-                  : health.value < kLimit                 ? mola::DiagnosticLevel::WARN
+                  : health.value < kTroubledHealth        ? mola::DiagnosticLevel::WARN
                                                           : mola::DiagnosticLevel::OK;
-  message.message = health.value < kLimit ? health.reason : toString(latest_->status);
+  message.message = health.value < kTroubledHealth ? health.reason : toString(latest_->status);
   const ScanStatistics& s = latest_->statistics;
   message.values = {
       {"status", toString(latest_->status)},

@@ -101,6 +101,8 @@ void MolaLidarInertialOdometry::advertise(const OdometryEstimate& estimate)
   update.pose = toMrptPose(vehicle.T_world_body).asTPose();
   update.cov = mrptCovariance(vehicle.T_world_body, vehicle.covariance);
   advertiseUpdatedLocalization(update);
+  // A subscriber may have loaded another map: the pose is none in it.
+  if (!odometry_.latest()) return;
   offerKeyframe(estimate);
   if (map_every_n_scans_ > 0 && scans_++ % map_every_n_scans_ == 0) advertiseMap(vehicle.stamp_ns);
 }

@@ -156,5 +156,30 @@ TEST_F(SubmapMemory, WhatTheDiskRefusesStaysInMemory)
   EXPECT_EQ(namesIn(folder_.file("full")), "poses.graph summary.json");
 }
 
+/** Pieces of the points' map that cannot be written: no file holds a map with gaps. */
+TEST_F(Map, PiecesThatTheDiskRefusesCostEveryFileOfTheMap)
+{
+  const std::string rawlog = record("walk", walk(30.0));
+  const std::vector<std::string> words = {
+      "/bin/sh",
+      "-c",
+      "trap '' XFSZ; ulimit -f 8; exec \"$@\"",
+      "sh",
+      FASTLIO_MAP_PROGRAM,
+      rawlog,
+      "-q",
+      "-o",
+      folder_.file("full"),
+      "--export",
+      "las",
+      "--set",
+      "output.map_memory=0.01"};
+  const ProcessResult full = Process(words, folder_.file("log.txt")).wait();
+  EXPECT_EQ(full.exit_status, 5) << full.output;
+  const std::string reason = "map.las': cannot write '" + folder_.file("full") + "/map-tiles-";
+  EXPECT_NE(full.output.find(reason), std::string::npos) << full.output;
+  EXPECT_FALSE(fs::exists(folder_.file("full/map.las")));
+}
+
 }  // namespace
 }  // namespace fastlio::testing

@@ -3,31 +3,34 @@
 
 #include <fastlio/earth/las_writer.h>
 #include <fastlio/mapping/georeference.h>
+#include <fastlio/math/columns.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
 namespace fastlio
 {
 namespace
 {
-/** The projection around a point of the map, to first order: exact to a millimetre within a tile.
- */
+/** The projection around a point of the map, to first order. */
 class LocalProjection
 {
  public:
+  /** \param reach of the points that are meant, along each axis [m] */
   LocalProjection(
       const ReferenceSystem& system, const LocalFrame& frame, const Pose& T_enu_map,
-      const Vec3& center)
+      const Vec3& center, double reach)
       : center_(center)
   {
-    constexpr double kStep = 25.0;  // [m]
     const auto projected = [&](const Vec3& p) { return system.projectedOf(frame, T_enu_map * p); };
     at_center_ = projected(center);
     for (int axis = 0; axis < 3; ++axis)
     {
-      const Vec3 step = kStep * Vec3::Unit(axis);
-      J_.col(axis) = (projected(center + step) - projected(center - step)) / (2.0 * kStep);
+      const Vec3 step = reach * Vec3::Unit(axis);
+      J_.col(axis) = (projected(center + step) - projected(center - step)) / (2.0 * reach);
     }
   }
 
@@ -38,24 +41,45 @@ class LocalProjection
   Mat3 J_;
 };
 
-Vec3 pointOf(const OutputPoints& points, std::size_t i, const Vec3& origin)
+/** The projection of a map: a linear one in each cube of 50 m, where it is exact to a fraction of a
+ * millimetre. The earth curves away by 0.04 m in 700 m, so that a large tile needs several. */
+class MapProjection
 {
-  return origin + Vec3(
-                      static_cast<double>(points.x[i]), static_cast<double>(points.y[i]),
-                      static_cast<double>(points.z[i]));
-}
-
-Vec3 middleOf(const OutputPoints& points, const Vec3& origin)
-{
-  Vec3 low = Vec3::Constant(1e12), high = Vec3::Constant(-1e12);
-  for (std::size_t i = 0; i < points.size(); ++i)
+ public:
+  explicit MapProjection(const Georeference& place)
+      : system_(place.crs), frame_(place.datum), T_enu_map_(place.T_enu_map)
   {
-    const Vec3 p = pointOf(points, i, origin);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
   }
-  return 0.5 * (low + high);
-}
+
+  [[nodiscard]] std::string wkt() const { return system_.wkt(); }
+
+  [[nodiscard]] Vec3 operator()(const Vec3& map)
+  {
+    constexpr double kHalf = 25.0;  // [m]
+    const auto number = [](double x) { return static_cast<int>(std::floor(0.5 * x / kHalf)); };
+    const Cube cube = {number(map.x()), number(map.y()), number(map.z())};
+    auto found = cubes_.find(cube);
+    if (found == cubes_.end())
+    {
+      const Vec3 corner = 2.0 * kHalf * Vec3(cube[0], cube[1], cube[2]);
+      const LocalProjection around(
+          system_, frame_, T_enu_map_, corner + Vec3::Constant(kHalf), kHalf);
+      found = cubes_.emplace(cube, around).first;
+    }
+    return found->second(map);
+  }
+
+  /** Of cubes that nothing more is asked of. */
+  void forget() { cubes_.clear(); }
+
+ private:
+  using Cube = std::array<int, 3>;
+
+  ReferenceSystem system_;
+  LocalFrame frame_;
+  Pose T_enu_map_;
+  std::map<Cube, LocalProjection> cubes_;
+};
 
 /** To sixteen bits: sensors give 0 to 1 or 0 to 255 or more. */
 double intensityScale(const OutputMap& map)
@@ -70,13 +94,34 @@ double intensityScale(const OutputMap& map)
   constexpr double kMost16 = 65535.0;
   return greatest > 0.0F ? (greatest <= 1.0F ? kMost16 : greatest <= 255.0F ? 256.0 : 1.0) : 1.0;
 }
+
+/** UTM has the zone of the place. */
+bool isZoneOfPlace(const std::string& crs)
+{
+  return crs.empty() || crs == "utm" || crs == "UTM";
+}
 }  // namespace
+
+std::string unplacedReason(const GnssOutcome& gnss, const std::string& crs)
+{
+  if (!gnss.used || !isZoneOfPlace(crs)) return {};
+  try
+  {
+    (void)utmCodeAt(gnss.datum);
+    return {};
+  }
+  catch (const std::invalid_argument& e)
+  {
+    return "the map stays in its own frame, although GNSS gives its place: " +
+           std::string(e.what()) + " (--crs)";
+  }
+}
 
 std::optional<Georeference> georeference(
     const GnssOutcome& gnss, const std::string& control_points, const std::string& crs)
 {
   std::optional<ReferenceSystem> system;
-  if (!crs.empty()) system.emplace(crs);
+  if (!isZoneOfPlace(crs)) system.emplace(crs);
   Georeference place;
   if (!control_points.empty())
   {
@@ -90,7 +135,7 @@ std::optional<Georeference> georeference(
     place.residuals = fit.residuals;
     place.rms_m = fit.rms_m;
   }
-  else if (gnss.used)
+  else if (gnss.used && unplacedReason(gnss, crs).empty())
   {
     place.source = "GNSS";
     place.datum = gnss.datum;
@@ -98,7 +143,7 @@ std::optional<Georeference> georeference(
   }
   else
     return std::nullopt;
-  place.crs = crs.empty() ? utmCodeAt(place.datum) : crs;
+  place.crs = isZoneOfPlace(crs) ? utmCodeAt(place.datum) : crs;
   return place;
 }
 
@@ -107,26 +152,22 @@ OutputFile writeLasMap(
 {
   LasOptions options;
   options.intensity_scale = intensityScale(map);
-  std::optional<ReferenceSystem> system;
-  std::optional<LocalFrame> frame;
+  std::optional<MapProjection> projection;
   if (place)
   {
-    system.emplace(place->crs);
-    frame.emplace(place->datum);
-    options.wkt = system->wkt(WktDialect::Wkt1);
+    projection.emplace(*place);
+    options.wkt = projection->wkt();
   }
   LasWriter file(path, options);
   map.forEachTile(
       [&](const OutputPoints& points)
       {
-        std::optional<LocalProjection> projection;
-        if (place)
-          projection.emplace(*system, *frame, place->T_enu_map, middleOf(points, map.origin()));
         for (std::size_t i = 0; i < points.size(); ++i)
         {
-          const Vec3 p = pointOf(points, i, map.origin());
+          const Vec3 p = map.origin() + pointAt(points, i);
           file.add({projection ? (*projection)(p) : p, points.intensity[i], points.stamp_ns[i]});
         }
+        if (projection) projection->forget();
       });
   return file.commit();
 }

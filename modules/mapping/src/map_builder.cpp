@@ -23,11 +23,11 @@ bool isInterrupted(const PassHooks& hooks)
 }
 
 /** Enough of them for a drawing. */
-std::vector<PathPose> pathOf(const std::vector<TrackedPose>& poses)
+std::vector<StampedPose> pathOf(const std::vector<TrackedPose>& poses)
 {
   constexpr std::size_t kMost = 4000;
   const std::size_t stride = poses.size() / kMost + 1;
-  std::vector<PathPose> path;
+  std::vector<StampedPose> path;
   for (std::size_t i = 0; i < poses.size(); i += stride)
     path.push_back({poses[i].stamp_ns, poses[i].T_world_body});
   return path;
@@ -43,7 +43,9 @@ SessionOutcome addSession(
   const auto use = [&](const ScanResult& result, const Odometry& odometry)
   {
     outcome.statistics.add(result);
-    outcome.diagnostics = odometry.diagnostics();
+    // They only become more, now and then.
+    if (odometry.diagnostics().size() != outcome.diagnostics.size())
+      outcome.diagnostics = odometry.diagnostics();
     track.add(result);
     if (auto submap = submaps.add(result, odometry.registeredPoints(), odometry.mapOrigin()))
       mapper.add(std::move(*submap));

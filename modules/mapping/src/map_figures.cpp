@@ -33,10 +33,10 @@ Line pathOf(const BuiltMap& map, std::size_t session, bool corrected)
   const MappingResult& r = map.result;
   if (session >= r.anchors.size() || !r.anchors[session].found) return line;
   const CorrectedTrajectory trajectory(r, session);
-  for (const PathPose& pose : map.sessions.at(session).path)
+  for (const StampedPose& pose : map.sessions.at(session).path)
     line.emplace_back(
-        corrected ? trajectory.correctionAt(pose.stamp_ns, pose.T_world_imu) * pose.T_world_imu.p
-                  : r.anchors[session].T_world_session * pose.T_world_imu.p);
+        corrected ? trajectory.correctionAt(pose.stamp_ns, pose.T_world_body) * pose.T_world_body.p
+                  : r.anchors[session].T_world_session * pose.T_world_body.p);
   return line;
 }
 

@@ -131,6 +131,15 @@ std::vector<ClosureAgreement> agreements(const MappingResult& r)
   return all;
 }
 
+double medianAfter(const std::vector<ClosureAgreement>& all)
+{
+  std::vector<double> values;
+  values.reserve(all.size());
+  for (const ClosureAgreement& one : all)
+    values.push_back(one.after);
+  return median(std::move(values));
+}
+
 std::string mapHeadline(const MapAccount& account)
 {
   const MappingResult& r = account.map.result;
@@ -141,13 +150,8 @@ std::string mapHeadline(const MapAccount& account)
   if (closed == 0) return "No loop found: the map is that of the odometry." + part;
   std::string consistent;
   if (!account.agreements.empty())
-  {
-    std::vector<double> apart;
-    for (const ClosureAgreement& one : account.agreements)
-      apart.push_back(one.after);
     consistent =
-        "; the map is consistent to " + fixedText(1e3 * median(std::move(apart)), 0) + " mm";
-  }
+        "; the map is consistent to " + fixedText(1e3 * medianAfter(account.agreements), 0) + " mm";
   return countText(closed) + (closed == 1 ? " loop" : " loops") + " closed" + consistent + "." +
          part;
 }

@@ -4,6 +4,7 @@
 #include <fastlio/mapping/map_report.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/statistics.h>
+#include <fastlio/options/json_text.h>
 #include <fastlio/options/number_text.h>
 
 #include <cmath>
@@ -13,22 +14,6 @@ namespace fastlio
 {
 namespace
 {
-using MapJson = nlohmann::ordered_json;
-
-MapJson vectorJson(const Vec3& v)
-{
-  return {v.x(), v.y(), v.z()};
-}
-
-double medianAfter(const std::vector<ClosureAgreement>& all)
-{
-  std::vector<double> values;
-  values.reserve(all.size());
-  for (const ClosureAgreement& one : all)
-    values.push_back(one.after);
-  return median(std::move(values));
-}
-
 /** Nothing where all closures are between sessions. */
 std::optional<double> medianBefore(const std::vector<ClosureAgreement>& all)
 {
@@ -39,18 +24,18 @@ std::optional<double> medianBefore(const std::vector<ClosureAgreement>& all)
   return median(std::move(values));
 }
 
-MapJson anchorsJson(const MappingResult& result, std::size_t session);
+Json anchorsJson(const MappingResult& result, std::size_t session);
 
-MapJson sessionsJson(const BuiltMap& map)
+Json sessionsJson(const BuiltMap& map)
 {
-  MapJson json = MapJson::array();
+  Json json = Json::array();
   for (std::size_t number = 0; number < map.sessions.size(); ++number)
   {
     const SessionOutcome& session = map.sessions[number];
-    MapJson problems = MapJson::array();
+    Json problems = Json::array();
     for (const ReadProblem& problem : session.pass.problems)
       problems.push_back(problem.message);
-    MapJson diagnostics = MapJson::array();
+    Json diagnostics = Json::array();
     for (const Diagnostic& diagnostic : session.diagnostics)
       diagnostics.push_back({{"stamp_ns", diagnostic.stamp_ns}, {"text", diagnostic.text}});
     json.push_back(
@@ -68,9 +53,9 @@ MapJson sessionsJson(const BuiltMap& map)
   return json;
 }
 
-MapJson submapsJson(const MappingResult& result)
+Json submapsJson(const MappingResult& result)
 {
-  MapJson json = MapJson::array();
+  Json json = Json::array();
   for (std::size_t i = 0; i < result.submaps.size(); ++i)
   {
     const Submap& submap = result.submaps[i];
@@ -89,14 +74,14 @@ MapJson submapsJson(const MappingResult& result)
   return json;
 }
 
-MapJson closuresJson(const MappingResult& result)
+Json closuresJson(const MappingResult& result)
 {
-  MapJson json = MapJson::array();
+  Json json = Json::array();
   for (const Closure& closure : result.closures)
   {
     const RegistrationEvidence& found = closure.registration.evidence;
     const Pose& T = closure.registration.motion.T_a_b;
-    MapJson margin = nullptr;  // no other place was found
+    Json margin = nullptr;  // no other place was found
     if (std::isfinite(found.margin)) margin = found.margin;
     json.push_back(
         {{"a", closure.a},
@@ -116,7 +101,7 @@ MapJson closuresJson(const MappingResult& result)
   return json;
 }
 
-MapJson anchorsJson(const MappingResult& result, std::size_t session)
+Json anchorsJson(const MappingResult& result, std::size_t session)
 {
   if (session >= result.anchors.size()) return {{"found", false}};
   const SessionAnchor& anchor = result.anchors[session];
@@ -127,7 +112,7 @@ MapJson anchorsJson(const MappingResult& result, std::size_t session)
       {"submaps_recognised", anchor.support}};
 }
 
-MapJson gnssJson(const GnssOutcome& gnss)
+Json gnssJson(const GnssOutcome& gnss)
 {
   return {
       {"used", gnss.used},
@@ -139,7 +124,7 @@ MapJson gnssJson(const GnssOutcome& gnss)
       {"correlation", gnss.correlation}};
 }
 
-MapJson wheelsJson(const WheelOutcome& wheels)
+Json wheelsJson(const WheelOutcome& wheels)
 {
   return {
       {"used", wheels.used},
@@ -155,10 +140,10 @@ MapJson wheelsJson(const WheelOutcome& wheels)
       {"noise_m", wheels.noise}};
 }
 
-MapJson wallsJson(const std::optional<WallThickness>& walls)
+Json wallsJson(const std::optional<WallThickness>& walls)
 {
   if (!walls) return nullptr;
-  MapJson before = nullptr;  // sessions have no common frame
+  Json before = nullptr;  // sessions have no common frame
   if (walls->before) before = *walls->before;
   return {
       {"walls", walls->walls},
@@ -177,7 +162,7 @@ std::string wallsSentence(const std::optional<WallThickness>& walls)
          "of a single pass " + thick(walls->single) + ": ratio " + fixedText(walls->ratio(), 2);
 }
 
-MapJson removedJson(const std::optional<RemovedPoints>& removed)
+Json removedJson(const std::optional<RemovedPoints>& removed)
 {
   if (!removed) return nullptr;
   return {
@@ -186,10 +171,10 @@ MapJson removedJson(const std::optional<RemovedPoints>& removed)
       {"free_voxels", removed->voxels}};
 }
 
-MapJson placeJson(const std::optional<Georeference>& place)
+Json placeJson(const std::optional<Georeference>& place)
 {
   if (!place) return nullptr;
-  MapJson residuals = MapJson::array();
+  Json residuals = Json::array();
   for (const EarthResidual& residual : place->residuals)
     residuals.push_back(
         {{"name", residual.name},
@@ -247,11 +232,11 @@ std::string mapSentence(const MapAccount& account)
 std::string mapSummaryJson(const MapAccount& account)
 {
   const MappingResult& result = account.map.result;
-  MapJson outputs = MapJson::array();
+  Json outputs = Json::array();
   for (const OutputFile& file : account.outputs)
     outputs.push_back({{"path", file.path}, {"bytes", file.bytes}});
   const std::optional<double> before = medianBefore(account.agreements);
-  const MapJson json = {
+  const Json json = {
       {"program", "fastlio-map"},
       {"version", account.version},
       {"status", toString(account.status)},
@@ -266,7 +251,7 @@ std::string mapSummaryJson(const MapAccount& account)
       {"corrected", result.corrected},
       {"closures_accepted", result.accepted()},
       {"largest_correction_m", largestMove(result)},
-      {"surfaces_apart_before_m", before ? MapJson(*before) : MapJson(nullptr)},
+      {"surfaces_apart_before_m", before ? Json(*before) : Json(nullptr)},
       {"surfaces_apart_after_m", medianAfter(account.agreements)},
       {"wall_thickness", wallsJson(account.walls)},
       {"gnss", gnssJson(account.map.gnss)},
@@ -277,7 +262,7 @@ std::string mapSummaryJson(const MapAccount& account)
       {"closures", closuresJson(result)},
       {"outputs", outputs},
       {"output_problems", account.output_problems}};
-  return json.dump(2, ' ', false, MapJson::error_handler_t::replace) + "\n";
+  return jsonText(json);
 }
 
 }  // namespace fastlio

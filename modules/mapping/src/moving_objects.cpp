@@ -16,15 +16,9 @@ namespace
 {
 constexpr double kOneScan = 0.5;  // poses farther apart are not of neighbouring scans [s]
 
-/** A pose of the IMU, and when. */
-struct PoseBefore
-{
-  std::int64_t stamp_ns = 0;
-  Pose pose;
-};
-
-/** The rays of a scan: the LiDAR goes straight from its place at the scan before. */
-ScanRays raysOf(const PlacedScan& scan, const PoseBefore& before, const Vec3& lidar_in_imu)
+/** The rays of a scan: the LiDAR goes straight from its place at the scan before.
+ * \param before the IMU at that scan */
+ScanRays raysOf(const PlacedScan& scan, const StampedPose& before, const Vec3& lidar_in_imu)
 {
   ScanRays rays;
   rays.stamp_ns = scan.result.stamp_ns;
@@ -33,7 +27,7 @@ ScanRays raysOf(const PlacedScan& scan, const PoseBefore& before, const Vec3& li
   const double length = toSeconds(rays.stamp_ns - before.stamp_ns);
   const bool follows = length > 0.0 && length < kOneScan;
   rays.last_origin = now * lidar_in_imu;
-  rays.first_origin = follows ? before.pose * lidar_in_imu : rays.last_origin;
+  rays.first_origin = follows ? before.T_world_body * lidar_in_imu : rays.last_origin;
   rays.fraction.reserve(rays.ends.size());
   for (const std::int64_t stamp : scan.fields.stamp_ns)
     rays.fraction.push_back(
@@ -75,7 +69,7 @@ bool MovingObjects::vote(
   if (hooks.progress)
     of_votes.progress = [&](const std::string&, double share)
     { hooks.progress(session.name() + ": moving objects", share); };
-  PoseBefore before;
+  StampedPose before;
   return placeScans(
       session, number, map.result,
       [&](const PlacedScan& scan)

@@ -163,9 +163,8 @@ FilePoints readAscii(std::ifstream& in, const Header& header, const std::string&
     {
       if (places.at(axis).cell >= cells.size())
         fail(path, "a line is too short: '" + printable(line) + "'");
-      std::istringstream number(cells[places.at(axis).cell]);
-      number.imbue(std::locale::classic());
-      if (!(number >> p.at(axis))) p.at(axis) = std::numeric_limits<double>::quiet_NaN();
+      p.at(axis) = parsed<double>(cells[places.at(axis).cell])
+                       .value_or(std::numeric_limits<double>::quiet_NaN());
     }
     points.add(p);
   }

@@ -134,7 +134,10 @@ class CLidarInertialOdometry::Impl
     track_.add(result);
     latest = OdometryEstimate{result, std::nullopt};
     if (hasPose(result.status)) latest->vehicle = track_.poses().back();
-    if (callback) callback(*latest);
+    if (!callback) return;
+    // Whoever is told may start anew, which empties `latest`.
+    const OdometryEstimate estimate = *latest;
+    callback(estimate);
   }
 
   struct StartInMap

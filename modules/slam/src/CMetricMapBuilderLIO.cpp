@@ -4,6 +4,7 @@
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/math/columns.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/time.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/scan_in_world.h>
@@ -30,13 +31,13 @@ constexpr std::size_t kMostWaiting = 100;
 mrpt::obs::CObservationPointCloud::Ptr compensatedCloud(
     const LidarScan& scan, const PoseTrack& track, const Pose& T_world_lidar)
 {
-  const OutputPoints world = scanInWorld(scan, track);
-  const Pose T_lidar_world = T_world_lidar.inverse();
+  const OutputPoints around = scanInWorld(scan, track, T_world_lidar.p);
+  const Mat3 R_lidar_world = T_world_lidar.R.transpose();
   auto cloud = mrpt::maps::CSimplePointsMap::Create();
-  cloud->reserve(world.size());
-  for (std::size_t i = 0; i < world.size(); ++i)
+  cloud->reserve(around.size());
+  for (std::size_t i = 0; i < around.size(); ++i)
   {
-    const Vec3 p = T_lidar_world * pointAt(world, i);
+    const Vec3 p = R_lidar_world * pointAt(around, i);
     cloud->insertPointFast(
         static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
   }
@@ -162,7 +163,9 @@ void CMetricMapBuilderLIO::insertScan(
   const auto cloud = compensatedCloud(scan, track, pose.T_world_body * T_vehicle_lidar);
   // MRPT 2.5 takes no notice of the robot's pose for this class, so the sensor's says it all.
   cloud->sensorPose = toMrptPose(T_map_vehicle * T_vehicle_lidar);
-  const auto planar = pseudo2dScan(scan, track, planarOptions());
+  // In use, not as given: the preset of the LiDAR may say how far it sees.
+  const double max_range = odometry_.parameters().lidar.max_range;
+  const auto planar = pseudo2dScan(scan, track, planarScanOptions(config_.exporters, max_range));
   const mrpt::poses::CPose3D ground(onGround(T_map_vehicle));
   for (auto& map : metric_map.maps)
     if (!map->insertObservation(*cloud, mrpt::poses::CPose3D()) && planar)
@@ -207,24 +210,12 @@ void CMetricMapBuilderLIO::rebuild(
   }
 }
 
-Pseudo2dScanOptions CMetricMapBuilderLIO::planarOptions() const
-{
-  Pseudo2dScanOptions planar;
-  planar.rays = config_.exporters.scan_2d_rays;
-  planar.height = config_.exporters.scan_2d_height;
-  planar.thickness = config_.exporters.scan_2d_thickness;
-  planar.max_range = config_.odometry.lidar.max_range;
-  return planar;
-}
-
 TrackedPose CMetricMapBuilderLIO::fromStart(const TrackedPose& pose) const
 {
   TrackedPose moved = pose;
   const Pose T_map_world = T_map_world_.value_or(Pose{});
   moved.T_world_body = T_map_world * pose.T_world_body;
-  Matrix6 J = Matrix6::Identity();
-  J.bottomRightCorner<3, 3>() = T_map_world.R;
-  moved.covariance = J * pose.covariance * J.transpose();
+  moved.covariance = withPositionTurned(T_map_world.R, pose.covariance);
   return moved;
 }
 

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationOdometry.h>
 
+#include <optional>
+
 namespace fastlio
 {
 namespace
@@ -222,6 +224,28 @@ TEST(CLidarInertialOdometry, ACertainGuessReplacesAnUncertainOne)
   feed(*odometry, 75, 100);
   EXPECT_LT(positionStd(), 0.3);
   EXPECT_TRUE(hasPose(odometry->latest()->result.status));
+}
+
+/** Whoever is told of a pose may search the vehicle anew at once. */
+TEST(CLidarInertialOdometry, AnEstimateOutlivesASearchWithinItsCallback)
+{
+  const auto odometry = following(matchingConfig(walk().settings()));
+  std::optional<Vec3> told;
+  odometry->setCallback(
+      [&](const OdometryEstimate& estimate)
+      {
+        if (told || !estimate.vehicle || odometry->track().poses().size() < 5) return;
+        told = estimate.vehicle->T_world_body.p;
+        const OdometryEstimate* const latest = &odometry->latest().value();
+        VehicleGuess guess;
+        guess.T_map_vehicle = estimate.vehicle->T_world_body;
+        EXPECT_TRUE(odometry->relocalize(guess));
+        EXPECT_FALSE(odometry->latest());
+        EXPECT_NE(&estimate, latest) << "it went with the latest one";
+        EXPECT_EQ(estimate.vehicle->T_world_body.p, *told);
+      });
+  feed(*odometry, 0, 60);
+  EXPECT_TRUE(told);
 }
 
 TEST(CLidarInertialOdometry, AMapMayBeLoadedBeforeTheSensorsAreKnown)

@@ -8,6 +8,7 @@
 #include <fastlio/aiding/gnss.h>
 #include <fastlio/earth/control_points.h>
 #include <fastlio/earth/reference_system.h>
+#include <fastlio/files/atomic_file.h>
 #include <fastlio/run/output_map.h>
 
 #include <optional>
@@ -22,17 +23,23 @@ struct Georeference
   std::string source;  //!< "GNSS" or "control points"
   GeodeticPoint datum;
   Pose T_enu_map;
-  std::string crs;                       //!< of projected coordinates, as it was given
+  std::string crs;                       //!< of projected coordinates: as given, or the UTM zone
   std::vector<EarthResidual> residuals;  //!< of control points
   double rms_m = 0.0;                    //!< of them
 };
 
-/** By control points, or else by GNSS; nothing when neither gives the place.
- * \param crs of projected coordinates; empty: the UTM zone of the place
+/** By control points, or else by GNSS; nothing when neither gives the place, and where
+ * unplacedReason() says so.
+ * \param crs of projected coordinates; empty or "utm": the UTM zone of the place
  * \exception std::runtime_error the control points cannot be used
- * \exception std::invalid_argument the reference system is unknown */
+ * \exception std::invalid_argument the reference system is unknown, or the control points lie
+ * beyond the UTM zones */
 [[nodiscard]] std::optional<Georeference> georeference(
     const GnssOutcome& gnss, const std::string& control_points, const std::string& crs);
+
+/** Why GNSS that was used gives no place: it lies beyond the UTM zones, and \a crs names nothing
+ * else. In a sentence; empty: it does. */
+[[nodiscard]] std::string unplacedReason(const GnssOutcome& gnss, const std::string& crs);
 
 /** Writes the points of a map as LAS 1.4: in projected coordinates, or in those of the map where
  * its place is not known. \exception std::runtime_error the file cannot be written */

@@ -11,10 +11,10 @@
 #include <fastlio/loops/corrected_trajectory.h>
 #include <fastlio/loops/mapper.h>
 #include <fastlio/mapping/session.h>
+#include <fastlio/math/pose.h>
 #include <fastlio/run/output_map.h>
 #include <fastlio/run/run_statistics.h>
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,13 +22,6 @@
 
 namespace fastlio
 {
-/** A pose of the odometry. */
-struct PathPose
-{
-  std::int64_t stamp_ns = 0;
-  Pose T_world_imu;
-};
-
 /** What the first pass met in a session. */
 struct SessionOutcome
 {
@@ -38,7 +31,7 @@ struct SessionOutcome
   SessionPass pass;
   std::size_t fixes = 0;              //!< of GNSS
   std::vector<std::string> problems;  //!< of GNSS and wheel odometry
-  std::vector<PathPose> path;         //!< of the odometry; of a long run, some of its poses
+  std::vector<StampedPose> path;      //!< of the IMU by the odometry; of a long run, some of them
 };
 
 /** A built map, without its points. */

@@ -37,6 +37,9 @@ struct ClosureAgreement
 /** Of the accepted closures. */
 [[nodiscard]] std::vector<ClosureAgreement> agreements(const MappingResult& result);
 
+/** The median of ClosureAgreement::after [m]. */
+[[nodiscard]] double medianAfter(const std::vector<ClosureAgreement>& all);
+
 /** The content of a report about a map. */
 struct MapAccount
 {

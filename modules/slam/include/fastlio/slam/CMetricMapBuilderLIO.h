@@ -6,7 +6,8 @@
 #pragma once
 
 #include <fastlio/compat/mrpt_compat.h>
-#include <fastlio/exporters/pseudo_2d_scan.h>
+#include <fastlio/lidar/scan.h>
+#include <fastlio/run/pose_track.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <mrpt/maps/CMultiMetricMap.h>
@@ -93,7 +94,6 @@ class CMetricMapBuilderLIO : public mrpt::slam::CMetricMapBuilder
       const mrpt::obs::CSensoryFrame::Ptr& frame, const TrackedPose& in_map,
       mrpt::maps::CSimpleMap& views) const;
   void insertInitialViews(mrpt::maps::CMultiMetricMap& metric_map) const;
-  [[nodiscard]] Pseudo2dScanOptions planarOptions() const;
 
   mutable std::recursive_mutex mutex_;
   Config config_;
