@@ -33,15 +33,9 @@ std::vector<Case> cases(unsigned seed)
   testing::Random random(seed);
   std::vector<Case> all;
   for (const double rate : {0.0, 1e-6, 1e-2, 1.0, 20.0})
-  {
     for (const double dt : {0.001, 0.005, 0.1})
-    {
       for (int i = 0; i < 5; ++i)
-      {
         all.push_back({random.state(), rate * random.axis(), random.vector(10.0), dt});
-      }
-    }
-  }
   // Measured rate exactly the bias: the angle is zero and A(0) = I.
   Case still = all.front();
   still.gyro = still.x.gyro_bias;
@@ -195,9 +189,7 @@ TEST(Propagation, NoiseGrowsWithTimeWhateverTheSampleRate)
   {
     FilterState s{rest, StateMatrix::Zero()};
     for (int i = 0; i < 2 * rate; ++i)
-    {
       s = propagated(s, Vec3::Zero(), Vec3(0.0, 0.0, 9.81), 1.0 / rate, noise);
-    }
     const StateVector variance = s.P.diagonal();
     EXPECT_NEAR(variance[kGyroBias], 2.0 * 1e-8, 1e-16) << rate;
     EXPECT_NEAR(variance[kAccelBias], 2.0 * 1e-6, 1e-14) << rate;
@@ -237,10 +229,8 @@ TEST(Propagation, AStepBackInTimeIsRefused)
 {
   const FilterState s;
   for (const double dt : {-0.005, std::numeric_limits<double>::quiet_NaN()})
-  {
     EXPECT_THROW(
         (void)propagated(s, Vec3::Zero(), Vec3::Zero(), dt, ImuNoise{}), std::invalid_argument);
-  }
 }
 
 TEST(Propagation, TransitionIsTheProductOfTheJacobians)
