@@ -93,7 +93,8 @@ ExportTarget outputOptions(const RunSetup& setup)
       {setup.arguments.input_files, setup.selection, setup.plan.bridge},
       setup.config.odometry.lidar.time_offset,
       setup.config.odometry.imu_rate,
-      referenceFor(setup.arguments.reference, setup.arguments.input_files)};
+      referenceFor(setup.arguments.reference, setup.arguments.input_files),
+      setup.config.odometry.lidar.max_range};
 }
 }  // namespace
 
@@ -287,6 +288,8 @@ RunSummary ReplayRun::summarize(const DecodeAheadSource& source) const
   summary.imu = odometry_.imuReport();
   summary.diagnostics = odometry_.diagnostics();
   if (end_diagnostic_) summary.diagnostics.push_back(*end_diagnostic_);
+  if (const auto left_out = leftOutText(source.statistics()))
+    summary.diagnostics.push_back({statistics_.endNs(), *left_out});
   summary.interrupted = interrupted();
   summary.input_problems = sentences(source.problems());
   summary.failure = failure_;

@@ -5,11 +5,13 @@
 
 #include <mrpt/core/format.h>
 
+#include <algorithm>
+
 namespace fastlio
 {
 std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputStatistics& odometry)
 {
-  return {
+  std::vector<NamedCount> counts{
       {"imu_samples", bridge.imu_converted},
       {"imu_without_acceleration", bridge.imu_no_acceleration},
       {"imu_without_angular_rate", bridge.imu_no_angular_rate},
@@ -37,6 +39,22 @@ std::vector<NamedCount> inputCounts(const BridgeStatistics& bridge, const InputS
       {"packet_blocks_corrupt", bridge.packet_blocks_corrupt},
       {"packet_times_corrupt", bridge.packet_times_corrupt},
       {"other_sensors", bridge.other_sensors}};
+  // Of several LiDARs only.
+  if (bridge.points_left_out > 0) counts.push_back({"points_left_out", bridge.points_left_out});
+  return counts;
+}
+
+std::optional<std::string> leftOutText(const BridgeStatistics& bridge)
+{
+  constexpr double kConsiderable = 0.1;
+  const auto points = static_cast<double>(bridge.points_of_further);
+  const double share = static_cast<double>(bridge.points_left_out) / std::max(points, 1.0);
+  if (share <= kConsiderable) return std::nullopt;
+  return mrpt::format(
+      "%.0f %% of the points of the LiDARs beside the first one are left out: no scan of the first "
+      "one is near them in time; check its pauses, and the clocks (lidar_2.time_offset and the "
+      "like)",
+      100.0 * share);
 }
 
 std::string lostEndText(const InputStatistics& odometry)

@@ -7,6 +7,7 @@
 #include <fastlio/options/number_text.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace fastlio
 {
@@ -119,11 +120,31 @@ std::string filesText(const std::vector<OutputFile>& files)
   return text;
 }
 
+/** The page of a run, or empty. */
+std::string reportPageOf(const std::vector<OutputFile>& files)
+{
+  constexpr std::string_view kPage = "report.html";
+  for (const OutputFile& file : files)
+  {
+    const std::string& path = file.path;
+    if (path.size() >= kPage.size() &&
+        path.compare(path.size() - kPage.size(), kPage.size(), kPage) == 0)
+      return path;
+  }
+  return {};
+}
+
 std::size_t countOf(const RunSummary& run, const std::string& name)
 {
   for (const NamedCount& count : run.input_counts)
     if (count.name == name) return count.count;
   return 0;
+}
+
+std::string noEchoText(std::size_t without, std::size_t points)
+{
+  return std::to_string(without) + " of " + std::to_string(without + points) +
+         " beams, as into the sky";
 }
 
 /** Of the scans that were read, none was left after those of --skip-first-n. */
@@ -177,6 +198,8 @@ std::string reportText(const RunSummary& summary)
   text += line("Path", fixedText(statistics.pathLength(), 2) + " m");
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));
+  if (const std::size_t without = countOf(summary, "points_without_return"))
+    text += line("No echo", noEchoText(without, countOf(summary, "points")));
   if (!lost.empty()) text += line("Dropped", countsText(lost));
   if (statistics.degenerateDirections().scans > 0)
     text += line("Degenerate", degenerateText(statistics.degenerateDirections()));
@@ -187,9 +210,11 @@ std::string reportText(const RunSummary& summary)
   for (const Diagnostic& diagnostic : summary.diagnostics)
     text += line("Diagnostic", secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
   text += filesText(summary.outputs);
-  return text + line(
-                    "Status", std::string(toString(status)) + " (exit status " +
-                                  std::to_string(static_cast<int>(status)) + ")");
+  text += line(
+      "Status", std::string(toString(status)) + " (exit status " +
+                    std::to_string(static_cast<int>(status)) + ")");
+  const std::string page = reportPageOf(summary.outputs);
+  return page.empty() ? text : text + line("Next", "open " + page);
 }
 
 }  // namespace fastlio

@@ -23,14 +23,17 @@ namespace
 class RunFollower
 {
  public:
-  RunFollower(Odometry& odometry, std::size_t measured_from)
-      : odometry_(odometry), measured_from_(measured_from)
+  RunFollower(Odometry& odometry, const ScanRange& range)
+      : odometry_(odometry),
+        measured_from_(range.measured_from),
+        keeps_history_(range.keeps_history)
   {
   }
 
   void take(const ScanResult& scan)
   {
     if (scan.status == ScanStatus::Tracking) takeTracked(scan);
+    if (keeps_history_) result_.history.push_back(so_far_);
     ++result_.scans;
   }
 
@@ -60,10 +63,17 @@ class RunFollower
     const auto points = static_cast<double>(scan.statistics.points_effective);
     result_.agreement.points += points;
     result_.agreement.residual_squares += points * std::pow(scan.statistics.residual_rms, 2);
+    if (!keeps_history_) return;
+    const CalibrationSums sums = odometry_.calibrationFindings().sums;
+    so_far_ = result_.agreement;
+    so_far_.innovation_squares = sums.squares;
+    so_far_.innovations = sums.count;
   }
 
   Odometry& odometry_;
   std::size_t measured_from_;
+  bool keeps_history_;
+  RunAgreement so_far_;
   std::optional<std::int64_t> first_ns_;
   CalibrationSums before_;
   CalibrationRunResult result_;
@@ -86,6 +96,15 @@ RunAgreement& RunAgreement::operator+=(const RunAgreement& other)
   return *this;
 }
 
+RunAgreement& RunAgreement::operator-=(const RunAgreement& other)
+{
+  innovation_squares -= other.innovation_squares;
+  innovations -= other.innovations;
+  residual_squares -= other.residual_squares;
+  points -= other.points;
+  return *this;
+}
+
 double RunAgreement::innovation() const
 {
   return innovations > 0.0 ? innovation_squares / innovations : 0.0;
@@ -94,6 +113,13 @@ double RunAgreement::innovation() const
 double RunAgreement::mapThickness() const
 {
   return points > 0.0 ? std::sqrt(residual_squares / points) : 0.0;
+}
+
+RunAgreement CalibrationRunResult::agreementFrom(std::size_t scan) const
+{
+  RunAgreement rest = agreement;
+  if (scan > 0 && !history.empty()) rest -= history[std::min(scan, history.size()) - 1];
+  return rest;
 }
 
 void CalibrationRunResult::takeTimeOffset(double offset, double std)
@@ -109,7 +135,7 @@ CalibrationRunResult calibrationRun(
 {
   DecodeAheadSource source = openedSource(recording, config);
   Odometry odometry(config.odometry);
-  RunFollower follower(odometry, range.measured_from);
+  RunFollower follower(odometry, range);
   std::size_t scans = 0;
   while (scans < range.end)
   {

@@ -17,6 +17,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cmath>
+#include <limits>
 
 namespace fastlio
 {
@@ -78,6 +79,7 @@ class RawlogExporter : public Exporter
         recording_(options.recording),
         parameters_(options.parameters),
         offset_ns_(toNanoseconds(options.time_offset)),
+        max_range_(options.max_range),
         bridge_(recording_.selection, recording_.bridge),
         track_(options.frame)
   {
@@ -95,13 +97,31 @@ class RawlogExporter : public Exporter
             addToFrames(observation);
           else
             addToStream(observation);
-          return true;
+          return passesAll() || !isOver(*observation);
         });
     writePosesBefore(std::numeric_limits<std::int64_t>::max());
     return {file_.commit()};
   }
 
  private:
+  // Beyond: the poses are over. Single stamps may be corrupt, or of another clock.
+  static constexpr std::size_t kMostBehind = 1000;
+
+  /** Whether observations are written without any pose. */
+  [[nodiscard]] bool passesAll() const
+  {
+    return parameters_.rawlog_form == RawlogForm::Observations && parameters_.rawlog_pass_through;
+  }
+
+  /** Whether nothing of what follows has a pose. */
+  [[nodiscard]] bool isOver(const CObservation& observation)
+  {
+    const auto& poses = track_.poses();
+    const std::int64_t stamp_ns = toNanoseconds(observation.timestamp) + offset_ns_;
+    behind_ = poses.empty() || stamp_ns > poses.back().stamp_ns ? behind_ + 1 : 0;
+    return behind_ >= kMostBehind;
+  }
+
   void write(const mrpt::serialization::CSerializable& object)
   {
     mrpt::serialization::archiveFrom(file_) << object;
@@ -122,11 +142,7 @@ class RawlogExporter : public Exporter
     auto* scan = std::get_if<LidarScan>(&output);
     if (scan == nullptr) return nullptr;
     scan->stamp_ns += offset_ns_;
-    Pseudo2dScanOptions options;
-    options.rays = parameters_.scan_2d_rays;
-    options.height = parameters_.scan_2d_height;
-    options.thickness = parameters_.scan_2d_thickness;
-    return pseudo2dScan(*scan, track_, options);
+    return pseudo2dScan(*scan, track_, planarScanOptions(parameters_, max_range_));
   }
 
   [[nodiscard]] std::optional<TrackedPose> poseOf(const CObservation& observation) const
@@ -152,7 +168,12 @@ class RawlogExporter : public Exporter
   {
     if (parameters_.rawlog_pass_through) frame_.insert(observation);
     const auto pose = poseOf(*observation);
-    if (!pose) return;
+    if (!pose)
+    {
+      // A run that is lost for hours would fill the memory with what nothing is written of.
+      if (isSelectedScan(recording_, *observation)) frame_.clear();
+      return;
+    }
     const TrackedPose& from = last_.value_or(*pose);
     CActionCollection actions;
     actions.insert(movement2D(from, *pose));
@@ -168,11 +189,13 @@ class RawlogExporter : public Exporter
   RecordingAccess recording_;
   ExportOptions parameters_;
   std::int64_t offset_ns_;
+  double max_range_;
   ObservationBridge bridge_;
   PoseTrack track_;
   std::size_t next_pose_ = 0;
   std::optional<TrackedPose> last_;
   CSensoryFrame frame_;
+  std::size_t behind_ = 0;  // observations in a row later than the last pose
 };
 }  // namespace
 

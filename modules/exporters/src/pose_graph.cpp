@@ -124,13 +124,17 @@ class GraphExporter : public Exporter
   {
   }
 
-  void onScan(const ScanResult& result) override { track_.add(result); }
+  /** Keeps key frames only: with its covariances, a pose has 2 kB. */
+  void onScan(const ScanResult& result) override
+  {
+    if (!hasPose(result.status)) return;
+    const Pose T_world_body = result.filter.x.pose() * track_.frame().T_imu_body;
+    if (rule_.accept(T_world_body)) track_.add(result);
+  }
 
   std::vector<OutputFile> finish(const RunEnd& /*end*/) override
   {
-    std::vector<TrackedPose> frames;
-    for (const TrackedPose& pose : track_.poses())
-      if (rule_.accept(pose.T_world_body)) frames.push_back(pose);
+    const std::vector<TrackedPose>& frames = track_.poses();
     std::vector<Pose> poses;
     std::vector<GraphFileEdge> edges;
     for (std::size_t i = 0; i < frames.size(); ++i)

@@ -42,6 +42,11 @@ void addRay(
 }
 }  // namespace
 
+Pseudo2dScanOptions planarScanOptions(const ExportOptions& options, double max_range)
+{
+  return {options.scan_2d_rays, options.scan_2d_height, options.scan_2d_thickness, max_range};
+}
+
 mrpt::obs::CObservation2DRangeScan::Ptr pseudo2dScan(
     const LidarScan& scan, const PoseTrack& track, const Pseudo2dScanOptions& options)
 {
@@ -56,11 +61,11 @@ mrpt::obs::CObservation2DRangeScan::Ptr pseudo2dScan(
   planar->sensorLabel = "pseudo_2d_scan";
   const Vec3 mounting = R_level_world * (origin - Vec3(ground.x(), ground.y(), 0.0));
   planar->sensorPose = mrpt::poses::CPose3D(mounting.x(), mounting.y(), 0.0, 0.0, 0.0, 0.0);
-  const OutputPoints world = scanInWorld(scan, track);
-  for (std::size_t i = 0; i < world.size(); ++i)
+  // From the LiDAR on: a world in coordinates of surveyors is too large for single precision.
+  const OutputPoints around = scanInWorld(scan, track, origin);
+  for (std::size_t i = 0; i < around.size(); ++i)
   {
-    const Vec3 point = pointAt(world, i);
-    const Vec3 ray = R_level_world * (point - origin);
+    const Vec3 ray = R_level_world * pointAt(around, i);
     if (std::abs(ray.z() - options.height) <= 0.5 * options.thickness)
       addRay(*planar, ray.x(), ray.y(), options);
   }

@@ -4,6 +4,7 @@
 #include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/run_health.h>
 
 namespace fastlio
 {
@@ -47,10 +48,13 @@ std::string milliseconds(const StageTimings& t)
 
 std::string timingRow(const ScanResult& result)
 {
+  // Each scan has a smallest measure; of a good one it is no cause of anything.
+  const HealthCause cause =
+      result.health.value < kTroubledHealth ? result.health.cause : HealthCause::None;
   return std::to_string(result.stamp_ns) + "," + machineName(result.status) +
          counts(result.statistics) + measures(result.statistics) +
          milliseconds(result.milliseconds) + "," + fixedText(result.health.value, 3) + "," +
-         toString(result.health.cause) + "\n";
+         toString(cause) + "\n";
 }
 }  // namespace
 

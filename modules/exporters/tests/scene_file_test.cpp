@@ -145,5 +145,26 @@ TEST(BoundedPath, BreaksWhereThereIsNoPoseForLong)
       5);
 }
 
+/** Whatever is left out: no line is drawn across the time without poses. */
+TEST(BoundedPath, StillBreaksWhereALongPathIsThinned)
+{
+  for (int gap_after = 1; gap_after < 500; ++gap_after)
+  {
+    BoundedPath path(50, 1.0);
+    for (int i = 0; i < 501; ++i)
+      path.add(kRunStart + (i + (i > gap_after ? 100 : 0)) * kPeriod, {0.0 + i, 0.0, 0.0});
+    const auto positions = path.positions();
+    int breaks = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      if (positions[i].allFinite()) continue;
+      ++breaks;
+      EXPECT_LE(positions.at(i - 1).x(), gap_after);
+      EXPECT_GT(positions.at(i + 1).x(), gap_after);
+    }
+    EXPECT_EQ(breaks, 1) << gap_after;
+  }
+}
+
 }  // namespace
 }  // namespace fastlio

@@ -7,6 +7,14 @@
 
 namespace fastlio
 {
+namespace
+{
+std::string idAttribute(const std::string& id)
+{
+  return id.empty() ? "" : " id=\"" + id + "\"";
+}
+}  // namespace
+
 std::string htmlText(const std::string& text)
 {
   constexpr std::size_t kLongest = 2000;  // a path or a message in full, and no page of it
@@ -39,9 +47,10 @@ std::string figureHtml(
   return html + "</figure>\n";
 }
 
-std::string sectionHtml(const std::string& title, const std::string& content)
+std::string sectionHtml(const std::string& title, const std::string& content, const std::string& id)
 {
-  return "<section>\n<h2>" + htmlText(title) + "</h2>\n" + content + "</section>\n";
+  return "<section" + idAttribute(id) + ">\n<h2>" + htmlText(title) + "</h2>\n" + content +
+         "</section>\n";
 }
 
 std::string pageHtml(const Page& page)
@@ -49,9 +58,10 @@ std::string pageHtml(const Page& page)
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
          htmlText(page.title) + "</title>\n<style>\n" + reportStyle() +
-         "</style>\n</head>\n<body>\n<header class=\"" + page.tone + "\">\n<h1>" +
-         htmlText(page.headline) + "</h1>\n<p class=\"source\">" + htmlText(page.source) +
-         "</p>\n</header>\n<main>\n" + page.content + "</main>\n</body>\n</html>\n";
+         "</style>\n</head>\n<body>\n<header class=\"" + page.tone + "\">\n<h1" +
+         idAttribute(page.headline_id) + ">" + htmlText(page.headline) +
+         "</h1>\n<p class=\"source\">" + htmlText(page.source) + "</p>\n" + page.details +
+         "</header>\n<main>\n" + page.content + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace fastlio

@@ -135,8 +135,12 @@ PlotSeries lineOf(const ReportSeries& series, const ChartLine& line)
 PlotBand bandOf(const ReportSeries& series, const ChartLine& line)
 {
   PlotBand band{line.colour, {}};
+  double last_s = 0.0;
   for (const ReportBin& bin : series.bins())
   {
+    if (bin.begin_s - last_s > kReportGapSeconds)
+      band.intervals.push_back({kNoNumber, kNoNumber, kNoNumber});
+    last_s = bin.end_s;
     const double reach = kSigmas * static_cast<double>(bin.high.at(*line.sigma));
     band.intervals.push_back(
         {bin.end_s, static_cast<double>(bin.low.at(line.channel)) - reach,

@@ -164,12 +164,12 @@ PlotSeries openBars(const ReportSeries& series, const Vec3& origin, const PlotRa
   PlotSeries bars{"degenerate direction", "var(--warn)", {}, 2.5};
   std::vector<ReportBin> open;
   for (const ReportBin& bin : series.bins())
-    if (bin.open_axis) open.push_back(bin);
+    if (bin.open_axis && bin.position) open.push_back(bin);
   const std::size_t stride = (open.size() + kMostBars - 1) / kMostBars;
   for (std::size_t i = 0; i < open.size(); i += stride)
   {
     const ReportBin& bin = open[i];
-    const Vec3 p = bin.position - origin, d = length * *bin.open_axis;
+    const Vec3 p = *bin.position - origin, d = length * *bin.open_axis;
     for (const Vec3& end : {Vec3(p - d), Vec3(p + d)})
       bars.points.push_back({end.x(), end.y()});
     bars.points.push_back({gap, gap});

@@ -22,26 +22,9 @@ std::string nameOfRun(const RunSummary& run)
   return further == 0 ? first : first + " and " + std::to_string(further) + " more";
 }
 
-std::string pageSection(const char* id, const char* title, const std::string& html)
-{
-  return "<section id=\"" + std::string(id) + "\">\n<h2>" + title + "</h2>\n" + html +
-         "</section>\n";
-}
-
 std::string gridOfFigures(const std::string& figures)
 {
   return "<div class=\"grid-of\">\n" + figures + "</div>\n";
-}
-
-std::string headerHtml(const ReportContent& content)
-{
-  const RunSummary& run = content.run;
-  const RunVerdict verdict = verdictOf(run);
-  return "<header class=\"" + verdict.tone + "\">\n<h1 id=\"verdict\">" +
-         htmlText(verdict.headline) + "</h1>\n<p class=\"source\">" + htmlText(nameOfRun(run)) +
-         ", " + htmlText(run.program + " " + run.version) +
-         ", parameters: " + htmlText(run.configuration) + "</p>\n" + verdict.details +
-         "</header>\n";
 }
 
 std::string optionRow(const OptionText& option, const std::string* standard)
@@ -88,23 +71,24 @@ std::string errorTableHtml(const EvaluationReport& r)
 std::string resultsHtml(const ReportContent& content)
 {
   const RunSummary& run = content.run;
-  return pageSection("facts", "The run", factsHtml(run)) +
-         pageSection(
-             "untrusted", "Stretches not to rely on", untrustedHtml(run.statistics.health())) +
-         pageSection("map", "Trajectory and map", gridOfFigures(mapFigures(content.map))) +
+  return sectionHtml("The run", factsHtml(run), "facts") +
+         sectionHtml(
+             "Stretches not to rely on", untrustedHtml(run.statistics.health()), "untrusted") +
+         sectionHtml("Trajectory and map", gridOfFigures(mapFigures(content.map)), "map") +
          (content.reference.file.empty()
               ? ""
-              : pageSection(
-                    "reference", "Against the reference",
+              : sectionHtml(
+                    "Against the reference",
                     referenceHtml(content.reference) +
-                        gridOfFigures(errorCharts(content.reference, content.series)))) +
-         pageSection("charts", "Over time", gridOfFigures(timeCharts(content.series))) +
-         pageSection("diagnostics", "Diagnostics", diagnosticsHtml(run)) +
-         pageSection("losses", "Dropped data", lossesHtml(run)) +
-         pageSection("sensors", "Sensors", sensorsHtml(run)) +
-         pageSection("calibration", "Check of the calibration", calibrationHtml(run)) +
-         pageSection("parameters", "Parameters", parametersHtml(run)) +
-         pageSection("advice", "Causes of trouble", adviceHtml());
+                        gridOfFigures(errorCharts(content.reference, content.series)),
+                    "reference")) +
+         sectionHtml("Over time", gridOfFigures(timeCharts(content.series)), "charts") +
+         sectionHtml("Diagnostics", diagnosticsHtml(run), "diagnostics") +
+         sectionHtml("Dropped data", lossesHtml(run), "losses") +
+         sectionHtml("Sensors", sensorsHtml(run), "sensors") +
+         sectionHtml("Check of the calibration", calibrationHtml(run), "calibration") +
+         sectionHtml("Parameters", parametersHtml(run), "parameters") +
+         sectionHtml("Causes of trouble", adviceHtml(), "advice");
 }
 }  // namespace
 
@@ -154,14 +138,22 @@ std::string referenceHtml(const ReferenceFindings& findings)
 
 std::string reportPage(const ReportContent& content)
 {
+  const RunSummary& run = content.run;
   const std::string measured =
-      measuredFactsHtml(content.run) + gridOfFigures(measuredCharts(content.series));
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         htmlText(nameOfRun(content.run)) + ": report</title>\n<style>\n" + reportStyle() +
-         "</style>\n</head>\n<body>\n" + headerHtml(content) + "<main>\n" + resultsHtml(content) +
-         "<!-- measured: these numbers differ from run to run -->\n" +
-         pageSection("measured", "Time and memory", measured) + "</main>\n</body>\n</html>\n";
+      measuredFactsHtml(run) + gridOfFigures(measuredCharts(content.series));
+  const RunVerdict verdict = verdictOf(run);
+  Page page;
+  page.title = nameOfRun(run) + ": report";
+  page.tone = verdict.tone;
+  page.headline = verdict.headline;
+  page.headline_id = "verdict";
+  page.source = nameOfRun(run) + ", " + run.program + " " + run.version +
+                ", parameters: " + run.configuration;
+  page.details = verdict.details;
+  page.content = resultsHtml(content) +
+                 "<!-- measured: these numbers differ from run to run -->\n" +
+                 sectionHtml("Time and memory", measured, "measured");
+  return pageHtml(page);
 }
 
 }  // namespace fastlio

@@ -74,7 +74,7 @@ void takeIn(ReportBin& bin, const ReportBin& next)
 {
   takeIn(bin, next.low, next.high);
   bin.end_s = next.end_s;
-  bin.position = next.position;
+  if (next.position) bin.position = next.position;
   if (next.open_axis) bin.open_axis = next.open_axis;
   if (next.worst_health >= bin.worst_health) return;
   bin.worst_health = next.worst_health;

@@ -40,15 +40,6 @@ void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
 }
 }  // namespace
 
-void OutputPoints::clear()
-{
-  x.clear();
-  y.clear();
-  z.clear();
-  intensity.clear();
-  stamp_ns.clear();
-}
-
 /** Either in memory (index) or in a file. */
 struct OutputMap::Tile
 {

@@ -66,12 +66,16 @@ void RunHealth::extendStretch(const ScanResult& result)
   stretch.end_ns = result.stamp_ns;
   stretch.end_s = toSeconds(result.stamp_ns - begin_ns_);
   ++stretch.scans;
-  if (++growing.causes[result.health.cause] > growing.causes[stretch.cause] ||
-      stretch.cause == HealthCause::None)
-    stretch.cause = result.health.cause;
-  if (result.health.value >= growing.worst) return;
-  growing.worst = result.health.value;
-  stretch.reason = result.health.reason;
+  const ScanHealth& health = result.health;
+  OfCause& of_cause = growing.causes[health.cause];
+  ++of_cause.scans;
+  if (health.value < of_cause.worst)
+  {
+    of_cause.worst = health.value;
+    of_cause.reason = health.reason;
+  }
+  if (of_cause.scans > growing.causes[stretch.cause].scans) stretch.cause = health.cause;
+  stretch.reason = growing.causes[stretch.cause].reason;
 }
 
 std::vector<UntrustedStretch> RunHealth::untrusted() const

@@ -12,9 +12,10 @@ namespace fastlio
 namespace
 {
 /** Counts that are no loss. */
-constexpr std::array<std::string_view, 6> kNoLoss = {
-    "imu_samples",   "scans",         "points",
-    "other_sensors", "scans_skipped", "scans_with_synthetic_point_times"};
+constexpr std::array<std::string_view, 7> kNoLoss = {
+    "imu_samples",          "scans",         "points",
+    "other_sensors",        "scans_skipped", "scans_with_synthetic_point_times",
+    "points_without_return"};  // a beam into the sky has none
 }  // namespace
 
 ExitStatus exitStatusOf(const RunSummary& summary)

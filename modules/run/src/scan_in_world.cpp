@@ -46,7 +46,7 @@ Pose mountingOn(const PoseTrack& track, const LidarScan& scan)
   return track.frame().T_imu_body.inverse() * scan.T_imu_lidar;
 }
 
-OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track)
+OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track, const Vec3& origin)
 {
   OutputPoints world;
   const SensorPath path(scan, track);
@@ -56,7 +56,7 @@ OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track)
     const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
     const auto& T_world_lidar = path.at(stamp_ns);
     if (!T_world_lidar) continue;
-    const Vec3 p = *T_world_lidar * pointAt(points, i);
+    const Vec3 p = *T_world_lidar * pointAt(points, i) - origin;
     world.x.push_back(static_cast<float>(p.x()));
     world.y.push_back(static_cast<float>(p.y()));
     world.z.push_back(static_cast<float>(p.z()));

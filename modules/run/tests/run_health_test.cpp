@@ -51,6 +51,22 @@ TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
 }
 
+// A stretch in a tunnel may have one scan that fares worse for another reason.
+TEST(RunHealth, CauseAndReasonOfAStretchBelongTogether)
+{
+  RunHealth health;
+  for (int i = 1; i <= 4; ++i)
+    health.add(troubledScan(i, 0.3 - 0.01 * i));
+  ScanResult other = troubledScan(5, 0.0);
+  other.health = {0.0, HealthCause::FewMatches, "another reason"};
+  health.add(other);
+  const auto stretches = health.untrusted();
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].scans, 5U);
+  EXPECT_EQ(stretches[0].cause, HealthCause::LargeResidual);
+  EXPECT_EQ(stretches[0].reason, "reason 4");
+}
+
 // Another place may look the same: who has searched the map may be there.
 TEST(ExitStatus, IsDegradedByOneScanThatWasFoundFromFarOff)
 {

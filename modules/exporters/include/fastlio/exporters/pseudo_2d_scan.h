@@ -21,6 +21,10 @@ struct Pseudo2dScanOptions
   double max_range = 150.0;  //!< [m]
 };
 
+/** As the options of the exporters ask for it.
+ * \param max_range of the LiDAR (lidar.max_range) [m] */
+[[nodiscard]] Pseudo2dScanOptions planarScanOptions(const ExportOptions& options, double max_range);
+
 /** The scan as a planar LiDAR in a level plane through the real one would have seen it at the
  * scan's stamp: each point moves to where it was in the world when it was measured, and the nearest
  * one in each ray of the slice counts. The vehicle of the result is the level frame on the ground

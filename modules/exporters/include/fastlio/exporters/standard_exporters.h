@@ -26,6 +26,7 @@ struct ExportTarget
   double time_offset = 0.0;   //!< added to the stamps of raw scans (lidar.time_offset) [s]
   bool imu_rate = false;      //!< also imu_rate.csv (output.imu_rate)
   std::string reference;      //!< trajectory to compare with in the report; empty: none
+  double max_range = 150.0;   //!< of planar scans (lidar.max_range) [m]
 
   /** Path of a file in the directory. */
   [[nodiscard]] std::string path(std::string_view file) const;

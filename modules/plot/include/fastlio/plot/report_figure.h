@@ -32,17 +32,22 @@ struct LegendEntry
 /** The style of a page, for light and dark screens. */
 [[nodiscard]] std::string reportStyle();
 
-/** A heading with what belongs to it. \param content is HTML */
-[[nodiscard]] std::string sectionHtml(const std::string& title, const std::string& content);
+/** A heading with what belongs to it.
+ * \param content is HTML
+ * \param id for links to it; empty: none */
+[[nodiscard]] std::string sectionHtml(
+    const std::string& title, const std::string& content, const std::string& id = {});
 
 /** A page: one file that needs no other. */
 struct Page
 {
   std::string title;
-  std::string tone;      //!< "good", "warn" or "bad" colours the headline; empty: neither
-  std::string headline;  //!< a sentence
-  std::string source;    //!< program, version, input
-  std::string content;   //!< HTML; all others are plain text
+  std::string tone;              //!< "good", "warn" or "bad" colours the headline; empty: neither
+  std::string headline;          //!< a sentence
+  std::string source;            //!< program, version, input
+  std::string content;           //!< HTML; all others but the details are plain text
+  std::string details = {};      //!< HTML below the headline
+  std::string headline_id = {};  //!< for links to it; empty: none
 };
 
 [[nodiscard]] std::string pageHtml(const Page& page);

@@ -53,7 +53,7 @@ struct ReportBin
   std::array<float, kReportChannels> low{}, high{};  //!< not a number: no scan has one
   double worst_health = 1.0;
   HealthCause cause = HealthCause::None;  //!< of the scan that fared worst
-  Vec3 position = Vec3::Zero();           //!< of the body, at the last pose [m]
+  std::optional<Vec3> position;           //!< of the body, at the last pose [m]
   /** The weakest degenerate translation of the bin's last scan that has one. */
   std::optional<Vec3> open_axis;
 };

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file bounded_path.h Where a body went, in bounded memory (internal). */
+/** \file bounded_path.h Where a body went, in bounded memory. */
 #pragma once
 
 #include <fastlio/math/so3.h>
@@ -13,7 +13,7 @@
 
 namespace fastlio
 {
-/** Positions in time order. When there are too many, each other one is left out. */
+/** Positions in time order. When there are too many, every second one is left out. */
 class BoundedPath
 {
  public:
@@ -28,10 +28,19 @@ class BoundedPath
   [[nodiscard]] std::vector<Vec3> positions() const;
 
  private:
+  struct Place
+  {
+    Vec3 position;
+    bool is_after_gap;
+  };
+
+  void leaveOutEverySecond();
+
   std::size_t most_;
   double gap_s_;
-  std::vector<Vec3> path_;
+  std::vector<Place> path_;
   std::size_t stride_ = 1, seen_ = 0;
+  bool gap_ = false;  //!< since the latest one of the path
   std::optional<Vec3> last_;
   std::int64_t last_ns_ = 0;
 };

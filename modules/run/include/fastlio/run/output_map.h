@@ -32,7 +32,6 @@ struct OutputPoints
   std::vector<std::int64_t> stamp_ns;  //!< when the point was measured, UNIX epoch
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
-  void clear();
 };
 
 /** Options of an OutputMap. */

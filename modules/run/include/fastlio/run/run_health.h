@@ -25,7 +25,7 @@ struct UntrustedStretch
   double begin_s = 0.0, end_s = 0.0;      //!< the same, since the first scan's begin [s]
   std::size_t scans = 0;                  //!< in trouble, or without a result
   HealthCause cause = HealthCause::None;  //!< of most of them
-  std::string reason;                     //!< in words, of the scan that fared worst
+  std::string reason;                     //!< in words, of the scan that fared worst by it
 };
 
 /** Digest of the scans' health, from the first pose on. */
@@ -60,12 +60,18 @@ class RunHealth
   [[nodiscard]] std::vector<UntrustedStretch> untrusted() const;
 
  private:
+  /** The scans of a stretch that have one cause. */
+  struct OfCause
+  {
+    std::size_t scans = 0;
+    double worst = 1.0;
+    std::string reason;
+  };
   /** A stretch that may go on. */
   struct Growing
   {
     UntrustedStretch stretch;
-    std::map<HealthCause, std::size_t> causes;
-    double worst = 1.0;
+    std::map<HealthCause, OfCause> causes;
     //! One scan is enough: it was found in the map from far off, or contradicts the inertial data.
     bool grave = false;
   };

@@ -11,8 +11,11 @@
 namespace fastlio
 {
 /** Every point of the scan with the pose of its own time; those without a pose are left out.
- * \param track of the vehicle, or any other body, named by its frame */
-[[nodiscard]] OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track);
+ * \param track of the vehicle, or any other body, named by its frame
+ * \param origin what the points are counted from, in the world [m]: in single precision, they had
+ * better be near it */
+[[nodiscard]] OutputPoints scanInWorld(
+    const LidarScan& scan, const PoseTrack& track, const Vec3& origin = Vec3::Zero());
 
 /** The LiDAR's mounting on the track's body. */
 [[nodiscard]] Pose mountingOn(const PoseTrack& track, const LidarScan& scan);
