@@ -29,6 +29,7 @@ struct Field
     NamedLists,      // 32-bit count, so many of a string and Counted
     Object,          // another object
     CountedObjects,  // 32-bit count, so many observations
+    CountedActions,  // 32-bit count, so many actions
     ImageSize,       // 16-bit rows and columns, which the images behind refer to
     RotatingImages,  // images of that size, in one of two layouts
     StoredCloud,     // 0 and an object, or another byte and the name of a file
@@ -107,6 +108,7 @@ inline std::multimap<std::string, Layout> makeLayouts()
   std::multimap<std::string, Layout> layouts{
       {"mrpt::poses::CPose3D", {3, {fixed(12 * kDouble)}}},
       {"mrpt::obs::CSensoryFrame", {2, {{Field::CountedObjects}}}},
+      {"mrpt::obs::CActionCollection", {0, {{Field::CountedActions}}}},
       {"mrpt::obs::CObservationIMU", {4, imuFields()}},
       {"mrpt::obs::CObservationVelodyneScan", {2, velodyneFields()}},
       {fastlio::kRotatingScanClass, {0, rotatingScanFields()}},

@@ -6,6 +6,7 @@
 #include <fastlio/archives/size_check.h>
 
 #include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CAction.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/rtti/CObject.h>
 
@@ -164,6 +165,8 @@ class Walk
         return object(depth + 1);
       case Field::CountedObjects:
         return repeated([&] { return object(depth + 1, CLASS_ID(mrpt::obs::CObservation)); });
+      case Field::CountedActions:
+        return repeated([&] { return object(depth + 1, CLASS_ID(mrpt::obs::CAction)); });
       case Field::ImageSize:
         return imageSize();
       case Field::RotatingImages:

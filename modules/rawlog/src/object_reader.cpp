@@ -8,6 +8,8 @@
 #include <fastlio/compat/mrpt_messages.h>
 #include <fastlio/files/input_file.h>
 
+#include <mrpt/obs/CAction.h>
+#include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/rtti/CObject.h>
@@ -26,17 +28,11 @@ bool isRegistered(const std::string& class_name)
   return mrpt::rtti::findRegisteredClass(class_name) != nullptr;
 }
 
-/** Of MRPT's own class, under whichever of its names. */
-bool isFrame(const std::string& class_name)
-{
-  return mrpt::rtti::findRegisteredClass(class_name) == CLASS_ID(mrpt::obs::CSensoryFrame);
-}
-
-/** It may stand in a frame. A class that is not known fails where it is read. */
-bool belongsInAFrame(const std::string& class_name)
+/** A class that is not known fails where it is read. */
+bool derivesFrom(const std::string& class_name, const mrpt::rtti::TRuntimeClassId* base)
 {
   const auto* id = mrpt::rtti::findRegisteredClass(class_name);
-  return id == nullptr || id->derivedFrom(CLASS_ID(mrpt::obs::CObservation));
+  return id == nullptr || id->derivedFrom(base);
 }
 
 std::string hintFor(ReadProblemKind kind)
@@ -146,19 +142,24 @@ NextObject ObjectReader::readOne()
   }
 }
 
-// MRPT reads rotating scans of its own layout only, and in frames whatever stands there: frames in
-// frames, of any length and depth.
+// MRPT reads rotating scans of its own layout only, and in frames and collections whatever stands
+// there: frames in frames, of any length and depth, or what is no action, which ends the program.
 mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHeader& header)
 {
   auto archive = mrpt::serialization::archiveFrom(*stream_);
-  const bool is_frame = isFrame(header.class_name);
-  if (header.class_name != kRotatingScanClass && !is_frame) return archive.ReadObject();
+  const auto* id = mrpt::rtti::findRegisteredClass(header.class_name);
+  const bool is_frame = id == CLASS_ID(mrpt::obs::CSensoryFrame);
+  const bool is_collection = id == CLASS_ID(mrpt::obs::CActionCollection);
+  const bool is_scan = header.class_name == kRotatingScanClass;
+  if (!is_frame && !is_collection && !is_scan) return archive.ReadObject();
   // And the version, which is the same in all layouts.
   std::vector<std::uint8_t> head(header.length + 1);
   archive.ReadBuffer(head.data(), head.size());
   mrpt::serialization::CSerializable::Ptr object;
   if (is_frame)
     object = readFrame(archive);
+  else if (is_collection)
+    object = readCollection(archive);
   else
     object = readRotatingScan(archive);
   if (archive.ReadAs<std::uint8_t>() != kEndFlag)
@@ -166,21 +167,41 @@ mrpt::serialization::CSerializable::Ptr ObjectReader::readObject(const ObjectHea
   return object;
 }
 
-mrpt::serialization::CSerializable::Ptr ObjectReader::readFrame(
-    mrpt::serialization::CArchive& archive)
+template <typename Take>
+void ObjectReader::readParts(
+    mrpt::serialization::CArchive& archive, const mrpt::rtti::TRuntimeClassId* base,
+    const Take& take)
 {
-  auto frame = mrpt::obs::CSensoryFrame::Create();
   const auto count = archive.ReadAs<std::uint32_t>();  // checkSizes() has bounded it
   for (std::uint32_t i = 0; i < count; ++i)
   {
     const auto header = stream_->peekHeader();
-    if (header && !belongsInAFrame(header->class_name))
-      throw std::runtime_error("a frame holds an object of class " + header->class_name);
-    const auto object = header ? readObject(*header) : archive.ReadObject();
-    if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
-      frame->insert(observation);
+    if (header && !derivesFrom(header->class_name, base))
+      throw std::runtime_error("it holds an object of class " + header->class_name);
+    take(header ? readObject(*header) : archive.ReadObject());
   }
+}
+
+mrpt::serialization::CSerializable::Ptr ObjectReader::readFrame(
+    mrpt::serialization::CArchive& archive)
+{
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  readParts(
+      archive, CLASS_ID(mrpt::obs::CObservation),
+      [&](const mrpt::serialization::CSerializable::Ptr& object)
+      {
+        if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+          frame->insert(observation);
+      });
   return frame;
+}
+
+/** Nobody asks for the actions in it. */
+mrpt::serialization::CSerializable::Ptr ObjectReader::readCollection(
+    mrpt::serialization::CArchive& archive)
+{
+  readParts(archive, CLASS_ID(mrpt::obs::CAction), [](const auto& /*action*/) {});
+  return mrpt::obs::CActionCollection::Create();
 }
 
 NextObject ObjectReader::atEndOfFile()

@@ -43,6 +43,14 @@ class ObjectReader
   [[nodiscard]] mrpt::serialization::CSerializable::Ptr readObject(const ObjectHeader& header);
   [[nodiscard]] mrpt::serialization::CSerializable::Ptr readFrame(
       mrpt::serialization::CArchive& archive);
+  [[nodiscard]] mrpt::serialization::CSerializable::Ptr readCollection(
+      mrpt::serialization::CArchive& archive);
+  /** Hands over the objects in a frame or a collection.
+   * \exception std::runtime_error one of them is not of a class that derives from \a base */
+  template <typename Take>
+  void readParts(
+      mrpt::serialization::CArchive& archive, const mrpt::rtti::TRuntimeClassId* base,
+      const Take& take);
   [[nodiscard]] NextObject atEndOfFile();
   [[nodiscard]] NextObject fail(ReadProblem problem);
   [[nodiscard]] ReadProblem diagnose(const std::string& class_name, const std::string& error) const;

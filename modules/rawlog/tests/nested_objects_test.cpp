@@ -6,6 +6,7 @@
 #include "rawlog_reading.h"
 #include <fastlio/compat/register_classes.h>
 
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
@@ -72,19 +73,35 @@ TEST_F(NestedObjects, AFrameInAFrameTakesNoMemoryThatItClaims)
   const Reading reading = readAll({fileOf(serialize(samples(3)) + frame)});
   ASSERT_FALSE(reading.problems.empty());
   const std::string& message = reading.problems[0].message;
-  EXPECT_NE(message.find("a frame holds an object of class"), std::string::npos) << message;
+  EXPECT_NE(message.find("it holds an object of class"), std::string::npos) << message;
 }
 
+// Of a map of frames and poses, of which there is one without a pose.
 TEST_F(NestedObjects, WhatMrptReadsByItselfEndsAtSomeDepth)
 {
-  const std::string actions = nested(mrpt::obs::CActionCollection::Create(), "", 5000);
-  const Reading reading =
-      readAll({fileOf(serialize(samples(3)) + actions + serialize(samples(2)))});
+  const std::string map = beginningOf(mrpt::maps::CSimpleMap::Create(), '\1') + "\x87nullptr\x88" +
+                          nested(mrpt::obs::CSensoryFrame::Create(), "", 5000) + '\x88';
+  const Reading reading = readAll({fileOf(serialize(samples(3)) + map + serialize(samples(2)))});
   EXPECT_EQ(reading.seconds.size(), 5U);
   EXPECT_TRUE(std::any_of(
       reading.problems.begin(), reading.problems.end(),
       [](const ReadProblem& problem)
       { return problem.message.find("nested too deeply") != std::string::npos; }));
+}
+
+// MRPT copies what it took for an action without a look at it.
+TEST_F(NestedObjects, ACollectionHoldsActionsOnly)
+{
+  for (const Object& other : {comment(), Object(mrpt::obs::CActionCollection::Create())})
+  {
+    const std::string actions =
+        beginningOf(mrpt::obs::CActionCollection::Create(), '\1') + serialize({other}) + '\x88';
+    const Reading reading =
+        readAll({fileOf(serialize(samples(3)) + actions + serialize(samples(2)))});
+    EXPECT_GE(reading.seconds.size(), 5U);
+    ASSERT_FALSE(reading.problems.empty());
+    EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt) << reading.problems[0].message;
+  }
 }
 
 TEST_F(NestedObjects, FramesAreReadAsMrptReadsThem)
