@@ -33,7 +33,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
   InfoArguments arguments;
   app.add_option(
          "input,--input-rawlog", arguments.input_files,
-         "Rawlog file; several are parts of one recording, in this order")
+         "Recording; several are parts of one, in this order")
       ->type_name("FILE");
   app.add_option(
          "-c,--config", arguments.config_file,

@@ -70,7 +70,9 @@ std::string poseLine(const Pose& T)
 std::string endText(const RecordingSurvey& survey)
 {
   if (!survey.unusable.empty()) return "fastlio-replay CANNOT run on this: " + survey.unusable;
-  if (survey.problems.empty()) return "fastlio-replay can run on this.";
+  if (survey.problems.empty() && survey.warnings.empty()) return "fastlio-replay can run on this.";
+  if (survey.problems.empty())
+    return "fastlio-replay can run on this, but read what is marked WARNING above first.";
   return "fastlio-replay can run on what could be read of this. The recording is damaged (see "
          "trouble above): a run ends with exit status 3.";
 }
@@ -188,14 +190,15 @@ std::string motionText(const RecordingSurvey& survey)
                     "%.2f)",
                     motion.time_offset, motion.time_offset_std, motion.turns, motion.correlation));
   text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
-  return text + line(
-                    "mounting",
-                    motion.rotation_known
-                        ? format(
-                              "the given rotation is within %.1f deg of the one that both motions "
-                              "show",
-                              kDegPerRad * survey.rotation_error)
-                        : std::string("the motion turns about one axis only: not observable"));
+  return text +
+         line(
+             "mounting",
+             motion.rotation_known
+                 ? format(
+                       "the given rotation differs by %.1f deg from the one that both motions "
+                       "show",
+                       kDegPerRad * survey.rotation_error)
+                 : std::string("the motion turns about one axis only: not observable"));
 }
 
 std::string listText(const char* title, const std::vector<std::string>& sentences)

@@ -21,7 +21,7 @@ const std::array<RosType, 17> kRosTypes{{
     {"velodyne_msgs/VelodyneScan", "LiDAR, raw packets", readVelodyneScan},
     {"sensor_msgs/NavSatFix", "GNSS", readNavSatFix},
     {"nav_msgs/Odometry", "odometry: planar pose and velocity", readOdometry},
-    {"tf2_msgs/TFMessage", "transforms: poses of sensors", nullptr, RosRole::Transforms},
+    {"tf2_msgs/TFMessage", "used for the poses of sensors", nullptr, RosRole::Transforms},
     {"ouster_ros/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr, RosRole::OusterPackets},
     {"ouster_sensor_msgs/PacketMsg", "packets of an Ouster: LiDAR, IMU", nullptr,
      RosRole::OusterPackets},
@@ -30,7 +30,7 @@ const std::array<RosType, 17> kRosTypes{{
     {"nebula_msgs/NebulaPackets", kPackets, nullptr, RosRole::VariedPackets},
     {"rslidar_msg/RslidarPacket", kPackets, nullptr, RosRole::SinglePackets},
     {"std_msgs/String", "text: metadata of an Ouster, if it is that", nullptr, RosRole::Text},
-    {"tf/tfMessage", "transforms: poses of sensors", nullptr, RosRole::Transforms},
+    {"tf/tfMessage", "used for the poses of sensors", nullptr, RosRole::Transforms},
 }};
 
 const RosType kOther{"", "not read: no type of this program"};

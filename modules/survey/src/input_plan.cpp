@@ -168,6 +168,12 @@ void notePoses(
             (place.origin == kNoPose ? "the recording gives none: identity" : place.origin) + ")";
   plan.notes.push_back(
       "Poses in the vehicle frame [x, y, z, yaw, pitch, roll] in m and deg: " + list + ".");
+  const auto has_no_pose = [](const SensorPlace& place) { return place.origin == kNoPose; };
+  if (std::all_of(plan.places.begin(), plan.places.end(), has_no_pose))
+    plan.warnings.emplace_back(
+        "The recording has no sensor poses: LiDAR and IMU count as one place with the same axes. "
+        "Measure the pose of the LiDAR in the IMU frame and give it: --set "
+        "'input.T_vehicle_lidar=[x,y,z,yaw,pitch,roll]' (m, deg).");
   if (given.factory_T_imu_lidar && !by_factory)
     plan.notes.emplace_back(
         "input.factory_T_imu_lidar is not used: the recording or the configuration gives the poses "

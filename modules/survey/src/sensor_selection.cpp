@@ -70,7 +70,7 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
   if (!pattern.empty())
     return std::string("No usable ") + nameOf(kind) + " has a label that matches '" +
            fastlio::printable(pattern) + "'. Give another " + flagOf(kind) + ".";
-  return std::string("No ") + nameOf(kind) + " of the recording can be used; see the reason below.";
+  return std::string("No ") + nameOf(kind) + " of the recording can be used.";
 }
 
 using Taken = std::vector<const SensorSummary*>;
@@ -112,6 +112,20 @@ const SensorSummary& choose(
     throw std::runtime_error(reasonFor(survey, kind, pattern) + whatThereIs(survey));
   return *best;
 }
+
+/** One of those that lidar_2.sensor_label and the like ask for. */
+const SensorSummary& chooseFurther(
+    const SensorSurvey& survey, const std::string& pattern, const Taken& taken)
+{
+  const auto* best =
+      bestOf(survey, SensorKind::Lidar, fastlio::LabelPattern("lidar", pattern), taken);
+  if (best == nullptr)
+    throw std::runtime_error(
+        "No further LiDAR that can be used has a label that matches '" +
+        fastlio::printable(pattern) + "' (lidar_2.sensor_label and the like)." +
+        whatThereIs(survey));
+  return *best;
+}
 }  // namespace
 
 namespace fastlio
@@ -126,7 +140,7 @@ SensorSelection selectSensors(const SensorSurvey& survey, const SensorPatterns& 
   SensorSelection selection{*used[0], *used[1], {}, {}};
   for (const std::string& label : patterns.further_lidar_labels)
   {
-    used.push_back(&choose(survey, SensorKind::Lidar, label, used));
+    used.push_back(&chooseFurther(survey, label, used));
     selection.further_lidars.push_back(*used.back());
   }
   for (const SensorSummary& sensor : survey.sensors)
