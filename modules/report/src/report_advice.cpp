@@ -36,7 +36,7 @@ const std::vector<AdviceRow>& adviceRows()
         "around the sensor."}},
       {HealthCause::LargeResidual,
        {"The points lie farther from the surfaces of the map than their noise explains.",
-        "Check the extrinsic (T_imu_lidar), lidar.time_offset and the times of the points. A "
+        "Check the pose of the LiDAR (input.T_vehicle_lidar), lidar.time_offset and the times of the points. A "
         "LiDAR with more noise needs a larger measurement.range_noise."}},
       {HealthCause::DegenerateDirection,
        {"The surroundings leave a direction of motion open, as in a tunnel or on a wide "
@@ -57,7 +57,7 @@ const std::vector<AdviceRow>& adviceRows()
         "(fastlio-info). The pose in the gap comes from inertial data alone."}},
       {HealthCause::MotionDisagreement,
        {"Scans and inertial data see different motions.",
-        "Check the mounting of the LiDAR (T_imu_lidar), the units, the point times and the "
+        "Check the pose of the LiDAR (input.T_vehicle_lidar), the units, the point times and the "
         "clocks; fastlio-info checks them by the motion."}},
   };
   return rows;

@@ -83,6 +83,12 @@ std::string vectorText(const Vec3& v, const Vec3& sigma, int decimals)
             fixedText(3.0 * sigma[i], decimals);
   return text;
 }
+std::string healthText(const RunHealth& health)
+{
+  if (health.scans() == 0) return "no pose";
+  return "mean " + fixedText(health.mean(), 3) + ", worst " + fixedText(health.worst(), 3) + "; " +
+         countText(health.troubled()) + " of " + countText(health.scans()) + " scans in trouble";
+}
 }  // namespace
 
 std::string factsHtml(const RunSummary& run)
@@ -98,9 +104,7 @@ std::string factsHtml(const RunSummary& run)
        {"Poses", countText(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
        {"Path", fixedText(s.pathLength(), 3) + " m"},
        {"Points", pointsText(s.points())},
-       {"Health", "mean " + fixedText(s.health().mean(), 3) + ", worst " +
-                      fixedText(s.health().worst(), 3) + "; " + countText(s.health().troubled()) +
-                      " of " + countText(s.health().scans()) + " scans in trouble"},
+       {"Health", healthText(s.health())},
        {"Degenerate directions", htmlText(degenerateText(s.degenerateDirections()))},
        {"Inertial data", htmlText(imuText(run.imu))}});
 }

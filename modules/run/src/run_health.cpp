@@ -80,6 +80,10 @@ void RunHealth::extendStretch(const ScanResult& result)
 
 std::vector<UntrustedStretch> RunHealth::untrusted() const
 {
+  if (scans_ == 0 && seen_ > 0)  // the whole run
+    return {
+        {begin_ns_, end_ns_, 0.0, toSeconds(end_ns_ - begin_ns_), seen_, HealthCause::Starting,
+         "no scan has a pose"}};
   std::vector<UntrustedStretch> stretches;
   for (const Growing& growing : stretches_)
     if (growing.stretch.scans >= kLeastScans || growing.grave) stretches.push_back(growing.stretch);

@@ -51,6 +51,18 @@ TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
 }
 
+TEST(RunHealth, ARunWithoutAPoseIsOneStretch)
+{
+  RunHealth health;
+  EXPECT_TRUE(health.untrusted().empty());
+  for (int i = 1; i <= 4; ++i)
+    health.add(resultAt(i, ScanStatus::Initializing, 0, 1));
+  const auto stretches = health.untrusted();
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].scans, 4U);
+  EXPECT_EQ(stretches[0].cause, HealthCause::Starting);
+}
+
 // A stretch in a tunnel may have one scan that fares worse for another reason.
 TEST(RunHealth, CauseAndReasonOfAStretchBelongTogether)
 {
