@@ -3,7 +3,10 @@
 
 #include "session_verdicts.h"
 
+#include <mrpt/core/format.h>
+
 #include <algorithm>
+#include <utility>
 
 namespace fastlio
 {
@@ -62,12 +65,33 @@ ExitStatus statusOf(const BuiltMap& map, const std::vector<std::string>& output_
   return worst;
 }
 
+namespace
+{
+/** Why the odometry of a session is not to be relied on; empty: it is. */
+std::string troubleOf(const SessionOutcome& session)
+{
+  const RunHealth& health = session.statistics.health();
+  const auto& first = health.firstTrouble();
+  const bool lost = session.statistics.count(ScanStatus::Diverged) > 0;
+  if (!first || (!lost && health.untrusted().empty())) return {};
+  return mrpt::format(
+      "%s: the odometry %s: %zu of %zu scans in trouble, first at second %.1f: %s: %s; run "
+      "fastlio-replay on the recording, and read its report.html",
+      session.name.c_str(), lost ? "lost its pose" : "has stretches that cannot be trusted",
+      health.troubled(), health.scans(), first->second, toString(first->health.cause),
+      first->health.reason.c_str());
+}
+}  // namespace
+
 std::vector<std::string> notesOf(const std::vector<Session>& sessions, const BuiltMap& map)
 {
   std::vector<std::string> notes;
   for (const Session& session : sessions)
     for (const std::string& note : session.notes())
       notes.push_back(session.name() + ": " + note);
+  for (const SessionOutcome& session : map.sessions)
+    if (std::string trouble = troubleOf(session); !trouble.empty())
+      notes.push_back(std::move(trouble));
   for (const SessionOutcome& session : map.sessions)
     for (const ReadProblem& problem : session.pass.problems)
       notes.push_back(session.name + ": " + problem.message);

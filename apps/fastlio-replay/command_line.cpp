@@ -109,7 +109,7 @@ void addOutputOptions(CLI::App& app, ReplayArguments& arguments)
       ->type_name("DIR");
   app.add_option(
          "--output-tum-path", arguments.output_tum_path,
-         "Write the trajectory (TUM format) to this file, with or without --output-dir")
+         "Write the trajectory (TUM format) to this file; without --output-dir nothing else")
       ->type_name("FILE");
   app.add_option(
          "--reference", arguments.reference,

@@ -58,14 +58,13 @@ std::string conclusionText(const TuneCommand& command, const TuningResult& resul
     case Conclusion::Better:
       return "Better parameters: " + command.files.output + "\n";
     case Conclusion::WorseOnLeftOut:
-      return "Keep the base parameters: those found are worse on a recording that they were not "
-             "chosen on (column 'left out').\nMore recordings, or fewer keys, may help.\n";
+      return "Keep your parameters: those found are worse on a recording that took no part in the "
+             "choice (column 'left out').\nMore recordings, or fewer keys, may help.\n";
     case Conclusion::TooFewRecordings:
-      return "Keep the base parameters: one recording cannot show that others gain too, give "
-             "more.\n";
+      return "Keep your parameters: one recording cannot show that others gain too. Give more.\n";
     default:
-      return "Keep the base parameters: none are better by 5 % also on recordings that did not "
-             "choose them.\n";
+      return "Keep your parameters: none were better by 5 % on recordings that took no part in the "
+             "choice.\n";
   }
 }
 

@@ -142,6 +142,8 @@ double medianAfter(const std::vector<ClosureAgreement>& all)
 
 std::string mapHeadline(const MapAccount& account)
 {
+  if (account.status == ExitStatus::OdometryFailed)
+    return "Do not use this map: the odometry lost its pose.";
   const MappingResult& r = account.map.result;
   const std::string part = isWhole(r) ? "" : " A session is missing in the map: see below.";
   const std::size_t closed = r.accepted();
