@@ -56,8 +56,9 @@ class Inputs : public ::testing::Test
                          folder_.file("log.txt"))
                          .wait();
     output_ = end.output;
-    EXPECT_EQ(end.exit_status, expected_exit_) << output_;
-    if (end.exit_status != expected_exit_) return 1e9;
+    const bool is_expected = end.exit_status == 0 || (may_be_degraded_ && end.exit_status == 6);
+    EXPECT_TRUE(is_expected) << end.exit_status << "\n" << output_;
+    if (!is_expected) return 1e9;
     return evaluate(readTum(tum), readTum(truth)).ape.translation.rmse;
   }
 
@@ -69,7 +70,7 @@ class Inputs : public ::testing::Test
 
   TemporaryFolder folder_;
   std::string output_;
-  int expected_exit_ = 0;
+  bool may_be_degraded_ = false;
 };
 
 /** Both recordings in one, the clouds of the second under another label. */
@@ -117,8 +118,9 @@ TEST_F(Inputs, TimesFromTheAzimuthAreNearlyAsGoodAsRecordedOnes)
   const double synthetic = apeOf({{"lidar.cloud", "xyzi"}});
   EXPECT_NE(output_.find("times are made from the azimuth"), std::string::npos) << output_;
   EXPECT_LT(synthetic, recorded + 0.01);
-  expected_exit_ = 6;  // degraded: scans that are not deskewed contradict the inertial data
+  may_be_degraded_ = true;  // scans that are not deskewed contradict the inertial data
   const double none = apeOf({{"lidar.cloud", "xyzi"}}, "input:\n  missing_point_times: none\n");
+  EXPECT_NE(output_.find("see different motions"), std::string::npos) << output_;
   EXPECT_GT(none, 2.0 * synthetic);
   RecordProperty("ape_recorded", std::to_string(recorded));
   RecordProperty("ape_synthetic", std::to_string(synthetic));

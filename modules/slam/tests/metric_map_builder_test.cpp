@@ -4,7 +4,6 @@
 #include "built_map.h"
 #include "walk.h"
 #include <fastlio/map/mrpt_voxel_planes_map.h>
-#include <fastlio/math/angles.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 
@@ -12,7 +11,6 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <cmath>
@@ -140,55 +138,6 @@ TEST(BuilderStart, BeginsAtTheGivenPoseAndKeepsTheGivenMap)
   EXPECT_NEAR(pose.y(), -5.0, 1.5);
   builder.clear();  // of the base class: starts anew at the origin
   EXPECT_EQ(builder.getCurrentlyBuiltMapSize(), 0U);
-}
-
-/** Puts points 200 m ahead into a cloud: level ones for every attitude at rest, and some between
- * its columns, where nothing nearer hides them. */
-void lookFarAhead(mrpt::maps::CPointsMap& cloud)
-{
-  constexpr double kFar = 200.0;
-  std::size_t index = 0;
-  for (int azimuth = 0; azimuth < 6; ++azimuth)
-    for (int elevation = -3; elevation <= 3; ++elevation)
-      cloud.setPoint(
-          index++, static_cast<float>(kFar * std::cos(azimuth * kRadPerDeg)),
-          static_cast<float>(kFar * std::sin(azimuth * kRadPerDeg)),
-          static_cast<float>(kFar * std::tan(elevation * kRadPerDeg)));
-}
-
-/** The preset of the LiDAR that the recording names reaches farther than the default, 150 m. */
-TEST(BuilderStart, PlanarScansReachAsFarAsTheLidar)
-{
-  SimulationSettings settings = defaultSettings("office");
-  settings.duration = 5.0;
-  settings.lidar.kind = LidarKind::Os64;
-  settings.lidar.stride = 16;
-  settings.lidar.T_imu_lidar = Pose{};
-  const Simulation simulation(settings);
-  mrpt::maps::TSetOfMetricMapInitializers maps;
-  mrpt::maps::COccupancyGridMap2D::TMapDefinition grid;
-  grid.resolution = 0.5F;
-  grid.insertionOpts.maxDistanceInsertion = 1000.0F;
-  grid.insertionOpts.considerInvalidRangesAsFreeSpace = false;
-  maps.push_back(grid);
-  Config config;
-  config.exporters.scan_2d_thickness = 10.0;
-  CMetricMapBuilderLIO builder(config, maps);
-  for (const auto& observation : testing::observationsOf(simulation))
-  {
-    const auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(observation);
-    if (cloud)
-    {
-      cloud->sensorLabel = "os2";
-      lookFarAhead(*cloud->pointcloud);
-    }
-    builder.processObservation(observation);
-  }
-  ASSERT_GT(builder.getCurrentlyBuiltMapSize(), 0U);
-  const auto built = std::dynamic_pointer_cast<mrpt::maps::COccupancyGridMap2D>(
-      mrpt::maps::CMetricMap::Ptr(metricMapOf(builder).maps[0]));
-  ASSERT_TRUE(built);
-  EXPECT_GT(built->getXMax(), 180.0F);
 }
 
 TEST(BuilderStart, DoesNotGrowMapsWhenUpdatingIsOff)
