@@ -166,6 +166,22 @@ void requireFound(
       (others.empty() ? std::string("There is none.") : "The whole topic must match:" + others));
 }
 
+/** Of files with the names of parts, those that are there. */
+std::vector<std::string> partsThere(const RawlogParts::Options& output)
+{
+  constexpr std::size_t kMostParts = 10'000;
+  const bool split = output.split_mib > 0 || output.split_seconds > 0;
+  std::vector<std::string> there;
+  for (std::size_t part = 0; part < (split ? kMostParts : 1); ++part)
+  {
+    std::error_code error;
+    std::string path = RawlogParts::pathOfPart(output, part);
+    if (std::filesystem::exists(std::filesystem::symlink_status(path, error)))
+      there.push_back(std::move(path));
+  }
+  return there;
+}
+
 void requireHarmlessOutput(const ImportArguments& arguments)
 {
   std::vector<FileUse> inputs;
@@ -175,14 +191,19 @@ void requireHarmlessOutput(const ImportArguments& arguments)
   const std::string first = RawlogParts::pathOfPart(arguments.output, 0);
   for (const char* name : {"covariance.csv", "trajectory.tum", "map.ply", "timing.csv"})
     if (!arguments.run.empty()) inputs.push_back({arguments.run + "/" + name, "--run"});
-  requireDistinctFiles(inputs, {{first, "--output"}});
+  std::vector<FileUse> outputs{{first, "--output"}};
+  const std::vector<std::string> there = partsThere(arguments.output);
+  for (const std::string& part : there)
+    if (part != first) outputs.push_back({part, "--output"});
+  requireDistinctFiles(inputs, outputs);
   for (const std::string& input : arguments.input_files)
     if (std::filesystem::is_directory(input) && isBelow(first, input))
       throw std::invalid_argument(
           "--output '" + first + "' is inside of the input '" + input + "'; choose another place");
-  if (std::filesystem::exists(first) && !arguments.overwrite)
+  if (!there.empty() && !arguments.overwrite)
     throw std::invalid_argument(
-        "the file '" + first + "' is there already; choose another name, or give --overwrite");
+        "the file '" + there.front() +
+        "' is there already; choose another name, or give --overwrite");
 }
 
 void report(const ImportArguments& arguments, const ImportPlan& plan, const Import& import)

@@ -99,6 +99,18 @@ TEST_F(ImportProgram, SplitsBySizeAndTimeWithoutLoss)
   }
 }
 
+// The first part is not there, but another one is, and it may be a recording of the user.
+TEST_F(ImportProgram, NoPartReplacesAFileThatIsThere)
+{
+  const std::string bag = file("in.bag", bagOf(messages()));
+  const std::string precious = file("day_002.rawlog", "precious");
+  const auto refused = import({bag, "-o", out("day.rawlog"), "--split-time", "1"});
+  EXPECT_EQ(refused.exit_status, 1) << refused.output;
+  EXPECT_NE(refused.output.find(precious), std::string::npos) << refused.output;
+  EXPECT_EQ(std::filesystem::file_size(precious), 8U);
+  EXPECT_FALSE(std::filesystem::exists(out("day_001.rawlog")));
+}
+
 TEST_F(ImportProgram, TakesTheTopicsThatAreAskedFor)
 {
   auto all = messages();
