@@ -167,6 +167,9 @@ std::string whyOdometryFailed(const RunSummary& run)
   const auto trouble = statistics.firstTrouble();
   const std::string cause = trouble ? ": " + trouble->message : std::string();
   if (statistics.poses() == 0) return "the odometry never initialised" + cause;
+  if (hasNoMap(statistics))
+    return "there is no map: no point of any scan joined it; check the pose of the LiDAR "
+           "(input.T_vehicle_lidar), and the unit of its points";
   return "the odometry diverged; the first trouble was at scan " +
          std::to_string(trouble ? trouble->scan_index : 0) + cause;
 }
@@ -179,8 +182,7 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
   sentences.insert(sentences.end(), output.begin(), output.end());
   if (!summary.failure.empty()) sentences.push_back(summary.failure);
   const auto& statistics = summary.statistics;
-  if (statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0)
-    sentences.push_back(whyOdometryFailed(summary));
+  if (isLost(statistics)) sentences.push_back(whyOdometryFailed(summary));
   if (exitStatusOf(summary) == ExitStatus::Degraded)
     sentences.emplace_back(
         "degraded: do not rely on the stretches that the report calls untrusted (untrusted.csv)");

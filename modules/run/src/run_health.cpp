@@ -10,7 +10,7 @@ namespace fastlio
 {
 namespace
 {
-// Trouble that comes again within this time belongs to the same stretch.
+// Trouble that comes again within this time, or with the next scan, belongs to the same stretch.
 constexpr double kStretchGap = 1.0;  // [s]
 constexpr std::size_t kLeastScans = 3;
 // A scan that was found from farther off may be at another place that looks the same [m].
@@ -48,12 +48,16 @@ void RunHealth::addLostEnd(std::int64_t until_ns, std::size_t scans, const std::
 /** The stretch that goes on, or a new one. */
 RunHealth::Growing& RunHealth::stretchAt(std::int64_t stamp_ns)
 {
-  if (stretches_.empty() || toSeconds(stamp_ns - stretches_.back().stretch.end_ns) > kStretchGap)
+  const bool goes_on = !stretches_.empty() &&
+                       (stretches_.back().last_scan + 1 >= seen_ ||
+                        toSeconds(stamp_ns - stretches_.back().stretch.end_ns) <= kStretchGap);
+  if (!goes_on)
   {
     stretches_.emplace_back();
     stretches_.back().stretch.begin_ns = stamp_ns;
     stretches_.back().stretch.begin_s = toSeconds(stamp_ns - begin_ns_);
   }
+  stretches_.back().last_scan = seen_;
   return stretches_.back();
 }
 

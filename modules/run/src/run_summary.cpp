@@ -18,14 +18,23 @@ constexpr std::array<std::string_view, 7> kNoLoss = {
     "points_without_return"};  // a beam into the sky has none
 }  // namespace
 
+bool hasNoMap(const RunStatistics& statistics)
+{
+  return statistics.count(ScanStatus::Tracking) == 0 && statistics.count(ScanStatus::FirstScan) > 1;
+}
+
+bool isLost(const RunStatistics& statistics)
+{
+  return statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0 ||
+         hasNoMap(statistics);
+}
+
 ExitStatus exitStatusOf(const RunSummary& summary)
 {
   if (summary.interrupted) return ExitStatus::Interrupted;
   if (!summary.output_problems.empty()) return ExitStatus::OutputFailed;
   if (!summary.input_problems.empty()) return ExitStatus::InputBroken;
-  const bool diverged = summary.statistics.count(ScanStatus::Diverged) > 0;
-  if (!summary.failure.empty() || diverged || summary.statistics.poses() == 0)
-    return ExitStatus::OdometryFailed;
+  if (!summary.failure.empty() || isLost(summary.statistics)) return ExitStatus::OdometryFailed;
   return summary.statistics.health().untrusted().empty() ? ExitStatus::Ok : ExitStatus::Degraded;
 }
 

@@ -38,6 +38,15 @@ ScanResult troubledScan(int index, double value = 0.3)
   return result;
 }
 
+TEST(ExitStatus, IsFailedWithoutAMap)
+{
+  RunSummary run;
+  run.statistics.add(resultAt(1, ScanStatus::FirstScan, 0, 1));
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::Ok);
+  run.statistics.add(resultAt(2, ScanStatus::FirstScan, 0, 1));
+  EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
+}
+
 TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)
 {
   RunSummary run = goodRun();
@@ -49,6 +58,16 @@ TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)
   EXPECT_STREQ(toString(exitStatusOf(run)), "degraded");
   run.statistics.add(resultAt(4, ScanStatus::Diverged, 0, 1));
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
+}
+
+// Two seconds lie between the scans of a slow LiDAR.
+TEST(RunHealth, TroubleOfScansThatFollowEachOtherIsAStretchAtAnyRate)
+{
+  RunHealth health;
+  for (int i = 1; i <= 4; ++i)
+    health.add(troubledScan(20 * i));
+  ASSERT_EQ(health.untrusted().size(), 1U);
+  EXPECT_EQ(health.untrusted()[0].scans, 4U);
 }
 
 TEST(RunHealth, ARunWithoutAPoseIsOneStretch)

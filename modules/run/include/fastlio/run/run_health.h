@@ -71,6 +71,7 @@ class RunHealth
   struct Growing
   {
     UntrustedStretch stretch;
+    std::size_t last_scan = 0;  // of all scans
     std::map<HealthCause, OfCause> causes;
     //! One scan is enough: it was found in the map from far off, or contradicts the inertial data.
     bool grave = false;
