@@ -262,7 +262,7 @@ std::string toPage(
   for (std::size_t k = 0; k < inputs.space.size(); ++k)
     figures += keyFigure(inputs, result, ratios, k);
   return pageHtml(
-      {"Tuning: " + fileNameOf(command.files.space),
+      {kPageTitle + fileNameOf(command.files.space),
        result.conclusion == Conclusion::Better ? "good" : "warn",
        inOneLine(conclusionText(command, result)), inputText(command, result),
        sectionHtml(

@@ -10,6 +10,9 @@
 
 namespace fastlio
 {
+/** With which the titles of its pages begin. */
+inline constexpr const char* kPageTitle = "Tuning: ";
+
 /** One file that opens offline: conclusion, errors per recording, every set, every key. */
 [[nodiscard]] std::string toPage(
     const TuneCommand& command, const SearchInputs& inputs, const TuningResult& result);

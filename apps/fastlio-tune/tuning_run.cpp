@@ -7,6 +7,7 @@
 #include "tuning_report.h"
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/own_file.h>
+#include <fastlio/plot/report_figure.h>
 
 #include <algorithm>
 #include <iostream>
@@ -72,7 +73,11 @@ void sayPlan(const TuneCommand& command, const SearchInputs& inputs)
 Conclusion tune(const TuneCommand& command)
 {
   const SearchInputs inputs = readInputs(command);
-  if (!command.overwrite) requireOwnFile(command.files.output, {"fastlio-tune", kParameterMark});
+  if (!command.overwrite)
+  {
+    requireOwnFile(command.files.output, {"fastlio-tune", kParameterMark});
+    requireOwnFile(command.files.report, {"fastlio-tune", pageBeginning(kPageTitle)});
+  }
   sayPlan(command, inputs);
   Evaluator evaluator(command, inputs);
   const auto all = recordingsWithout(inputs, inputs.recordings.size());

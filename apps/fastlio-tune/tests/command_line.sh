@@ -30,3 +30,8 @@ printf 'map:\n  voxel_size: 0.3\n' >"$dir/own.yaml"
 expect 1 "own.yaml' is there already, and fastlio-tune did not write it" \
   "$tune" "$dir/good.yaml" "$dir/b.rawlog" -o "$dir/own.yaml"
 grep -q 'voxel_size: 0.3' "$dir/own.yaml"
+# And so does a page of somebody, whose name follows from --output.
+printf '<!DOCTYPE html>\n<title>Mine</title>\n' >"$dir/page.html"
+expect 1 "page.html' is there already, and fastlio-tune did not write it" \
+  "$tune" "$dir/good.yaml" "$dir/b.rawlog" -o "$dir/page.yaml"
+grep -q 'Mine' "$dir/page.html"

@@ -53,11 +53,16 @@ std::string sectionHtml(const std::string& title, const std::string& content, co
          "</section>\n";
 }
 
-std::string pageHtml(const Page& page)
+std::string pageBeginning(const std::string& title)
 {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         htmlText(page.title) + "</title>\n<style>\n" + reportStyle() +
+         htmlText(title);
+}
+
+std::string pageHtml(const Page& page)
+{
+  return pageBeginning(page.title) + "</title>\n<style>\n" + reportStyle() +
          "</style>\n</head>\n<body>\n<header class=\"" + page.tone + "\">\n<h1" +
          idAttribute(page.headline_id) + ">" + htmlText(page.headline) +
          "</h1>\n<p class=\"source\">" + htmlText(page.source) + "</p>\n" + page.details +

@@ -51,5 +51,7 @@ struct Page
 };
 
 [[nodiscard]] std::string pageHtml(const Page& page);
+/** How a page begins whose title begins like that: to recognise one that is there. */
+[[nodiscard]] std::string pageBeginning(const std::string& title);
 
 }  // namespace fastlio
