@@ -151,7 +151,7 @@ InertialSensitivity chained(
   const auto attitude = Psi.middleRows<3>(kAttitude);
   Rows turned = F.attitude_attitude.lazyProduct(attitude);
   Rows gained = F.velocity_attitude.lazyProduct(attitude);
-  for (int axis = 0; axis < 3; ++axis)
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
   {
     turned.middleCols<3>(3 * axis) -= rate[axis] * F.attitude_gyro_bias;
     gained.middleCols<3>(3 * axis) -= rate[axis] * F.velocity_gyro_bias;

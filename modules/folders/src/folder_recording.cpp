@@ -124,6 +124,7 @@ std::string timesOf(const std::string& path, const std::string& clouds)
 std::vector<std::string> stemsOf(const std::vector<std::string>& files)
 {
   std::vector<std::string> stems;
+  stems.reserve(files.size());
   for (const std::string& file : files)
     stems.push_back(fs::path(file).stem().string());
   return stems;

@@ -23,7 +23,7 @@ constexpr std::size_t kPacketHead = 32, kColumnHead = 12;
 
 Vec3 vectorAt(const std::uint8_t* bytes)
 {
-  return Vec3(littleAt<float>(bytes), littleAt<float>(bytes + 4), littleAt<float>(bytes + 8));
+  return {littleAt<float>(bytes), littleAt<float>(bytes + 4), littleAt<float>(bytes + 8)};
 }
 
 /** Clocks that have just begun are fine; others are damage. */

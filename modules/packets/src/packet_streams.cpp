@@ -131,7 +131,7 @@ void PacketStreams::flush(ObservationQueue& out)
 
 void PacketStreams::recognise(const UdpPacket& packet, Stream& stream)
 {
-  const auto maker = std::find_if(
+  const auto* const maker = std::find_if(
       kMakers.begin(), kMakers.end(),
       [&packet](const PacketMaker& row) { return row.recognises(packet); });
   if (maker == kMakers.end())
