@@ -21,6 +21,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -166,19 +167,20 @@ void requireFound(
       (others.empty() ? std::string("There is none.") : "The whole topic must match:" + others));
 }
 
-/** Of files with the names of parts, those that are there. */
+/** The parts that are there already, in order. */
 std::vector<std::string> partsThere(const RawlogParts::Options& output)
 {
-  constexpr std::size_t kMostParts = 10'000;
-  const bool split = output.split_mib > 0 || output.split_seconds > 0;
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(output.path).parent_path();
+  std::set<std::size_t> parts;
+  std::error_code error;
+  for (fs::directory_iterator at(folder.empty() ? "." : folder, error);
+       !error && at != fs::directory_iterator(); at.increment(error))
+    if (const auto part = RawlogParts::partOf(output, at->path().filename().string()))
+      parts.insert(*part);
   std::vector<std::string> there;
-  for (std::size_t part = 0; part < (split ? kMostParts : 1); ++part)
-  {
-    std::error_code error;
-    std::string path = RawlogParts::pathOfPart(output, part);
-    if (std::filesystem::exists(std::filesystem::symlink_status(path, error)))
-      there.push_back(std::move(path));
-  }
+  for (const std::size_t part : parts)
+    there.push_back(RawlogParts::pathOfPart(output, part));
   return there;
 }
 

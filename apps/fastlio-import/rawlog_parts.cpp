@@ -5,6 +5,7 @@
 
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/sensors/conversions.h>
 
 #include <mrpt/core/format.h>
@@ -13,6 +14,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <zstd.h>
 
 namespace fastlio
@@ -103,6 +105,15 @@ std::string RawlogParts::pathOfPart(const Options& options, std::size_t part)
   const std::filesystem::path path(options.path);
   const std::string name = path.stem().string() + mrpt::format("_%03zu", part + 1);
   return (path.parent_path() / (name + path.extension().string())).string();
+}
+
+std::optional<std::size_t> RawlogParts::partOf(const Options& options, const std::string& file_name)
+{
+  const std::string stem = std::filesystem::path(file_name).stem().string();
+  const auto number = parsed<std::size_t>(std::string_view(stem).substr(stem.rfind('_') + 1));
+  const std::size_t part = number && *number > 0 ? *number - 1 : 0;
+  const bool is_part = std::filesystem::path(pathOfPart(options, part)).filename() == file_name;
+  return is_part ? std::optional<std::size_t>(part) : std::nullopt;
 }
 
 bool RawlogParts::isFull(std::int64_t stamp_ns) const

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,9 @@ class RawlogParts : public ImportOutput
 
   /** The path of a part, counted from 0. */
   [[nodiscard]] static std::string pathOfPart(const Options& options, std::size_t part);
+  /** Which part has a file of that name; nothing: none. */
+  [[nodiscard]] static std::optional<std::size_t> partOf(
+      const Options& options, const std::string& file_name);
 
  private:
   [[nodiscard]] bool isFull(std::int64_t stamp_ns) const;
