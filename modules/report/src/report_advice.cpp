@@ -37,8 +37,7 @@ const std::vector<AdviceRow>& adviceRows()
       {HealthCause::LargeResidual,
        {"The points lie farther from the surfaces of the map than their noise explains.",
         "Check the pose of the LiDAR (input.T_vehicle_lidar), lidar.time_offset and the times of "
-        "the points. A "
-        "LiDAR with more noise needs a larger measurement.range_noise."}},
+        "the points. A LiDAR with more noise needs a larger measurement.range_noise."}},
       {HealthCause::DegenerateDirection,
        {"The surroundings leave a direction of motion open, as in a tunnel or on a wide "
         "plain. Only the inertial data know it, and not for long.",

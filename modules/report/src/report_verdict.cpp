@@ -58,6 +58,15 @@ RunVerdict withoutPose(const RunStatistics& statistics)
       paragraph(htmlText(why)) + adviceParagraphs(HealthCause::Starting)};
 }
 
+RunVerdict withoutMap()
+{
+  return {
+      "bad", "There is no map: nothing of this run can be used.",
+      paragraph(
+          "No point of any scan joined it. Check the pose of the LiDAR (input.T_vehicle_lidar), "
+          "and the unit of its points.")};
+}
+
 std::string untrustedTime(const std::vector<UntrustedStretch>& stretches, double duration)
 {
   const std::string number = std::to_string(stretches.size());
@@ -120,7 +129,9 @@ std::vector<std::string> furtherProblems(const RunSummary& run)
 RunVerdict verdictOf(const RunSummary& run)
 {
   const RunStatistics& statistics = run.statistics;
-  RunVerdict verdict = statistics.poses() == 0 ? withoutPose(statistics) : ofHealth(statistics);
+  RunVerdict verdict = statistics.poses() == 0 ? withoutPose(statistics)
+                       : hasNoMap(statistics)  ? withoutMap()
+                                               : ofHealth(statistics);
   const std::vector<std::string> problems = furtherProblems(run);
   if (problems.empty()) return verdict;
   if (verdict.tone == "good")

@@ -112,6 +112,16 @@ TEST(ReportHtml, WithoutAScanItSaysSo)
   EXPECT_TRUE(has(html, "No scan could be processed"));
 }
 
+TEST(ReportHtml, WithoutAMapItSaysSo)
+{
+  const std::string html = reportOf(
+      {testing::resultAt(0, ScanStatus::FirstScan, 0, 1),
+       testing::resultAt(1, ScanStatus::FirstScan, 0, 1)});
+  expectGoodPage(html);
+  EXPECT_TRUE(has(html, "There is no map: nothing of this run can be used."));
+  EXPECT_FALSE(has(html, "can be trusted"));
+}
+
 TEST(ReportHtml, WithoutAPoseItSaysWhy)
 {
   const std::string html = reportOf({testing::resultAt(0, ScanStatus::Initializing, 0, 1)});
