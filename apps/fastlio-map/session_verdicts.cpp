@@ -72,7 +72,7 @@ std::string troubleOf(const SessionOutcome& session)
 {
   const RunHealth& health = session.statistics.health();
   const auto& first = health.firstTrouble();
-  const bool lost = session.statistics.count(ScanStatus::Diverged) > 0;
+  const bool lost = isLost(session.statistics);
   if (!first || (!lost && health.untrusted().empty())) return {};
   return mrpt::format(
       "%s: the odometry %s: %zu of %zu scans in trouble, first at second %.1f: %s: %s; run "

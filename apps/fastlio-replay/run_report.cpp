@@ -7,7 +7,7 @@
 #include <fastlio/options/number_text.h>
 
 #include <algorithm>
-#include <string_view>
+#include <filesystem>
 
 namespace fastlio
 {
@@ -123,14 +123,8 @@ std::string filesText(const std::vector<OutputFile>& files)
 /** The page of a run, or empty. */
 std::string reportPageOf(const std::vector<OutputFile>& files)
 {
-  constexpr std::string_view kPage = "report.html";
   for (const OutputFile& file : files)
-  {
-    const std::string& path = file.path;
-    if (path.size() >= kPage.size() &&
-        path.compare(path.size() - kPage.size(), kPage.size(), kPage) == 0)
-      return path;
-  }
+    if (std::filesystem::path(file.path).filename() == "report.html") return file.path;
   return {};
 }
 

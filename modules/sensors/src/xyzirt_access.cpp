@@ -43,8 +43,13 @@ void readFields(const mrpt::maps::CGenericPointsMap& cloud, CloudColumns& column
   columns.intensity = fastlio::genericField<float>(cloud, {"intensity", "i", "I", "reflectivity"});
   columns.ring = fastlio::genericField<std::uint16_t>(
       cloud, {"ring", "r", "R", "line", "channel", "laser_id"});
-  std::vector<std::string> times(fastlio::kPointTimeNames.begin(), fastlio::kPointTimeNames.end());
-  times.emplace_back("T");  // only here: elsewhere it may be a temperature
+  static const std::vector<std::string> times = []
+  {
+    std::vector<std::string> names(
+        fastlio::kPointTimeNames.begin(), fastlio::kPointTimeNames.end());
+    names.emplace_back("T");  // only here: elsewhere it may be a temperature
+    return names;
+  }();
   columns.time = fastlio::genericField<double>(cloud, times, &columns.single_precision_time);
 }
 
