@@ -161,7 +161,7 @@ std::string whyOdometryFailed(const RunSummary& run)
   const auto trouble = statistics.firstTrouble();
   const std::string cause = trouble ? ": " + trouble->message : std::string();
   if (statistics.poses() == 0) return "the odometry never initialised" + cause;
-  if (hasNoMap(statistics))
+  if (statistics.health().hasNoMap())
     return "there is no map: no point of any scan joined it; check the pose of the LiDAR "
            "(input.T_vehicle_lidar), and the unit of its points";
   return "the odometry diverged; the first trouble was at scan " +

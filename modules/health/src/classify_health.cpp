@@ -184,8 +184,9 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
         [&]
         {
           return std::string(
-              "scans and inertial data contradict each other at once, by far: the inertial sensor "
-              "is not what it was, or the LiDAR sees what moves with it, as in an elevator");
+              "scans and inertial data contradict each other at once, by far: the pose of the "
+              "LiDAR or the clocks are wrong, the inertial sensor is not what it was, or the "
+              "LiDAR sees what moves with it, as in an elevator");
         });
   consider(
       health, below(s.motion_innovation, kMaxMotionInnovation), HealthCause::MotionDisagreement,

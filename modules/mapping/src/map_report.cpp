@@ -162,7 +162,10 @@ std::string mapReportHtml(const MapAccount& account)
 {
   const MappingResult& r = account.map.result;
   const bool good = account.status == ExitStatus::Ok;
-  const char* const tone = !good ? "warn" : r.accepted() > 0 ? "good" : "";
+  const char* const tone = account.status == ExitStatus::OdometryFailed ? "bad"
+                           : !good                                      ? "warn"
+                           : r.accepted() > 0                           ? "good"
+                                                                        : "";
   std::string notes;
   for (const std::string& note : account.notes)
     notes += "<p class=\"note\">" + htmlText(note) + "</p>\n";

@@ -129,9 +129,9 @@ std::vector<std::string> furtherProblems(const RunSummary& run)
 RunVerdict verdictOf(const RunSummary& run)
 {
   const RunStatistics& statistics = run.statistics;
-  RunVerdict verdict = statistics.poses() == 0 ? withoutPose(statistics)
-                       : hasNoMap(statistics)  ? withoutMap()
-                                               : ofHealth(statistics);
+  RunVerdict verdict = statistics.poses() == 0          ? withoutPose(statistics)
+                       : statistics.health().hasNoMap() ? withoutMap()
+                                                        : ofHealth(statistics);
   const std::vector<std::string> problems = furtherProblems(run);
   if (problems.empty()) return verdict;
   if (verdict.tone == "good")

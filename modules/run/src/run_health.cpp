@@ -24,6 +24,8 @@ void RunHealth::add(const ScanResult& result)
   const std::size_t index = seen_++;
   if (scans_ == 0 && result.status == ScanStatus::Initializing) return;
   ++scans_;
+  tracked_ += result.status == ScanStatus::Tracking ? 1 : 0;
+  first_scans_ += result.status == ScanStatus::FirstScan ? 1 : 0;
   sum_ += result.health.value;
   worst_ = std::min(worst_, result.health.value);
   if (result.health.value >= kTroubledHealth) return;
@@ -84,10 +86,11 @@ void RunHealth::extendStretch(const ScanResult& result)
 
 std::vector<UntrustedStretch> RunHealth::untrusted() const
 {
-  if (scans_ == 0 && seen_ > 0)  // the whole run
+  const bool has_no_pose = scans_ == 0 && seen_ > 0;
+  if (has_no_pose || hasNoMap())
     return {
         {begin_ns_, end_ns_, 0.0, toSeconds(end_ns_ - begin_ns_), seen_, HealthCause::Starting,
-         "no scan has a pose"}};
+         has_no_pose ? "no scan has a pose" : "no point of any scan joined the map"}};
   std::vector<UntrustedStretch> stretches;
   for (const Growing& growing : stretches_)
     if (growing.stretch.scans >= kLeastScans || growing.grave) stretches.push_back(growing.stretch);

@@ -18,15 +18,10 @@ constexpr std::array<std::string_view, 7> kNoLoss = {
     "points_without_return"};  // a beam into the sky has none
 }  // namespace
 
-bool hasNoMap(const RunStatistics& statistics)
-{
-  return statistics.count(ScanStatus::Tracking) == 0 && statistics.count(ScanStatus::FirstScan) > 1;
-}
-
 bool isLost(const RunStatistics& statistics)
 {
   return statistics.poses() == 0 || statistics.count(ScanStatus::Diverged) > 0 ||
-         hasNoMap(statistics);
+         statistics.health().hasNoMap();
 }
 
 ExitStatus exitStatusOf(const RunSummary& summary)

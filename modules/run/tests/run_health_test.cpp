@@ -45,6 +45,9 @@ TEST(ExitStatus, IsFailedWithoutAMap)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::Ok);
   run.statistics.add(resultAt(2, ScanStatus::FirstScan, 0, 1));
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OdometryFailed);
+  const auto stretches = run.statistics.health().untrusted();
+  ASSERT_EQ(stretches.size(), 1U);
+  EXPECT_EQ(stretches[0].scans, 2U);
 }
 
 TEST(ExitStatus, IsDegradedWhenAStretchCannotBeTrusted)

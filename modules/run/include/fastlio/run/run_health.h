@@ -54,9 +54,11 @@ class RunHealth
   [[nodiscard]] const std::optional<Trouble>& firstTrouble() const { return first_; }
   /** How many scans in trouble had each cause. */
   [[nodiscard]] const std::map<HealthCause, std::size_t>& causes() const { return causes_; }
-  /** In order of time. A scan or two by themselves are none: the scans around them vouch for the
-   * poses. A scan that was found by a search of the map, or contradicts the inertial data by far,
-   * is one by itself. */
+  /** One scan after the other was the first one of the map: none of their points joined it. */
+  [[nodiscard]] bool hasNoMap() const { return tracked_ == 0 && first_scans_ > 1; }
+  /** In order of time. Without a pose or a map it is the whole run. A scan or two by themselves are
+   * none: the scans around them vouch for the poses. A scan that was found by a search of the map,
+   * or contradicts the inertial data by far, is one by itself. */
   [[nodiscard]] std::vector<UntrustedStretch> untrusted() const;
 
  private:
@@ -80,7 +82,7 @@ class RunHealth
   void extendStretch(const ScanResult& result);
   Growing& stretchAt(std::int64_t stamp_ns);
 
-  std::size_t seen_ = 0, scans_ = 0, troubled_ = 0;
+  std::size_t seen_ = 0, scans_ = 0, troubled_ = 0, tracked_ = 0, first_scans_ = 0;
   std::int64_t begin_ns_ = 0, end_ns_ = 0;
   double sum_ = 0.0, worst_ = 1.0;
   std::optional<Trouble> first_;

@@ -58,8 +58,6 @@ struct RunSummary
 /** Those of dropped data, without zeros. */
 [[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
 
-/** One scan after the other was the first one of the map: none of their points joined it. */
-[[nodiscard]] bool hasNoMap(const RunStatistics& statistics);
 /** There is no pose, the pose was lost, or there is no map. */
 [[nodiscard]] bool isLost(const RunStatistics& statistics);
 
