@@ -24,7 +24,11 @@ namespace
 using namespace fastlio;
 using mrpt::obs::CObservation;
 
+// The meaning of point times shows from several scans that have points.
 constexpr std::size_t kFewestScans = 5;
+// A LiDAR may begin with empty scans (its motor starts, a cover is on it). A minute of them at 10 Hz
+// is waited for, so that a LiDAR that never has points is told in time.
+constexpr std::size_t kMostEmptyScans = 600;
 
 // The facts of one observation about its sensor.
 struct Appearance
@@ -133,11 +137,14 @@ void noteTimes(SensorSummary& sensor, const CObservation& observation)
     sensor.times_by_sensor |= rotating != nullptr && hasColumnTimes(*rotating);
     sensor.times_by_sensor |=
         scan != nullptr && (!scan->scan_packets.empty() || !scan->point_cloud.timestamp.empty());
+    const bool no_packets = scan != nullptr && scan->scan_packets.empty();
+    if (!no_packets || scan->point_cloud.size() > 0) ++sensor.scans_with_points;
     sensor.point_times.push_back(sampleOf(stamp_ns, {}, false));
     return;
   }
   if (!cloud->pointcloud) return;
   CloudColumns columns = readColumns(*cloud->pointcloud);
+  if (columns.size() > 0) ++sensor.scans_with_points;
   sensor.point_times.push_back(sampleOf(stamp_ns, columns.time, columns.single_precision_time));
   // The first cloud may be an empty one.
   if (sensor.sweep.coverage > 0.0) return;
@@ -172,16 +179,19 @@ std::optional<std::size_t> note(SensorSurvey& survey, const CObservation& observ
   return static_cast<std::size_t>(sensor - sensors.begin());
 }
 
+bool hasBeenSeen(const SensorSummary& sensor)
+{
+  return sensor.kind != SensorKind::Lidar || sensor.scans_with_points >= kFewestScans ||
+         sensor.observations >= kMostEmptyScans;
+}
+
 bool hasUsable(
     const std::vector<SensorSummary>& sensors, SensorKind kind, const LabelPattern& pattern)
 {
-  // The meaning of point times shows from several scans.
-  const std::size_t least = kind == SensorKind::Lidar ? kFewestScans : 1;
   return std::any_of(
       sensors.begin(), sensors.end(),
-      [&](const SensorSummary& s) {
-        return s.kind == kind && s.usable && s.observations >= least && pattern.matches(s.label);
-      });
+      [&](const SensorSummary& s)
+      { return s.kind == kind && s.usable && hasBeenSeen(s) && pattern.matches(s.label); });
 }
 
 /** Patterns that are tried after each observation. */

@@ -73,6 +73,34 @@ TEST_F(SensorSelectionTest, LooksOnUntilBothSensorsHaveCome)
   EXPECT_EQ(select(objects).lidar.label, "lidar");
 }
 
+TEST_F(SensorSelectionTest, EmptyScansTellNothingAboutPointTimes)
+{
+  const std::vector<Object> filled = recording(90);
+  std::vector<Object> objects;
+  for (const Object& object : filled)
+  {
+    auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object);
+    if (cloud && toSeconds(toNanoseconds(cloud->timestamp) - kStart) < 4.0)
+      cloud->pointcloud = makeXyzirt(CloudColumns{});
+    objects.push_back(object);
+  }
+  const SensorSummary lidar = select(objects).lidar;
+  EXPECT_EQ(lidar.scans_with_points, 5U);
+  EXPECT_EQ(findPointTimes(lidar.point_times).scans, 5U);
+}
+
+TEST_F(SensorSelectionTest, ALidarThatNeverHasPointsIsNotWaitedForForEver)
+{
+  SensorSurvey survey;
+  (void)noteObservation(survey, *imuAt(0.0));
+  auto cloud = cloudAt(0.0);
+  cloud->pointcloud = makeXyzirt(CloudColumns{});
+  int scans = 0;
+  for (; scans < 2000 && !isComplete(survey, {}); ++scans)
+    (void)noteObservation(survey, *cloud);
+  EXPECT_EQ(scans, 600);
+}
+
 TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
 {
   EXPECT_TRUE(contains(errorOf({cloudAt(0)}), "No IMU found in the recording"));

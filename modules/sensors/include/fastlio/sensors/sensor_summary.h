@@ -37,6 +37,7 @@ struct SensorSummary
 
   /** \name Of LiDARs
    * @{ */
+  std::size_t scans_with_points = 0;
   std::vector<PointTimeSample> point_times;  //!< time fields, one per scan; points 0: no times
   bool times_by_sensor = false;              //!< the class itself says when each point was measured
   SweepShape sweep;                          //!< of a cloud without times

@@ -33,8 +33,8 @@ struct SensorPatterns
   std::vector<std::string> further_lidar_labels = {};  //!< of LiDARs beside the first
 };
 
-/** Looks at the recording until usable sensors that match have been seen, LiDARs in several scans,
- * and \a at_least [s] of it have passed; at all of it when there are none. */
+/** Looks at the recording until usable sensors that match have been seen, LiDARs in several scans
+ * with points, and \a at_least [s] of it have passed; at all of it when there are none. */
 [[nodiscard]] SensorSurvey surveySensors(
     const std::vector<std::string>& files, const SensorPatterns& patterns, double at_least = 2.0);
 
@@ -43,7 +43,7 @@ struct SensorPatterns
 std::optional<std::size_t> noteObservation(
     SensorSurvey& survey, const mrpt::obs::CObservation& observation);
 
-/** Usable sensors that match have been seen, LiDARs in several scans. */
+/** Usable sensors that match have been seen, LiDARs in several scans with points. */
 [[nodiscard]] bool isComplete(const SensorSurvey& survey, const SensorPatterns& patterns);
 
 /** Of several that match, the one with most observations is taken.
