@@ -16,7 +16,7 @@ namespace
 // Of a given pose: from its whole uncertainty down, each pass looks nearer.
 constexpr int kGivenPosePasses = 4;
 constexpr double kShrink = 0.25;  // of the variances of place and heading, per pass
-// Of a carried pose.
+// Of a prediction or a carried pose.
 constexpr double kHeadingStep = 0.2617993877991494;  // [rad]; 15 deg
 constexpr double kSigmas = 3.0;                      // of the heading
 constexpr double kMaxHeading = 1.5707963267948966;   // farther turns are not tried [rad]; 90 deg
@@ -48,6 +48,17 @@ FilterState turnedBy(double heading, const FilterState& s)
   turned.x.R = normalizeRotation(W * s.x.R);
   turned.x.v = W * s.x.v;
   return turned;
+}
+
+/** Attitudes as far as the heading is uncertain; each stands for half a step around it. */
+std::vector<Mat3> headingsAround(const FilterState& predicted)
+{
+  const double reach = std::min(kSigmas * headingStd(predicted), kMaxHeading);
+  const int turns = static_cast<int>(std::ceil(std::max(0.0, reach / kHeadingStep - 0.5)));
+  std::vector<Mat3> attitudes;
+  for (int i = -turns; i <= turns; ++i)
+    attitudes.push_back(turnedBy(kHeadingStep * i, predicted).x.R);
+  return attitudes;
 }
 
 /** The argument of turnedBy() that comes nearest to an attitude. */
@@ -128,17 +139,12 @@ MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candid
 
 MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
 {
-  const double reach = std::min(kSigmas * headingStd(predicted), kMaxHeading);
-  const int turns = static_cast<int>(std::ceil(reach / kHeadingStep));
-  std::vector<Mat3> attitudes;
-  for (int i = -turns; i <= turns; ++i)
-    attitudes.push_back(turnedBy(kHeadingStep * i, predicted).x.R);
-  return around(predicted, attitudes);
+  return around(predicted, true);
 }
 
 MapSearchResult MapSearch::aroundPrediction(const FilterState& predicted) const
 {
-  return around(predicted, {predicted.x.R});
+  return around(predicted, false);
 }
 
 MapSearchResult MapSearch::postponed(const FilterState& predicted) const
@@ -148,9 +154,9 @@ MapSearchResult MapSearch::postponed(const FilterState& predicted) const
       matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_)), predicted, {});
 }
 
-MapSearchResult MapSearch::around(
-    const FilterState& predicted, const std::vector<Mat3>& attitudes) const
+MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) const
 {
+  const std::vector<Mat3> attitudes = headingsAround(predicted);
   MatchOptions pull_in = ordinaryMatching(options_);
   MatchResult latest;
   const auto match = [&](const FilterState& start, const DeskewedScan& scan, int iterations)
@@ -164,13 +170,15 @@ MapSearchResult MapSearch::around(
   wanted.min_level_inlier_ratio =
       std::max(kFoundInlierRatio, kUsualPartOnLevel * map_.usualInlierRatio());
   wanted.max_innovation = kMaxInnovation;
-  if (attitudes.size() > 1) wanted.most_candidates = kMostCarriedCandidates;
+  if (carried) wanted.most_candidates = kMostCarriedCandidates;
   PoseSearchResult poses;
   if (!map_.empty()) poses = searchPose(predicted, attitudes, scan_, wanted, match);
   if (poses.accepted)
   {
     const Pose& found = poses.best->T_world_imu;
-    const FilterState turned = turnedBy(headingBetween(predicted.x, found.R), predicted);
+    // The velocity of a carried pose is known in the body, that of a prediction in the world.
+    const FilterState turned =
+        carried ? turnedBy(headingBetween(predicted.x, found.R), predicted) : predicted;
     const MatchOptions ordinary = ordinaryMatching(options_);
     latest = matcher_.match(scan_, correctedByPose(turned, found), map_.matched(), ordinary);
     // Where the surroundings leave a motion open, the found pose determines neither it nor the

@@ -25,14 +25,21 @@ constexpr double kMatchStd = 0.03;     // of a way between two scans [m]
 constexpr double kUnknownStd = 100.0;  // of a velocity that the surroundings leave open [m/s]
 // A map of few scans is sparse: outdoors, little of a scan matches the one before.
 constexpr double kFewestInliers = 0.05;
+// The wrong velocity shears the scans, so that they do not fit each other as a map does; when so
+// much of them matches, it is the same place.
+constexpr double kEnoughInliers = 0.5;
+constexpr double kShearedInnovation = 20.0;
 // The velocity of the prediction may be off by metres per second: from wide to narrow.
 constexpr double kStartStds[] = {0.3, 0.1, 0.05};  // [m]
+constexpr double kTurnStd = 0.01;                  // the gyro knows how the scans are turned [rad]
 constexpr int kIterations = 5;
 
 bool matchesWell(const MatchResult& match, std::size_t points)
 {
-  return match.update.updated && inlierRatio(match.update.last.count, points) >= kFewestInliers &&
-         normalizedInnovation(match.update) <= kMaxInnovation;
+  const double inlier_ratio = inlierRatio(match.update.last.count, points);
+  const double innovation = normalizedInnovation(match.update);
+  return (inlier_ratio >= kFewestInliers && innovation <= kMaxInnovation) ||
+         (inlier_ratio >= kEnoughInliers && innovation <= kShearedInnovation);
 }
 }  // namespace
 
@@ -94,10 +101,11 @@ void OutageSearch::measure(
   MatchResult match;
   for (const double std : kStartStds)
   {
-    match = matcher.match(scan, startAt(predicted, at, std), scans_.matched(), options);
-    if (!matchesWell(match, scan.surfaces.size())) return;
+    match = matcher.match(scan, startAt(predicted, at, {std, kTurnStd}), scans_.matched(), options);
+    if (!match.update.updated) return;
     at = match.update.posterior.x.pose();
   }
+  if (!matchesWell(match, scan.surfaces.size())) return;
   error_.mean = (at.p - predicted.x.p) / seconds;
   const Mat3 of_match = match.update.posterior.P.block<3, 3>(kPosition, kPosition);
   error_.covariance = (of_match + kMatchStd * kMatchStd * Mat3::Identity()) / (seconds * seconds);

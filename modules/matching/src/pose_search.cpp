@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace fastlio
@@ -27,9 +28,14 @@ constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
 constexpr double kSamePlace = 0.3;     // [m]
 constexpr double kSameAttitude = 0.1;  // [rad]
-constexpr double kHeadingStd = 0.01;   // of a candidate's attitude [rad]
-// The whole scan pulls a candidate in from wide to narrow.
-constexpr double kRefiningStds[] = {0.3, 0.1, 0.05};  // [m]
+// The whole scan pulls a candidate in from wide to narrow: the gates of a wide one let in planes
+// that do not belong to its points.
+constexpr double kLeastAttitudeStd = 0.01, kWideAttitudeStd = 0.1;  // [rad]
+constexpr StartWidth kPullIn{0.3, kWideAttitudeStd}, kNear{0.1, 0.03}, kFound{0.05, 0.01},
+    kExact{0.02, 0.003};
+// Gates this narrow hide residuals, and so does a wrong place: there, a rival may be as good as
+// this fraction of the best.
+constexpr double kExactRivalShare = 0.25;
 
 PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
 {
@@ -82,13 +88,14 @@ std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidat
   return places;
 }
 
+/** Matches the whole scan, from wide to narrow. */
 PoseCandidate refined(
-    PoseCandidate candidate, const FilterState& predicted, const DeskewedScan& scan,
-    const MatchFromStart& match)
+    PoseCandidate candidate, std::initializer_list<StartWidth> widths, const FilterState& predicted,
+    const DeskewedScan& scan, const MatchFromStart& match)
 {
-  for (const double position_std : kRefiningStds)
+  for (const StartWidth& width : widths)
   {
-    const FilterState start = startAt(predicted, candidate.T_world_imu, position_std);
+    const FilterState start = startAt(predicted, candidate.T_world_imu, width);
     const UpdateResult update = match(start, scan, kScanIterations);
     if (!update.updated)
     {
@@ -100,7 +107,14 @@ PoseCandidate refined(
   return candidate;
 }
 
-/** The whole scan from the best candidates. \return places with matches, best first */
+void sortByScore(std::vector<PoseCandidate>& places)
+{
+  std::stable_sort(places.begin(), places.end(), better);
+  if (!places.empty() && places.front().score <= 0.0) places.clear();
+}
+
+/** The whole scan from the best candidates, and from the prediction: a wide gate may pull it away
+ * from the right place. \return places with matches, best first */
 std::vector<PoseCandidate> refinedPlaces(
     std::vector<PoseCandidate> candidates, const FilterState& predicted, const DeskewedScan& scan,
     const MatchFromStart& match)
@@ -108,9 +122,11 @@ std::vector<PoseCandidate> refinedPlaces(
   std::stable_sort(candidates.begin(), candidates.end(), better);
   std::vector<PoseCandidate> places = bestPlaces(candidates);
   for (PoseCandidate& place : places)
-    place = refined(place, predicted, scan, match);
-  std::stable_sort(places.begin(), places.end(), better);
-  if (!places.empty() && places.front().score <= 0.0) places.clear();
+    place = refined(place, {kPullIn, kNear, kFound}, predicted, scan, match);
+  PoseCandidate prediction;
+  prediction.T_world_imu = predicted.x.pose();
+  places.push_back(refined(prediction, {kNear, kFound}, predicted, scan, match));
+  sortByScore(places);
   return places;
 }
 
@@ -122,6 +138,26 @@ bool isExcluded(const PoseCandidate& place, const FilterState& predicted)
   const Eigen::Matrix3d S = P + kPlaceStd * kPlaceStd * Mat3::Identity();
   const Vec3 weighted = S.llt().solve(Eigen::Vector3d(offset)).eval();
   return offset.dot(weighted) > kSearchSigmas * kSearchSigmas;
+}
+
+/** The best place that the prediction allows, and whether that is the one.
+ * \param places best first, at least one \param rival_share a rival may be as good as that */
+void judge(
+    const std::vector<PoseCandidate>& places, const FilterState& predicted, double min_inlier_ratio,
+    double max_innovation, double rival_share, PoseSearchResult& result)
+{
+  const auto possible = std::find_if(
+      places.begin(), places.end(),
+      [&](const PoseCandidate& p) { return !isExcluded(p, predicted); });
+  result.best = possible == places.end() ? places.front() : *possible;
+  result.rival_score = 0.0;
+  for (const PoseCandidate& place : places)
+    if (!isSamePlace(place, *result.best))
+      result.rival_score = std::max(result.rival_score, place.score);
+  result.accepted = possible != places.end() && result.complete &&
+                    result.best->inlier_ratio >= min_inlier_ratio &&
+                    result.best->innovation <= max_innovation &&
+                    result.rival_score < rival_share * result.best->score;
 }
 
 /** \param std of the position [m] \param most places; more are cut off, the least likely ones */
@@ -162,14 +198,17 @@ CandidateGrid gridOf(const Vec3& std, double step, std::size_t most)
 }
 }  // namespace
 
-FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, double position_std)
+FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width)
 {
   FilterState start = predicted;
   start.x.R = T_world_imu.R;
   start.x.p = T_world_imu.p;
   start.P.setZero();
-  start.P.diagonal().segment<3>(kAttitude).setConstant(kHeadingStd * kHeadingStd);
-  start.P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
+  start.P.diagonal().segment<3>(kAttitude) = predicted.P.diagonal()
+                                                 .segment<3>(kAttitude)
+                                                 .cwiseMax(kLeastAttitudeStd * kLeastAttitudeStd)
+                                                 .cwiseMin(width.attitude_std * width.attitude_std);
+  start.P.diagonal().segment<3>(kPosition).setConstant(width.position_std * width.position_std);
   return start;
 }
 
@@ -206,8 +245,8 @@ PoseSearchResult searchPose(
       for (const Mat3& R : attitudes)
       {
         ++result.candidates;
-        const FilterState start =
-            startAt(predicted, {R, predicted.x.p + offset}, kStartStd * grid.step);
+        const FilterState start = startAt(
+            predicted, {R, predicted.x.p + offset}, {kStartStd * grid.step, kWideAttitudeStd});
         const UpdateResult update = match(start, sample, kSampleIterations);
         if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
       }
@@ -221,18 +260,14 @@ PoseSearchResult searchPose(
     places =
         tryPlaces(levelGrid(predicted, places.front().T_world_imu.p.z() - predicted.x.p.z(), most));
   if (places.empty()) return result;
-  const auto possible = std::find_if(
-      places.begin(), places.end(),
-      [&](const PoseCandidate& p) { return !isExcluded(p, predicted); });
-  result.best = possible == places.end() ? places.front() : *possible;
-  for (const PoseCandidate& place : places)
-    if (!isSamePlace(place, *result.best))
-      result.rival_score = std::max(result.rival_score, place.score);
   const double needed = grid.complete ? limits.min_inlier_ratio : limits.min_level_inlier_ratio;
-  result.accepted = possible != places.end() && result.complete &&
-                    result.best->inlier_ratio >= needed &&
-                    result.best->innovation <= limits.max_innovation &&
-                    result.rival_score < kRivalShare * result.best->score;
+  judge(places, predicted, needed, limits.max_innovation, kRivalShare, result);
+  if (result.accepted) return result;
+  for (PoseCandidate& place : places)
+    place = refined(place, {kExact}, predicted, scan, match);
+  sortByScore(places);
+  if (!places.empty())
+    judge(places, predicted, needed, limits.max_innovation, kExactRivalShare, result);
   return result;
 }
 

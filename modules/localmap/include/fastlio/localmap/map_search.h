@@ -50,18 +50,17 @@ class MapSearch
 
   /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach. */
   [[nodiscard]] MapSearchResult aroundGivenPose(const FilterState& predicted) const;
-  /** Tries headings and places, as far as a carried pose is uncertain; asks for the same evidence
-   * as aroundPrediction(). */
+  /** As aroundPrediction(), from a pose that was carried over a time without inertial data: tries
+   * more places, as it is searched once in a while. */
   [[nodiscard]] MapSearchResult aroundCarriedPose(const FilterState& predicted) const;
-  /** Tries places within the prediction's uncertainty, and asks for more evidence than an ordinary
-   * match needs: inlier ratio, residuals, no rival nearly as good. */
+  /** Tries places and headings within the prediction's uncertainty, and asks for more evidence than
+   * an ordinary match needs: inlier ratio, residuals, no rival nearly as good. */
   [[nodiscard]] MapSearchResult aroundPrediction(const FilterState& predicted) const;
   /** Nothing is tried; the prediction stays. */
   [[nodiscard]] MapSearchResult postponed(const FilterState& predicted) const;
 
  private:
-  [[nodiscard]] MapSearchResult around(
-      const FilterState& predicted, const std::vector<Mat3>& attitudes) const;
+  [[nodiscard]] MapSearchResult around(const FilterState& predicted, bool carried) const;
   [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;
   [[nodiscard]] double ratioOf(const UpdateResult& update) const;
 

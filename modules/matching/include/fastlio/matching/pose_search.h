@@ -43,9 +43,16 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
  * which the map may not even have. */
 inline constexpr double kUnambiguousStd = 0.3;
 
+/** How far a match looks from its start. */
+struct StartWidth
+{
+  double position_std;  //!< [m]
+  double attitude_std;  //!< at most; else as uncertain as the prediction is [rad]
+};
+
 /** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
 [[nodiscard]] FilterState startAt(
-    const FilterState& predicted, const Pose& T_world_imu, double position_std);
+    const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width);
 
 /** Positions around a predicted one. */
 struct CandidateGrid
