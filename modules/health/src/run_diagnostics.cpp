@@ -70,6 +70,7 @@ void RunDiagnostics::consider(const ScanResult& result)
   considerMotion(result);
   considerStep(result);
   considerClocks(result);
+  considerClockStep(result);
 }
 
 void RunDiagnostics::considerMounting(const ScanResult& result)
@@ -137,6 +138,18 @@ void RunDiagnostics::considerClocks(const ScanResult& result)
           "the trajectory counts this, the scans before did not. Set lidar.time_offset to %.4f; if "
           "it is the duration of a scan, input.point_time_reference is wrong",
           1e3 * error, 1e3 * std, given_time_offset_ + error));
+}
+
+void RunDiagnostics::considerClockStep(const ScanResult& result)
+{
+  if (result.statistics.clock_step == 0.0) return;
+  report(
+      result.stamp_ns,
+      mrpt::format(
+          "the clock that stamps both sensors was set ahead by %.2f s before this scan: no motion "
+          "is "
+          "counted for that time. Keep clocks from stepping during a recording (NTP and PTP may)",
+          result.statistics.clock_step));
 }
 
 /** Smaller than what considerMounting() sees, and after a longer time. */

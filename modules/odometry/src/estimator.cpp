@@ -58,8 +58,10 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
 
   ScanPrediction predicted;
   workers_->alongside(
-      [&] { predicted = predict(span.end_ns, imu); },  // eq. 4-8
+      [&] { predicted = predict(span, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
+  if (predicted.silent_ns > 0) explainSilence(scan, span.end_ns, imu, predicted);
+  map_.propagateError(predicted.transition);
   const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted.state.x);  // eq. 9-10
   Work work{scan, deskewed, predicted, state_.filter.x, {}, false, Matrix6::Zero()};
   const bool enters = std::holds_alternative<EnteringMap>(mode_);
@@ -95,19 +97,18 @@ FilterRun& Estimator::run()
   return std::get<Tracking>(mode_).run;
 }
 
-ScanPrediction Estimator::predict(std::int64_t end_ns, const ImuBuffer& imu)
+ScanPrediction Estimator::predict(const ScanSpan& span, const ImuBuffer& imu)
 {
   const Stopwatch watch;
   ScanPrediction predicted = predictor_.predict(
-      state_, end_ns, imu,
+      state_, span.begin_ns, span.end_ns, imu,
       [this](const Prediction& prediction) { return systematicCovariance(prediction); },
       run().trusted);
-  predicted.blind_s = toSeconds(end_ns - state_.stamp_ns);
+  predicted.blind_s = toSeconds(span.end_ns - state_.stamp_ns);
   const std::int64_t seen_ns = run().last_seen_ns;
-  predicted.unseen_s = toSeconds(end_ns - seen_ns);
+  predicted.unseen_s = toSeconds(span.end_ns - seen_ns);
   considerUnmodelledAcceleration(
       predicted.state, predicted.unseen_s, toSeconds(state_.stamp_ns - seen_ns));
-  map_.propagateError(predicted.transition);
   timings_.propagate = watch.milliseconds();
   return predicted;
 }
@@ -120,8 +121,12 @@ void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
   if (window && end_ns <= window->end_ns)
     at_least = static_cast<std::size_t>(window->target_points);
   const auto* tracking = std::get_if<Tracking>(&mode_);
-  if (tracking != nullptr && options_.recovery.enabled &&
-      (tracking->outage != nullptr || isOutage(toSeconds(end_ns - tracking->run.last_seen_ns))))
+  const auto measuresVelocity = [&](const Tracking& mode)
+  {
+    if (mode.outage != nullptr) return !mode.outage->knowsVelocity();
+    return isOutage(toSeconds(end_ns - mode.run.last_seen_ns));
+  };
+  if (tracking != nullptr && options_.recovery.enabled && measuresVelocity(*tracking))
     at_least = std::max(at_least, OutageSearch::kPoints);
   // The cost of eq. 18 grows with the cube of the points: ten thousand would take minutes.
   preparation_.downsample(scan, options_.gain == GainForm::Information ? at_least : 0);
@@ -152,6 +157,7 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   outcome.prediction_finite = work.predicted.finite && result.filter.P.allFinite();
   outcome.points = work.deskewed.surfaces.size();
   outcome.imu_gap_s = work.predicted.imu_gap_s;
+  if (work.predicted.clock_stepped) statistics.clock_step = toSeconds(work.predicted.silent_ns);
   statistics.usual_inlier_ratio = map_.usualInlierRatio();
   // Without matches there is no evidence: what the scans before have shown goes on.
   if (outcome.begins_map || outcome.updated)

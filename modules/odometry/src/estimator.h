@@ -63,6 +63,8 @@ class Estimator
   /** A pose that is lost is better searched around the prediction than by a new start: the motion
    * is known, and the map is that of the run. */
   [[nodiscard]] bool keepsState() const;
+  /** The map was searched in vain, and the state is too uncertain to begin another one with. */
+  [[nodiscard]] bool needsNewStart() const;
   /** Searches the pose in the map around the predicted one for a while, then begins a new map where
    * the inertial data have the pose. With keepsState() only. */
   void searchAroundPrediction();
@@ -120,7 +122,9 @@ class Estimator
   };
 
   [[nodiscard]] FilterRun& run();
-  [[nodiscard]] ScanPrediction predict(std::int64_t end_ns, const ImuBuffer& imu);
+  [[nodiscard]] ScanPrediction predict(const ScanSpan& span, const ImuBuffer& imu);
+  void explainSilence(
+      const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted);
   void downsample(const LidarScan& scan, std::int64_t end_ns);
   const DeskewedScan& deskew(const LidarScan& scan, std::int64_t end_ns, const NavState& motion);
   [[nodiscard]] MapSearchResult matchWithMap(const Work& work, std::int64_t end_ns);
@@ -132,8 +136,7 @@ class Estimator
   [[nodiscard]] MatchResult pullIn(
       const Work& work, std::int64_t end_ns,
       const std::optional<FilterState>& start = std::nullopt);
-  [[nodiscard]] MapSearchResult searchAfterOutage(
-      const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
+  [[nodiscard]] MapSearchResult searchAfterOutage(const Work& work, std::int64_t end_ns);
   [[nodiscard]] FilterState beginNewMap(const DeskewedScan& scan, const FilterState& predicted);
   void compareMotion(
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,

@@ -29,6 +29,14 @@ constexpr double kLeastLost = 0.1, kMostLost = 2.0;  // [m]
 // the next step of a staircase does.
 constexpr double kPlaneFoundAgain = 0.05;  // of all points
 
+// A velocity that is off by so much shears a scan of 0.1 s more than its planes are thick [m/s].
+constexpr double kShearingVelocity = 0.3;
+
+double velocityStd(const FilterState& predicted)
+{
+  return std::sqrt(predicted.P.diagonal().segment<3>(kVelocity).maxCoeff());
+}
+
 /** How far missing inertial samples leave the points of a scan from where they belong, all of them
  * together [m]: the rotation in a gap grows towards the scan's begin, so its mean square is a
  * third. */
@@ -104,8 +112,10 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
     const bool good = !match.update.updated || (found && isConvincing(match, scan, map_));
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
     if (uncertain) deskew(work.scan, end_ns, predicted.x);
+    if (seen_again && velocityStd(predicted) > kShearingVelocity)
+      tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, end_ns);
   }
-  if (tracking.outage) return searchAfterOutage(scan, predicted, end_ns);
+  if (tracking.outage) return searchAfterOutage(work, end_ns);
   const MapSearch map_search(options_, matcher_, scan, map_);
   MapSearchResult search = map_search.aroundPrediction(predicted);
   if (search.found)  // once more, deskewed with the motion that it found
@@ -187,51 +197,6 @@ MatchResult Estimator::pullIn(
   second.start = near.update.posterior;
   deskew(work.scan, end_ns, second.start->x);
   return matcher_.match(work.deskewed, predicted, map_.matched(), second);
-}
-
-/** The inertial data were well, so nothing is re-initialised: where the map does not show the
- * place, a new one begins at the predicted pose. */
-MapSearchResult Estimator::searchAfterOutage(
-    const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns)
-{
-  auto& tracking = std::get<Tracking>(mode_);
-  OutageSearch& outage = *tracking.outage;
-  const FilterState state = outage.withVelocity(scan, predicted, end_ns, matcher_);
-  const MapSearch search(options_, matcher_, scan, map_);
-  MapSearchResult result =
-      outage.measuresVelocity(end_ns) ? search.postponed(state) : search.aroundPrediction(state);
-  const bool over = result.found || outage.isOver(end_ns);
-  if (over && !result.found && outage.knowsVelocity())
-  {
-    const FilterState from = beginNewMap(scan, state);
-    if (map_.empty()) result = search.postponed(from);
-  }
-  tracking.searching = !result.found && !map_.empty();
-  result.after_outage = true;
-  if (over) tracking.outage.reset();
-  return result;
-}
-
-/** A given map stays, as the world is that of the map. \return the state, as uncertain as its pose
- * is in the world: the errors of the old map are a part of that, as the new map begins at this
- * pose.
- */
-FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& predicted)
-{
-  FilterState state = predicted;
-  if (map_.isGiven() || !hasEnoughPoints(scan)) return state;
-  const CalibrationEstimate& calibration = calibration_.estimate();
-  state.P += map_.error().addition() + map_.calibrationError().addition(calibration.second_moment) /
-                                           calibration.innovation_scale;
-  // The error of this pose is that of the new map. What scans will say about the way from here on
-  // contains nothing about it, and it contains nothing about the motion.
-  const Mat3 position = state.P.block<3, 3>(kPosition, kPosition);
-  state.P.middleRows<3>(kPosition).setZero();
-  state.P.middleCols<3>(kPosition).setZero();
-  state.P.block<3, 3>(kPosition, kPosition) = position;
-  useMap(LocalMap(options_, workers_));
-  map_.beginAt(scanPoseCovariance(state, scan.compensation).diagonal().tail<3>());
-  return state;
 }
 
 /** Along a degenerate direction the prediction is not corrected, so it cannot be compared; nor

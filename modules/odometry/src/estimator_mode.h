@@ -44,6 +44,7 @@ struct Tracking
   FilterRun run;
   bool searching = false;  //!< the pose is searched within the prediction's uncertainty
   std::unique_ptr<OutageSearch> outage;  //!< of the LiDAR, that the search follows
+  bool lost = false;                     //!< nothing was found, and a new map would be tilted
 };
 
 /** The filter was re-initialised with a carried pose and searches for the map of before. */

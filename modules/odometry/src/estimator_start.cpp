@@ -99,6 +99,12 @@ bool Estimator::keepsState() const
   return std::holds_alternative<Tracking>(mode_) && !map_.isGiven() && canGoOn();
 }
 
+bool Estimator::needsNewStart() const
+{
+  const auto* tracking = std::get_if<Tracking>(&mode_);
+  return tracking != nullptr && tracking->lost && !map_.isGiven();
+}
+
 void Estimator::searchAroundPrediction()
 {
   skipScan();

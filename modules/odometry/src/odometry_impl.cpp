@@ -190,9 +190,10 @@ std::optional<ScanResult> Odometry::Impl::processOldest()
   result.statistics.dropped_own_body = masked;
   judgeOwnBody(result, queued.scan.T_imu_lidar);
   imu_.forgetBefore(queued.span.end_ns);
-  const auto loss =
-      reinitialization_.detectTrackingLoss(result, estimator_.state(), estimator_.relocalizing());
-  if (loss && reinitialization_.goesOn(estimator_.keepsState()))
+  const bool in_vain = estimator_.needsNewStart();
+  const auto loss = reinitialization_.detectTrackingLoss(
+      result, estimator_.state(), estimator_.relocalizing(), in_vain);
+  if (loss && !in_vain && reinitialization_.goesOn(estimator_.keepsState()))
   {
     estimator_.searchAroundPrediction();
     diagnostics_.report(

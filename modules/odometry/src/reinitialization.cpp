@@ -62,7 +62,7 @@ std::string Reinitialization::decideAt(const InertialBreak& gap, const FilterSta
 }
 
 std::optional<std::string> Reinitialization::detectTrackingLoss(
-    const ScanResult& result, const FilterState& state, bool relocalizing)
+    const ScanResult& result, const FilterState& state, bool relocalizing, bool in_vain)
 {
   const ScanStatistics& s = result.statistics;
   if (result.status == ScanStatus::FirstScan ||
@@ -71,6 +71,11 @@ std::optional<std::string> Reinitialization::detectTrackingLoss(
     last_good_ = state;
     last_good_ns_ = result.stamp_ns;
     went_on_ = false;
+  }
+  if (in_vain && options_.recovery.enabled && isFiniteState(state))
+  {
+    decide({state, result.stamp_ns, false});
+    return "the map was searched in vain";
   }
   if (result.status != ScanStatus::Diverged || relocalizing ||
       s.points_downsampled < kMinEffectivePoints)

@@ -44,9 +44,10 @@ class Reinitialization
 
   /** Decides on it when a pose stays lost although the scans see enough.
    * \param state after the scan \param relocalizing the map is searched for already
+   * \param in_vain the map was searched, and nothing else is left
    * \return why, in words; nothing while the run goes on */
   [[nodiscard]] std::optional<std::string> detectTrackingLoss(
-      const ScanResult& result, const FilterState& state, bool relocalizing);
+      const ScanResult& result, const FilterState& state, bool relocalizing, bool in_vain);
 
   /** Whether the run that has lost its pose goes on with its state, in a new map: as long as that
    * is known, it is better than a new start. Not twice in a row: the state may be wrong.

@@ -3,20 +3,73 @@
 
 #include "scan_predictor.h"
 
+#include <fastlio/filter/state.h>
 #include <fastlio/math/time.h>
+
+#include <algorithm>
 
 namespace fastlio
 {
-ScanPrediction ScanPredictor::predict(
+namespace
+{
+/** How long both sensors were silent between a state and a scan; 0: they were not. */
+std::int64_t silenceBefore(std::int64_t begin_ns, std::int64_t from_ns, const ImuBuffer& imu)
+{
+  if (rotationStdInGaps(imu.inflations(), from_ns, begin_ns) == 0.0) return 0;
+  return std::min(begin_ns - from_ns, imu.longestGap(from_ns, begin_ns));
+}
+}  // namespace
+
+Prediction ScanPredictor::fromTo(
+    const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu) const
+{
+  std::vector<ImuSample> inputs;
+  imu.inputsBetween(begin_ns, end_ns, imu_.hold, inputs);
+  return propagateThrough(
+      from, inputs, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
+      [](std::int64_t, const Prediction&) {});
+}
+
+/** All the motion that bridges a silence has not been if the clock was set: that is one more error
+ * of unknown size. */
+FilterState ScanPredictor::admitClockStep(
+    const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu) const
+{
+  FilterState admitted = from.filter;
+  if (silent_ns == 0) return admitted;
+  const NavState bridged =
+      fromTo(from.filter, from.stamp_ns, from.stamp_ns + silent_ns, imu).state.x;
+  if (!isFinite(bridged)) return admitted;
+  const StateVector motion = boxminus(bridged, from.filter.x);
+  admitted.P += motion * motion.transpose();
+  return admitted;
+}
+
+ScanPrediction ScanPredictor::afterClockStep(
     const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
+    const ScanPrediction& with_silence) const
+{
+  ScanPrediction stepped = with_silence;
+  const Prediction p = fromTo(from.filter, from.stamp_ns + with_silence.silent_ns, end_ns, imu);
+  stepped.clock_stepped = true;
+  stepped.state = p.state;
+  stepped.transition = p.transition;
+  stepped.finite = isFinite(p.state.x) && p.state.P.allFinite();
+  return stepped;
+}
+
+ScanPrediction ScanPredictor::predict(
+    const StampedState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu,
     const SystematicCovariance& systematic, bool trusted)
 {
+  const std::int64_t silent_ns = silenceBefore(begin_ns, from.stamp_ns, imu);
+  const FilterState start = admitClockStep(from, silent_ns, imu);
   imu.inputsBetween(from.stamp_ns, end_ns, imu_.hold, inputs_);
   imu.forEachSample(
       from.stamp_ns + 1, end_ns, [this](const ImuSample& sample) { noise_.add(sample); });
   imu_rate_.clear();
   const Prediction propagated = propagateThrough(
-      from.filter, inputs_, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
+      start, inputs_, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
       [&](std::int64_t stamp_ns, const Prediction& prediction)
       {
         if (!imu_rate_wanted_ || !trusted) return;
@@ -25,8 +78,9 @@ ScanPrediction ScanPredictor::predict(
         if (at_sample) imu_rate_.push_back(*at_sample);
       });
   ScanPrediction result;
+  result.silent_ns = silent_ns;
   result.imu_gap_s = toSeconds(imu.longestGap(from.stamp_ns, end_ns));
-  result.gap_rotation_std = rotationStdInGaps(imu.inflations(), from.stamp_ns, end_ns);
+  result.gap_rotation_std = rotationStdInGaps(imu.inflations(), begin_ns, end_ns);
   // Absurd but finite inertial samples may overflow; such a number never enters the state.
   result.finite = isFinite(propagated.state.x) && propagated.state.P.allFinite();
   result.state = result.finite ? propagated.state : from.filter;

@@ -26,7 +26,11 @@ struct ScanPrediction
   ErrorTransition transition;
   bool finite = true;      //!< else the state is the one before: the inertial data overflowed it
   double imu_gap_s = 0.0;  //!< longest one on the way
-  double gap_rotation_std = 0.0;  //!< of the rotation on the way, by missing samples [rad]
+  /** Both sensors were silent at once: their data are lost, or their clock was set ahead. The data
+   * look the same. */
+  std::int64_t silent_ns = 0;
+  bool clock_stepped = false;     //!< the state is that of a clock that was set ahead
+  double gap_rotation_std = 0.0;  //!< of the rotation in the scan, by missing samples [rad]
 };
 
 /** A state and its instant. */
@@ -48,11 +52,17 @@ class ScanPredictor
   {
   }
 
-  /** To a scan's end. \param systematic is added to the covariance at inertial rate
+  /** To a scan's end. \param begin_ns of the scan \param systematic is added to the covariance at
+   * inertial rate
    * \param trusted states at inertial rate are to be believed */
   [[nodiscard]] ScanPrediction predict(
-      const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
+      const StampedState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu,
       const SystematicCovariance& systematic, bool trusted);
+
+  /** The same if no time has passed in the silence. \param with_silence what predict() gave */
+  [[nodiscard]] ScanPrediction afterClockStep(
+      const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
+      const ScanPrediction& with_silence) const;
 
   /** To the newest inertial sample; nothing when the state is newer. */
   [[nodiscard]] std::optional<ImuRateState> predictNewest(
@@ -65,6 +75,12 @@ class ScanPredictor
   void clearImuRateStates() { imu_rate_.clear(); }
 
  private:
+  [[nodiscard]] Prediction fromTo(
+      const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns,
+      const ImuBuffer& imu) const;
+  [[nodiscard]] FilterState admitClockStep(
+      const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu) const;
+
   ImuOptions imu_;
   bool imu_rate_wanted_;
   NoiseMeasurement noise_;

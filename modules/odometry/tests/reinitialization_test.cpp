@@ -47,9 +47,9 @@ ScanResult scanThat(bool matches, std::int64_t stamp_ns)
 void lose(Reinitialization& reinitialization, std::int64_t from_ns)
 {
   const FilterState state;
-  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(false, from_ns), state, false));
+  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(false, from_ns), state, false, false));
   EXPECT_TRUE(
-      reinitialization.detectTrackingLoss(scanThat(false, from_ns + kSecond), state, false));
+      reinitialization.detectTrackingLoss(scanThat(false, from_ns + kSecond), state, false, false));
 }
 
 TEST(Reinitialization, AStateThatIsKnownGoesOnOnceUntilAScanMatches)
@@ -61,7 +61,7 @@ TEST(Reinitialization, AStateThatIsKnownGoesOnOnceUntilAScanMatches)
   lose(reinitialization, 20 * kSecond);
   EXPECT_FALSE(reinitialization.goesOn(true)) << "the state may be the reason";
   EXPECT_TRUE(reinitialization.pending());
-  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(true, 30 * kSecond), {}, false));
+  EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(true, 30 * kSecond), {}, false, false));
   lose(reinitialization, 40 * kSecond);
   EXPECT_TRUE(reinitialization.goesOn(true));
 }

@@ -45,6 +45,7 @@ class RunDiagnostics
   void considerMotion(const ScanResult& result);
   void considerStep(const ScanResult& result);
   void considerClocks(const ScanResult& result);
+  void considerClockStep(const ScanResult& result);
 
   CalibrationOptions calibration_;
   ImuNoise imu_noise_;

@@ -124,6 +124,7 @@ struct ScanStatistics
   int iterations = 0;
   bool converged = false;
   bool at_rest = false;        //!< the platform was found to stand still (rest.enabled)
+  double clock_step = 0.0;     //!< the clock of both sensors was set ahead before the scan [s]
   bool inertial_step = false;  //!< the inertial sensor or a clock has changed and is estimated anew
   double residual_rms = 0.0;   //!< of the effective points, last iteration [m]
   double normalized_innovation = 0.0;  //!< mean of z^2/r, about 1 when the noise model is true

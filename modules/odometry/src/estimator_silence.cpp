@@ -1,0 +1,109 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What the estimator does when a sensor was silent: both at once, or the LiDAR for long.
+
+#include "estimator.h"
+#include <fastlio/matching/match_evidence.h>
+#include <fastlio/math/time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastlio
+{
+namespace
+{
+// A scan where it belongs has nearly as many inliers as the scans before it.
+constexpr double kNearlyUsual = 0.7;
+constexpr double kMatchesAtAll = 0.3;  // of it, somewhere near its place
+constexpr double kBetter = 1.05;       // one explanation than another
+
+// A map that begins with so wrong a tilt contradicts gravity by a third of a metre per square
+// second ever after [rad].
+constexpr double kKnownTilt = 0.03;
+
+double tiltStd(const FilterState& state)
+{
+  const Vec3 down = state.x.R.transpose() * state.x.g.normalized();
+  const Mat3 P = state.P.block<3, 3>(kAttitude, kAttitude);
+  return std::sqrt(std::max(0.0, P.trace() - down.dot(P * down)));
+}
+}  // namespace
+
+/** A clock that was set ahead leaves the scan where it would be without the silence, to
+ * centimetres. It is believed when that explains the scan better than the motion that bridges the
+ * silence. */
+void Estimator::explainSilence(
+    const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted)
+{
+  const auto* tracking = std::get_if<Tracking>(&mode_);
+  if (tracking == nullptr || tracking->searching || map_.isSparse()) return;
+  ScanPrediction stepped = predictor_.afterClockStep(state_, end_ns, imu, predicted);
+  if (!stepped.finite) return;
+  // The inlier ratio, as a part of the usual one.
+  const auto score = [&](const ScanPrediction& explanation)
+  {
+    const DeskewedScan& deskewed = deskew(scan, end_ns, explanation.state.x);
+    const Work work{scan, deskewed, explanation, state_.filter.x, {}, false, Matrix6::Zero()};
+    const MatchResult match = pullIn(work, end_ns);
+    if (!match.update.updated || !isConvincing(match, deskewed, map_)) return 0.0;
+    return inlierRatio(match.update.last.count, deskewed.surfaces.size()) /
+           map_.usualInlierRatio() / std::max(1.0, normalizedInnovation(match.update));
+  };
+  const double with_silence = score(predicted), without = score(stepped);
+  // Where the bridged motion leads nowhere, nothing is compared.
+  const bool compared = with_silence > kMatchesAtAll && without > kNearlyUsual;
+  if (compared && without > kBetter * with_silence) predicted = std::move(stepped);
+}
+
+/** The inertial data were well, so nothing is re-initialised: where the map does not show the
+ * place, a new one begins at the predicted pose. */
+MapSearchResult Estimator::searchAfterOutage(const Work& work, std::int64_t end_ns)
+{
+  auto& tracking = std::get<Tracking>(mode_);
+  OutageSearch& outage = *tracking.outage;
+  const DeskewedScan& scan = work.deskewed;
+  const bool knew = outage.knowsVelocity();
+  const FilterState state = outage.withVelocity(scan, work.predicted.state, end_ns, matcher_);
+  if (outage.knowsVelocity() && !knew) deskew(work.scan, end_ns, state.x);
+  const MapSearch search(options_, matcher_, scan, map_);
+  MapSearchResult result =
+      outage.measuresVelocity(end_ns) ? search.postponed(state) : search.aroundPrediction(state);
+  const bool over = result.found || outage.isOver(end_ns);
+  if (over && !result.found && outage.knowsVelocity() && tiltStd(state) < kKnownTilt)
+  {
+    const FilterState from = beginNewMap(scan, state);
+    if (map_.empty()) result = search.postponed(from);
+  }
+  tracking.lost = over && !result.found && !map_.empty();
+  tracking.searching = !result.found && !map_.empty();
+  result.after_outage = true;
+  if (over) tracking.outage.reset();
+  return result;
+}
+
+/** A given map stays, as the world is that of the map. \return the state, as uncertain as its pose
+ * is in the world: the errors of the old map are a part of that, as the new map begins at this
+ * pose.
+ */
+FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& predicted)
+{
+  FilterState state = predicted;
+  if (map_.isGiven() || !hasEnoughPoints(scan)) return state;
+  const CalibrationEstimate& calibration = calibration_.estimate();
+  state.P += map_.error().addition() + map_.calibrationError().addition(calibration.second_moment) /
+                                           calibration.innovation_scale;
+  // The error of this pose is that of the new map. What scans will say about the way from here on
+  // contains nothing about it, and it contains nothing about the motion.
+  const Mat3 position = state.P.block<3, 3>(kPosition, kPosition);
+  state.P.middleRows<3>(kPosition).setZero();
+  state.P.middleCols<3>(kPosition).setZero();
+  state.P.block<3, 3>(kPosition, kPosition) = position;
+  useMap(LocalMap(options_, workers_));
+  map_.beginAt(scanPoseCovariance(state, scan.compensation).diagonal().tail<3>());
+  return state;
+}
+
+}  // namespace fastlio
