@@ -80,7 +80,7 @@ RunFolderPlan folderPlan(
         {(std::filesystem::path(arguments.output_directory) / name).string(), "--output-dir"});
   requireDistinctFiles(used, made);
   RunFolderPlan plan{arguments.output_directory, files.names(), "summary.json", "exit_status",
-                     arguments.overwrite,        "fastlio-map"};
+                     arguments.overwrite,        "fastlio-map", isMapFileName};
   requireReplaceable(plan);
   return plan;
 }

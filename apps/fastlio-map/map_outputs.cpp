@@ -16,6 +16,8 @@ namespace fastlio
 {
 namespace
 {
+namespace fs = std::filesystem;
+
 constexpr double kPerMillion = 1e6;
 
 OutputMapOptions mapOptions(const MapArguments& arguments, const Config& config)
@@ -31,7 +33,7 @@ OutputMapOptions mapOptions(const MapArguments& arguments, const Config& config)
 ExportTarget targetOf(const MapFiles& files, const Session& session, const OutputFrame& frame)
 {
   ExportTarget target;
-  target.directory = std::filesystem::path(files.path("simplemap")).parent_path().string();
+  target.directory = fs::path(files.path("simplemap")).parent_path().string();
   target.frame = frame;
   target.parameters = session.config().exporters;
   target.recording = {session.files(), session.selection(), session.plan().bridge};
@@ -83,6 +85,20 @@ bool isOfSession(const std::string& kind)
   return kinds.count(kind) > 0;
 }
 
+bool isMapFileName(const std::string& name)
+{
+  const auto is_of = [&name](const MapFileKind& kind)
+  {
+    const fs::path file(kind.file), seen(name);
+    if (name == kind.file) return true;
+    // One of several sessions: "trajectory.walk.tum".
+    const std::string start = file.stem().string() + ".";
+    return isOfSession(kind.name) && seen.extension() == file.extension() &&
+           seen.stem().string().size() > start.size() && name.rfind(start, 0) == 0;
+  };
+  return std::any_of(mapFileKinds().begin(), mapFileKinds().end(), is_of);
+}
+
 MapFiles::MapFiles(const MapArguments& arguments, const std::vector<std::string>& sessions)
     : directory_(arguments.output_directory), sessions_(sessions)
 {
@@ -127,7 +143,7 @@ std::string MapFiles::path(const std::string& kind, std::size_t session) const
   const auto& all = mapFileKinds();
   const auto found = std::find_if(
       all.begin(), all.end(), [&kind](const MapFileKind& k) { return kind == k.name; });
-  return (std::filesystem::path(directory_) / nameOf(*found, session)).string();
+  return (fs::path(directory_) / nameOf(*found, session)).string();
 }
 
 std::vector<std::string> MapFiles::names() const

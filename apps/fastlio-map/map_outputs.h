@@ -48,6 +48,9 @@ class MapFiles
 /** Whether there is one file of a kind for each session. */
 [[nodiscard]] bool isOfSession(const std::string& kind);
 
+/** Whether a run of the program, of whatever sessions, writes a file of this name. */
+[[nodiscard]] bool isMapFileName(const std::string& name);
+
 /** How many planes of submaps stay in memory, and where the others go. */
 [[nodiscard]] SubmapStoreOptions submapStoreOptions(
     const MapArguments& arguments, const Config& config);

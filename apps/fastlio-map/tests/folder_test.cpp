@@ -3,6 +3,7 @@
 
 // The folder that the program writes into: of another run, of a killed one, of somebody else.
 
+#include "folder_listing.h"
 #include "map_fixture.h"
 #include <fastlio/files/folder_lock.h>
 
@@ -82,6 +83,27 @@ TEST_F(Map, DoesNotReplaceWhatItHasNotWritten)
   std::ofstream(folder_.file("mine") + "/map.ply") << "mine";
   EXPECT_EQ(run({rawlog, "-o", folder_.file("mine"), "--export", "ply"}).exit_status, 1);
   EXPECT_EQ(contentOf(folder_.file("mine") + "/map.ply"), "mine");
+}
+
+/** Of an earlier run with other sessions; anybody may have edited the record. */
+TEST_F(Map, OnlyFilesOfTheProgramGoWithAnEarlierRun)
+{
+  const std::string rawlog = record("walk", walk(8.0));
+  fs::create_directory(folder_.file("map"));
+  std::string outputs;
+  for (const char* name :
+       {"map.las", "trajectory.tuesday.tum", "trajectory..tum", "map.tuesday.las", "thesis.tum"})
+  {
+    std::ofstream(folder_.file("map") + "/" + name) << "1234";
+    outputs +=
+        std::string(outputs.empty() ? "" : ",") + R"({"path": ")" + name + R"(", "bytes": 4})";
+  }
+  std::ofstream(folder_.file("map") + "/summary.json")
+      << R"({"program": "fastlio-map", "exit_status": 0, "outputs": [)" << outputs << "]}";
+  ASSERT_EQ(run({rawlog, "-o", folder_.file("map"), "--export", "trajectory"}).exit_status, 0);
+  EXPECT_EQ(
+      namesIn(folder_.file("map")),
+      "map.tuesday.las summary.json thesis.tum trajectory..tum trajectory.tum");
 }
 
 /** Either would remove what the other one has written. */

@@ -176,6 +176,9 @@ TEST_F(Outputs, AFolderHoldsOneRun)
   EXPECT_EQ(
       namesIn(file("out")),
       "map.planes notes.txt poses.graph summary.json trajectory.kitti trajectory.kitti_times");
+  auto edited = nlohmann::json::parse(contentOf(file("out/summary.json")));
+  edited["outputs"].push_back({{"path", notes}, {"bytes", fs::file_size(notes)}});
+  (void)write("out/summary.json", edited.dump());
   // The map is an input of the second run and stays.
   expectEnd(
       replayFile(

@@ -146,6 +146,15 @@ std::vector<std::string> outputFileNames(
   return files;
 }
 
+bool isOutputFileName(std::string_view name)
+{
+  const auto& kinds = exporterKinds();
+  return !name.empty() && std::any_of(
+                              kinds.begin(), kinds.end(),
+                              [name](const ExporterKind& kind)
+                              { return kind.file == name || kind.second_file == name; });
+}
+
 ExporterSet makeExporters(const ExportTarget& options, const std::vector<ExporterKind>& kinds)
 {
   const std::vector<ExporterKind> wanted = wantedKinds(options, kinds);

@@ -23,7 +23,14 @@ class RunFolderTest : public ::testing::Test
  protected:
   [[nodiscard]] RunFolderPlan plan() const
   {
-    return {folder_.path(), {"a.csv", "summary.json"}, "summary.json", "exit_status"};
+    return {
+        folder_.path(),
+        {"a.csv", "summary.json"},
+        "summary.json",
+        "exit_status",
+        false,
+        "",
+        [](const std::string& name) { return fs::path(name).extension() == ".csv"; }};
   }
 
   void write(const std::string& name, const std::string& content) const
@@ -153,6 +160,30 @@ TEST_F(RunFolderTest, TheEarlierRunGoesWhenTheNewOneIsComplete)
       << "c.csv has another size than the run has written";
 }
 
+/** Anybody may have edited it. */
+TEST_F(RunFolderTest, ARecordNamesNoFilesThatTheProgramNeverWrites)
+{
+  write("a.csv", "old");
+  write("thesis.pdf", "years of work");
+  fs::create_directory(folder().file("sub"));
+  write("sub/b.csv", "1234");
+  write("mine.csv", "1234");
+  fs::create_symlink("mine.csv", folder().file("link.csv"));
+  fs::create_directory(folder().file("folder.csv"));
+  write(
+      "summary.json",
+      R"({"exit_status": 0, "outputs": [{"path": "thesis.pdf", "bytes": 13},
+          {"path": "sub/b.csv", "bytes": 4}, {"path": "link.csv", "bytes": 4},
+          {"path": "folder.csv", "bytes": 4096}, {"path": "..", "bytes": 4096},
+          {"path": "sub/", "bytes": 4096}, {"path": "", "bytes": 4096}]})");
+  const RunFolder run(plan());
+  run.removeLeftovers({});
+  EXPECT_EQ(
+      namesIn(folder()),
+      ".fastlio-lock a.csv folder.csv link.csv mine.csv sub summary.json thesis.pdf");
+  EXPECT_EQ(contentOf(folder().file("sub/b.csv")), "1234");
+}
+
 TEST_F(RunFolderTest, InputsStay)
 {
   writeEarlierRun();
@@ -195,6 +226,8 @@ TEST(OutputFileNames, AreThoseThatExportersWrite)
   const ExporterSet set = makeExporters(target);
   const std::vector<std::string> names = outputFileNames(target);
   EXPECT_EQ(names.size(), exporterKinds().size() + 1);  // kitti has two
+  EXPECT_TRUE(std::all_of(names.begin(), names.end(), isOutputFileName));
+  EXPECT_FALSE(isOutputFileName("notes.txt") || isOutputFileName(""));
   std::vector<std::string> opened;
   for (const auto& entry : fs::directory_iterator(folder.path()))
     opened.push_back(entry.path().filename().string());

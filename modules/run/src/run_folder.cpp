@@ -71,8 +71,9 @@ void removeFinishedOf(
     const std::string name = fs::path(file.path).filename().string();
     const std::string path = pathIn(plan, name);
     const bool replaced = std::find(plan.files.begin(), plan.files.end(), name) != plan.files.end();
+    const bool is_own = plan.writes && plan.writes(name);
     // Another size: somebody has put another file there.
-    if (replaced || !fs::is_regular_file(fs::symlink_status(path, ignored)) ||
+    if (replaced || !is_own || !fs::is_regular_file(fs::symlink_status(path, ignored)) ||
         fs::file_size(path, ignored) != file.bytes || isAnyOf(path, kept))
       continue;
     fs::remove(path, ignored);

@@ -66,6 +66,9 @@ struct ExporterKind
 [[nodiscard]] std::vector<std::string> outputFileNames(
     const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
 
+/** Whether one of exporterKinds() writes a file of this name into the directory. */
+[[nodiscard]] bool isOutputFileName(std::string_view name);
+
 /** `trajectory.tum`: "t x y z qx qy qz qw" per scan with a pose, t in seconds with 9 decimals. */
 [[nodiscard]] std::unique_ptr<Exporter> makeTumExporter(
     const std::string& path, const OutputFrame& frame);

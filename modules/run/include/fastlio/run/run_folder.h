@@ -8,6 +8,7 @@
 #include <fastlio/files/folder_lock.h>
 #include <fastlio/files/made_folders.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct RunFolderPlan
   std::string record_key;          //!< a key that distinguishes such a file from others
   bool overwrite = false;          //!< also files of others may be replaced
   std::string program = {};        //!< as its record names it; empty: the record names none
+  /** Whether another run of the program may write a file of this name; empty: all are in files. */
+  std::function<bool(const std::string& name)> writes = {};
 };
 
 /** Checks, without making anything, that the folder can be written, that it holds no run of another
@@ -41,7 +44,8 @@ class RunFolder
 
   /** Once the run is complete: removes the files that the run before has written, according to its
    * record, and that this one has not; also what a killed run has left unfinished. Nothing else is
-   * touched, nor what is among \a kept, the inputs. */
+   * touched, nor what is among \a kept, the inputs. Anybody may have edited the record: only files
+   * that the program writes are removed. */
   void removeLeftovers(const std::vector<std::string>& kept) const;
 
  private:
