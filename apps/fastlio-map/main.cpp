@@ -79,7 +79,7 @@ RunFolderPlan folderPlan(
     made.push_back(
         {(std::filesystem::path(arguments.output_directory) / name).string(), "--output-dir"});
   requireDistinctFiles(used, made);
-  RunFolderPlan plan{arguments.output_directory, files.names(), "summary.json", "exit_status",
+  RunFolderPlan plan{arguments.output_directory, files.names(), kSummaryFile, kSummaryKey,
                      arguments.overwrite,        "fastlio-map", isMapFileName};
   requireReplaceable(plan);
   return plan;

@@ -109,13 +109,9 @@ OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
   requireReport(arguments, names);
   if (!arguments.output_directory.empty())
   {
-    plan.folder = RunFolderPlan{arguments.output_directory,
-                                names,
-                                "summary.json",
-                                "exit_status",
-                                arguments.overwrite,
-                                "fastlio-replay",
-                                isOutputFileName};
+    plan.folder = RunFolderPlan{
+        arguments.output_directory, names,           kSummaryFile, kSummaryKey, arguments.overwrite,
+        "fastlio-replay",           isOutputFileName};
     requireReplaceable(*plan.folder);
   }
   if (!arguments.output_tum_path.empty()) plan.tum_folder = tumFolder(arguments.output_tum_path);

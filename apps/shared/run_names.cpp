@@ -3,7 +3,10 @@
 
 #include "run_names.h"
 
+#include <fastlio/run/run_folder.h>
+
 #include <filesystem>
+#include <regex>
 #include <system_error>
 #include <unistd.h>
 
@@ -14,6 +17,21 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr const char* kLatest = "latest";
+
+/** Whether freeRunFolder() could have named it: "walk-run", "walk-run-2". */
+bool isNameOfRun(const std::string& name)
+{
+  static const std::regex pattern(".+-run(-[0-9]+)?");
+  return fs::path(name).filename() == name && std::regex_match(name, pattern);
+}
+
+/** Whether "latest" leads to a run, or to one that was there. */
+bool leadsToRun()
+{
+  std::error_code error;
+  const std::string target = fs::read_symlink(kLatest, error).string();
+  return fs::exists(target, error) ? holdsRun(target) : isNameOfRun(target);
+}
 }  // namespace
 
 std::string recordingName(const std::string& path)
@@ -41,6 +59,10 @@ std::optional<std::string> linkLatest(const std::string& folder)
   const fs::file_type there = fs::symlink_status(kLatest, error).type();
   if (there != fs::file_type::not_found && there != fs::file_type::symlink)
     return "'latest' is no symbolic link: it stays as it is";
+  if (there == fs::file_type::symlink && !leadsToRun())
+    return "'latest' is a link to something that is no folder of a run: it stays as it is; remove "
+           "it to have a link to '" +
+           folder + "'";
   // A link gets its name when it is complete.
   const std::string temporary = std::string(".") + kLatest + "." + std::to_string(getpid());
   fs::create_directory_symlink(folder, temporary, error);

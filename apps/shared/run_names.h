@@ -17,7 +17,8 @@ namespace fastlio
     const std::string& recording, const std::string& suffix = "-run");
 
 /** Makes "latest", in the current folder, a symbolic link to the folder of a run.
- * \return why it was not made; what is no symbolic link stays as it is */
+ * \return why it was not made; what is no symbolic link stays as it is, and so does a link that
+ * leads to something else than a run */
 [[nodiscard]] std::optional<std::string> linkLatest(const std::string& folder);
 
 }  // namespace fastlio

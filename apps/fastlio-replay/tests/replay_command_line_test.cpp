@@ -45,6 +45,36 @@ TEST_F(Typed, LatestReplacesNothingThatIsNoLink)
   EXPECT_EQ(contentOf(file("latest")), "mine");
 }
 
+TEST_F(Typed, LatestStaysWhereItLeadsToSomethingThatIsNoRun)
+{
+  (void)record("walk.rawlog", {});
+  fs::create_directory(file("photos"));
+  (void)write("photos/summary.json", R"({"of": "another program"})");
+  for (const char* target : {"photos", "nowhere", "../gone-run", "latest"})
+  {
+    fs::create_symlink(target, file("latest"));
+    expectEnd(typed({"walk.rawlog"}), 0, "'latest' is a link to something that is no folder of a");
+    EXPECT_EQ(fs::read_symlink(file("latest")), target);
+    fs::remove(file("latest"));
+  }
+}
+
+TEST_F(Typed, LatestLeavesARunThatWasMovedOrRemoved)
+{
+  (void)record("walk.rawlog", {});
+  expectEnd(typed({"walk.rawlog"}), 0, "");
+  fs::rename(file("walk-run"), file("best"));
+  expectEnd(typed({"walk.rawlog"}), 0, "");
+  EXPECT_EQ(fs::read_symlink(file("latest")), "walk-run") << "it led nowhere";
+  fs::remove(file("latest"));
+  fs::create_symlink("best", file("latest"));
+  expectEnd(typed({"walk.rawlog"}), 0, "");
+  EXPECT_EQ(fs::read_symlink(file("latest")), "walk-run-2");
+  fs::remove_all(file("walk-run-2"));
+  expectEnd(typed({"walk.rawlog", "--export", "trajectory"}), 0, "");
+  EXPECT_EQ(fs::read_symlink(file("latest")), "walk-run-2");
+}
+
 TEST_F(Typed, AFailedRunLeavesNoFolder)
 {
   expectEnd(typed({"missing.rawlog"}), 2, "missing.rawlog");

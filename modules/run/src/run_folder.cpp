@@ -107,6 +107,12 @@ void requireReplaceable(const RunFolderPlan& plan)
   if (!hasLockFile(plan.directory)) requireNothingForeign(plan);
 }
 
+bool holdsRun(const std::string& directory)
+{
+  const std::string summary = (fs::path(directory) / kSummaryFile).string();
+  return readRunRecord(summary, kSummaryKey) || hasLockFile(directory);
+}
+
 RunFolder::RunFolder(RunFolderPlan plan)
     : plan_(std::move(plan)), made_(plan_.directory), lock_(plan_.directory)
 {

@@ -14,6 +14,10 @@
 
 namespace fastlio
 {
+/** The record of a run, and its key that distinguishes it from files of others. */
+inline constexpr const char* kSummaryFile = "summary.json";
+inline constexpr const char* kSummaryKey = "exit_status";
+
 /** The files that a run is going to write into a folder. */
 struct RunFolderPlan
 {
@@ -32,6 +36,9 @@ struct RunFolderPlan
  * record lies beside it, or the lock file of a run that was killed.
  * \exception std::runtime_error otherwise; the message names the file or the program */
 void requireReplaceable(const RunFolderPlan& plan);
+
+/** Whether a run has left its kSummaryFile in the folder, or its lock file. */
+[[nodiscard]] bool holdsRun(const std::string& directory);
 
 /** A folder that belongs to this process until the end. A folder that it had to make goes again
  * when it is empty in the end. */
