@@ -42,14 +42,27 @@ bool isStillThere(int file, const std::string& path)
          held.st_dev == named.st_dev && held.st_ino == named.st_ino;
 }
 
+/** The content of a lock file is replaced, and the file goes in the end.
+ * \exception std::runtime_error it is something else */
+void requireLockFile(int file, const std::string& path)
+{
+  struct stat state = {};
+  if (fstat(file, &state) == 0 && S_ISREG(state.st_mode) && state.st_nlink <= 1) return;
+  throw std::runtime_error(
+      "'" + path +
+      "' is no lock file of a run: it is a pipe, a device or a file with several "
+      "names; remove it or choose another folder");
+}
+
 /** An open file that this process holds. */
 FileDescriptor heldFile(const std::string& directory, const std::string& path)
 {
+  constexpr int kFlags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
   for (;;)
   {
-    FileDescriptor file(
-        open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kNewLockFile));
+    FileDescriptor file(open(path.c_str(), kFlags, kNewLockFile));
     if (!file.isOpen()) failWriting(path);
+    requireLockFile(file.get(), path);
     // On a file system without locks nobody can be kept out.
     if (flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw std::runtime_error(

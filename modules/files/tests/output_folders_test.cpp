@@ -6,6 +6,7 @@
 #include <fastlio/files/made_folders.h>
 
 #include <stdexcept>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace fastlio
@@ -81,13 +82,61 @@ TEST(FolderLock, TheLockOfAKilledProcessIsTakenOver)
   EXPECT_EQ(namesIn(folder), "");
 }
 
+/** The folder is refused, the message names the lock file, and everything stays. */
+void expectNoLock(const TemporaryFolder& folder, const std::string& reason)
+{
+  const std::string path = folder.file(".fastlio-lock");
+  const fs::file_type before = fs::symlink_status(path).type();
+  try
+  {
+    const FolderLock lock(folder.path());
+    ADD_FAILURE() << "it was taken for a lock: " << reason;
+  }
+  catch (const std::runtime_error& e)
+  {
+    const std::string message = e.what();
+    EXPECT_NE(message.find("'" + path + "'"), std::string::npos) << message;
+    EXPECT_NE(message.find(reason), std::string::npos) << message;
+  }
+  EXPECT_EQ(fs::symlink_status(path).type(), before);
+}
+
 TEST(FolderLock, FollowsNoLink)
 {
   const TemporaryFolder folder;
   std::ofstream(folder.file("precious")) << "x";
   fs::create_symlink("precious", folder.file(".fastlio-lock"));
-  EXPECT_THROW(FolderLock{folder.path()}, std::runtime_error);
+  expectNoLock(folder, "symbolic links");
   EXPECT_EQ(contentOf(folder.file("precious")), "x");
+  fs::remove(folder.file(".fastlio-lock"));
+  fs::create_symlink("nowhere", folder.file(".fastlio-lock"));
+  expectNoLock(folder, "symbolic links");
+  EXPECT_FALSE(fs::exists(folder.file("nowhere")));
+  fs::remove(folder.file(".fastlio-lock"));
+  fs::create_hard_link(folder.file("precious"), folder.file(".fastlio-lock"));
+  expectNoLock(folder, "several names");
+  EXPECT_EQ(contentOf(folder.file("precious")), "x");
+}
+
+TEST(FolderLock, WhatIsNoFileStays)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file(".fastlio-lock"));
+  std::ofstream(folder.file(".fastlio-lock/precious")) << "x";
+  expectNoLock(folder, "Is a directory");
+  EXPECT_EQ(contentOf(folder.file(".fastlio-lock/precious")), "x");
+  fs::remove_all(folder.file(".fastlio-lock"));
+  ASSERT_EQ(mkfifo(folder.file(".fastlio-lock").c_str(), 0600), 0);
+  expectNoLock(folder, "is a pipe");
+}
+
+TEST(FolderLock, OneThatMayNotBeReadStays)
+{
+  if (geteuid() == 0) return;  // who may read everything
+  const TemporaryFolder folder;
+  std::ofstream(folder.file(".fastlio-lock")) << "x";
+  fs::permissions(folder.file(".fastlio-lock"), fs::perms::none);
+  expectNoLock(folder, "Permission denied");
 }
 
 }  // namespace
