@@ -24,16 +24,13 @@ class RunFollower
 {
  public:
   RunFollower(Odometry& odometry, const ScanRange& range)
-      : odometry_(odometry),
-        measured_from_(range.measured_from),
-        keeps_history_(range.keeps_history)
+      : odometry_(odometry), measured_from_(range.measured_from)
   {
   }
 
   void take(const ScanResult& scan)
   {
     if (scan.status == ScanStatus::Tracking) takeTracked(scan);
-    if (keeps_history_) result_.history.push_back(so_far_);
     ++result_.scans;
   }
 
@@ -63,17 +60,10 @@ class RunFollower
     const auto points = static_cast<double>(scan.statistics.points_effective);
     result_.agreement.points += points;
     result_.agreement.residual_squares += points * std::pow(scan.statistics.residual_rms, 2);
-    if (!keeps_history_) return;
-    const CalibrationSums sums = odometry_.calibrationFindings().sums;
-    so_far_ = result_.agreement;
-    so_far_.innovation_squares = sums.squares;
-    so_far_.innovations = sums.count;
   }
 
   Odometry& odometry_;
   std::size_t measured_from_;
-  bool keeps_history_;
-  RunAgreement so_far_;
   std::optional<std::int64_t> first_ns_;
   CalibrationSums before_;
   CalibrationRunResult result_;
@@ -96,15 +86,6 @@ RunAgreement& RunAgreement::operator+=(const RunAgreement& other)
   return *this;
 }
 
-RunAgreement& RunAgreement::operator-=(const RunAgreement& other)
-{
-  innovation_squares -= other.innovation_squares;
-  innovations -= other.innovations;
-  residual_squares -= other.residual_squares;
-  points -= other.points;
-  return *this;
-}
-
 double RunAgreement::innovation() const
 {
   return innovations > 0.0 ? innovation_squares / innovations : 0.0;
@@ -113,13 +94,6 @@ double RunAgreement::innovation() const
 double RunAgreement::mapThickness() const
 {
   return points > 0.0 ? std::sqrt(residual_squares / points) : 0.0;
-}
-
-RunAgreement CalibrationRunResult::agreementFrom(std::size_t scan) const
-{
-  RunAgreement rest = agreement;
-  if (scan > 0 && !history.empty()) rest -= history[std::min(scan, history.size()) - 1];
-  return rest;
 }
 
 void CalibrationRunResult::takeTimeOffset(double offset, double std)

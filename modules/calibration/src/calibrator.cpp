@@ -215,14 +215,12 @@ CalibrationTrial Calibrator::tryOut() const
 CalibrationTrial Calibrator::tryLastPart() const
 {
   const CalibrationRecording& recording = recordings_.front();
-  ScanRange all;
-  all.keeps_history = true;
-  const CalibrationRunResult whole = calibrationRun(recording, configWith(given_), all);
+  const CalibrationRunResult whole = calibrationRun(recording, configWith(given_));
   const auto split = static_cast<std::size_t>(kFittedPart * static_cast<double>(whole.scans));
   const RigEstimate estimate = calibrate(recordings_, {split, 0}, "trial on the last part: ");
   const ScanRange last{std::numeric_limits<std::size_t>::max(), split};
   CalibrationTrial trial;
-  trial.before = whole.agreementFrom(split);
+  trial.before = calibrationRun(recording, configWith(given_), last).agreement;
   trial.after = calibrationRun(recording, configWith(estimate.rig), last).agreement;
   trial.seconds = (1.0 - kFittedPart) * whole.seconds;
   return trial;

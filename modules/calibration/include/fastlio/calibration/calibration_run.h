@@ -29,7 +29,6 @@ struct RunAgreement
   double residual_squares = 0.0, points = 0.0;         //!< of the points to their planes [m^2]
 
   RunAgreement& operator+=(const RunAgreement& other);
-  RunAgreement& operator-=(const RunAgreement& other);
   [[nodiscard]] double innovation() const;    //!< mean square; 1 when all noise is as configured
   [[nodiscard]] double mapThickness() const;  //!< root mean square of the residuals [m]
 };
@@ -44,10 +43,6 @@ struct CalibrationRunResult
   std::size_t scans = 0, tracked = 0;
   double seconds = 0.0;               //!< from the first to the last scan that was tracked
   std::vector<std::string> problems;  //!< of reading, for people: the rest was used
-  std::vector<RunAgreement> history;  //!< up to each scan; see ScanRange::keeps_history
-
-  /** Of the scans from this one on, by the history. */
-  [[nodiscard]] RunAgreement agreementFrom(std::size_t scan) const;
 
   /** The offset after another scan. An inertial sensor that changes makes it uncertain again: until
    * it is about as well known as before, what was known before counts. */
@@ -59,7 +54,6 @@ struct ScanRange
 {
   std::size_t end = std::numeric_limits<std::size_t>::max();  //!< the run ends before this scan
   std::size_t measured_from = 0;  //!< for CalibrationRunResult::agreement
-  bool keeps_history = false;     //!< CalibrationRunResult::history, where all is measured
 };
 
 /** \exception std::runtime_error the recording cannot be read, or has no usable sensors; with the
