@@ -85,8 +85,8 @@ struct Loading
 
 std::string unknownKeyText(const std::string& key)
 {
-  const std::string_view advice = adviceForKey(key);
-  if (!advice.empty()) return std::string(advice);
+  std::string advice = adviceFor(key);
+  if (!advice.empty()) return advice;
   return "is not a parameter; did you mean '" + nearestKey(configTable(), key) + "'?";
 }
 
@@ -97,8 +97,8 @@ void loadValue(Loading& loading, const std::string& key, const yaml::node_t& nod
       row == nullptr ? unknownKeyText(key)
                      : assignNode(row->value(loading.config), row->unit, node);
   if (!problem) return;
-  const std::string_view advice = row == nullptr ? "" : adviceForChoice(key, plainTextOf(node));
-  if (!advice.empty()) *problem += "; " + std::string(advice);
+  const std::string advice = row == nullptr ? "" : adviceFor(key + ": " + plainTextOf(node));
+  if (!advice.empty()) *problem += "; " + advice;
   loading.problems.push_back(problemAt(node, key, *problem));
 }
 

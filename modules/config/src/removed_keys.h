@@ -4,6 +4,7 @@
 /** \file removed_keys.h Keys and values of earlier versions, and what to do now (internal). */
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,23 +13,13 @@ namespace fastlio
 /** A key that is no option any more. */
 struct RemovedKey
 {
-  std::string_view key;
-  std::string_view advice;  //!< continues "KEY: "
-};
-
-/** A choice that is gone. */
-struct RemovedChoice
-{
-  std::string_view key;
-  std::string_view value;
-  std::string_view advice;
+  std::string_view key;  //!< or "KEY: VALUE", a value that an option has no more
+  std::string advice;    //!< continues "KEY: "
 };
 
 [[nodiscard]] const std::vector<RemovedKey>& removedKeys();
-[[nodiscard]] const std::vector<RemovedChoice>& removedChoices();
 
-/** The advice for a key or a choice; empty: it was never there. */
-[[nodiscard]] std::string_view adviceForKey(std::string_view key);
-[[nodiscard]] std::string_view adviceForChoice(std::string_view key, std::string_view value);
+/** The advice for "KEY" or "KEY: VALUE"; empty: it was never there. */
+[[nodiscard]] std::string adviceFor(std::string_view key);
 
 }  // namespace fastlio
