@@ -3,13 +3,13 @@
 
 /** \file main.cpp fastlio-calibrate: from recordings to the calibration of a rig. */
 
+#include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
 #include "command_line.h"
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/config/presets.h>
 #include <fastlio/files/atomic_file.h>
-#include <fastlio/files/failure_text.h>
 #include <fastlio/files/own_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/json_text.h>
@@ -21,19 +21,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <unistd.h>
 
 namespace
 {
 using namespace fastlio;
-
-/** Why the program ends, and with which status. */
-struct Failure
-{
-  CalibrateStatus status;
-  std::string text;
-};
 
 /** Nothing may replace what it comes from. */
 void requireHarmlessOutputs(const CalibrateArguments& arguments)
@@ -122,14 +114,7 @@ std::string documentOf(
 
 void write(const std::string& path, const std::string& content)
 {
-  try
-  {
-    writeFileAtomically(path, content);
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{CalibrateStatus::NotWritten, failureText(e)};
-  }
+  failingWith(CalibrateStatus::NotWritten, [&] { return writeFileAtomically(path, content); });
 }
 
 /** The parameters that are given, beside them those of the LiDAR that the first recording names. */
@@ -145,18 +130,34 @@ Config withPreset(
   return given.config;
 }
 
-struct Findings
+CalibrateStatus calibrate(const CalibrateArguments& arguments, ConfigFile given)
 {
-  RigEstimate estimate;
+  requireReadableRecordings(arguments.recordings);
+  const std::vector<CalibrationRecording> recordings = recordingsOf(arguments);
+  const Config config = withPreset(std::move(given), recordings.front(), arguments);
+  const CalibrationProgress progress = progressOf(arguments);
+  const Calibrator calibrator(recordings, config, arguments.passes, progress);
+  const RigEstimate estimate = calibrator.calibrate();
   std::optional<CalibrationTrial> trial;
-};
-
-Findings calibrate(const Calibrator& calibrator, bool with_trial)
-{
-  Findings findings;
-  findings.estimate = calibrator.calibrate();
-  if (with_trial) findings.trial = calibrator.tryOut();
-  return findings;
+  if (arguments.trial) trial = calibrator.tryOut();
+  if (progress) std::cerr << "\r\033[K";
+  for (const std::string& problem : estimate.problems)
+    std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
+  const Config calibrated = calibrator.configWith(estimate);
+  write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
+  if (arguments.json == "-")
+    std::cout << documentOf(calibrator.given(), estimate, trial) << std::flush;
+  else if (!arguments.json.empty())
+    write(arguments.json, documentOf(calibrator.given(), estimate, trial));
+  if (!std::cout) throw Failure(CalibrateStatus::NotWritten, "standard output cannot be written");
+  say(arguments, calibrationTable(calibrator.given(), estimate) + "\n" +
+                     (trial ? describe(*trial) + "\n" : std::string()) +
+                     "Written: " + arguments.output);
+  if (!trial || trial->worthUsing()) return CalibrateStatus::Ok;
+  say(arguments, "Do not use " + arguments.output + "; keep the parameters that you had. " +
+                     (recordings.size() > 1 ? "Are all recordings of the same rig?"
+                                            : "A longer recording, with more turns, may help."));
+  return CalibrateStatus::NotBetter;
 }
 
 CalibrateStatus run(const CalibrateArguments& arguments)
@@ -168,45 +169,9 @@ CalibrateStatus run(const CalibrateArguments& arguments)
   for (const std::string& setting : arguments.settings)
     given.lines[applySetting(setting, given.config)] = 0;
   validate(given.config);
-  try
-  {
-    requireReadableRecordings(arguments.recordings);
-    const std::vector<CalibrationRecording> recordings = recordingsOf(arguments);
-    const Config config = withPreset(std::move(given), recordings.front(), arguments);
-    const CalibrationProgress progress = progressOf(arguments);
-    const Calibrator calibrator(recordings, config, arguments.passes, progress);
-    const auto [estimate, trial] = calibrate(calibrator, arguments.trial);
-    if (progress) std::cerr << "\r\033[K";
-    for (const std::string& problem : estimate.problems)
-      std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
-    const Config calibrated = calibrator.configWith(estimate);
-    write(arguments.output, calibrationYaml(calibrated, calibrator.given(), estimate, trial));
-    if (arguments.json == "-")
-      std::cout << documentOf(calibrator.given(), estimate, trial) << std::flush;
-    else if (!arguments.json.empty())
-      write(arguments.json, documentOf(calibrator.given(), estimate, trial));
-    if (!std::cout) throw Failure{CalibrateStatus::NotWritten, "standard output cannot be written"};
-    say(arguments, calibrationTable(calibrator.given(), estimate) + "\n" +
-                       (trial ? describe(*trial) + "\n" : std::string()) +
-                       "Written: " + arguments.output);
-    if (!trial || trial->worthUsing()) return CalibrateStatus::Ok;
-    say(arguments, "Do not use " + arguments.output + "; keep the parameters that you had. " +
-                       (recordings.size() > 1 ? "Are all recordings of the same rig?"
-                                              : "A longer recording, with more turns, may help."));
-    return CalibrateStatus::NotBetter;
-  }
-  catch (const Failure&)
-  {
-    throw;
-  }
-  catch (const std::invalid_argument& e)
-  {
-    throw Failure{CalibrateStatus::Usage, failureText(e)};
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{CalibrateStatus::Unusable, failureText(e)};
-  }
+  return failingWith(
+      CalibrateStatus::Usage, CalibrateStatus::Unusable,
+      [&] { return calibrate(arguments, std::move(given)); });
 }
 }  // namespace
 
@@ -214,18 +179,7 @@ int main(int argc, char** argv)
 {
   const auto parsed = parseCommandLine(argc, argv);
   if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  try
-  {
-    return static_cast<int>(run(std::get<CalibrateArguments>(parsed)));
-  }
-  catch (const Failure& failure)
-  {
-    std::cerr << "fastlio-calibrate: " << failure.text << '\n';
-    return static_cast<int>(failure.status);
-  }
-  catch (const std::exception& e)
-  {
-    std::cerr << "fastlio-calibrate: " << failureText(e) << '\n';
-    return static_cast<int>(CalibrateStatus::Usage);
-  }
+  return endOf(
+      "fastlio-calibrate", CalibrateStatus::Usage,
+      [&] { return run(std::get<CalibrateArguments>(parsed)); });
 }

@@ -3,6 +3,7 @@
 
 #include "import_run.h"
 
+#include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
 #include "import_inputs.h"
 #include "mcap_output.h"
@@ -133,19 +134,7 @@ class Import
   std::vector<OutputFile> files_;
 };
 
-void requireReadable(const std::vector<std::string>& files)
-{
-  try
-  {
-    requireReadableRecordings(files);
-  }
-  catch (const std::runtime_error& e)
-  {
-    throw ImportInputError(e.what());
-  }
-}
-
-/** \exception ImportInputError a pattern of topics finds nothing; lists what there is */
+/** \exception Failure a pattern of topics finds nothing; lists what there is */
 void requireFound(
     const ImportPlan& plan, SensorKind kind, const std::string& option, const std::string& topic,
     const std::vector<std::string>& new_labels = {})
@@ -162,9 +151,10 @@ void requireFound(
     if (pattern.matches(sensor.label)) return;
     others += "\n  found: " + describe(sensor);
   }
-  throw ImportInputError(
-      option + " '" + printable(topic) + "' matches no " + name + ". " +
-      (others.empty() ? std::string("There is none.") : "The whole topic must match:" + others));
+  throw Failure(
+      ImportStatus::Unusable, option + " '" + printable(topic) + "' matches no " + name + ". " +
+                                  (others.empty() ? std::string("There is none.")
+                                                  : "The whole topic must match:" + others));
 }
 
 /** The parts that are there already, in order. */
@@ -229,7 +219,7 @@ void warn(const std::vector<ReadProblem>& problems)
 ImportStatus runImport(const ImportArguments& arguments)
 {
   requireGivenOnce(arguments.input_files);
-  requireReadable(arguments.input_files);
+  failingWith(ImportStatus::Unusable, [&] { requireReadableRecordings(arguments.input_files); });
   if (!arguments.list) requireHarmlessOutput(arguments);
   const ImportPlan plan = planImport(arguments);
   if (arguments.list)

@@ -6,19 +6,10 @@
 
 #include "command_line.h"
 
-#include <stdexcept>
-
 namespace fastlio
 {
-/** Nothing in the inputs can be used. */
-class ImportInputError : public std::runtime_error
-{
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /** Prints to standard output, problems to standard error.
- * \exception ImportInputError an input does not exist, or has nothing that is asked for
+ * \exception Failure an input does not exist, or has nothing that is asked for
  * \exception std::invalid_argument the arguments do not go together
  * \exception std::runtime_error an output cannot be written */
 [[nodiscard]] ImportStatus runImport(const ImportArguments& arguments);

@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-map: recordings in, a consistent map out. */
 
+#include "../shared/failure.h"
 #include "../shared/interruption.h"
 #include "../shared/run_names.h"
 #include "command_line.h"
@@ -10,7 +11,6 @@
 #include "map_outputs.h"
 #include "session_input.h"
 #include "session_verdicts.h"
-#include <fastlio/files/failure_text.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/mapping/map_report.h>
 #include <fastlio/math/stopwatch.h>
@@ -27,43 +27,10 @@ namespace
 {
 using namespace fastlio;
 
-/** Why the program ends, and with which status. */
-struct Failure
-{
-  ExitStatus status;
-  std::string text;
-};
-
-/** Runs what may throw. \exception Failure with this status */
-template <typename Step>
-auto failingWith(ExitStatus status, Step step)
-{
-  try
-  {
-    return step();
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{status, failureText(e)};
-  }
-}
-
-/** Runs what may throw std::invalid_argument for what the user asks, others for the input. */
 template <typename Step>
 auto checked(Step step)
 {
-  try
-  {
-    return step();
-  }
-  catch (const std::invalid_argument& e)
-  {
-    throw Failure{ExitStatus::Usage, failureText(e)};
-  }
-  catch (const std::exception& e)
-  {
-    throw Failure{ExitStatus::InputUnusable, failureText(e)};
-  }
+  return failingWith(ExitStatus::Usage, ExitStatus::InputUnusable, step);
 }
 
 RunFolderPlan folderPlan(
@@ -107,15 +74,15 @@ void requirePoses(const BuiltMap& map)
     if (session.statistics.poses() == 0)
     {
       const auto trouble = session.statistics.firstTrouble();
-      throw Failure{
+      throw Failure(
           ExitStatus::OdometryFailed, "the odometry found no pose in '" + session.name + "'" +
-                                          (trouble ? ": " + trouble->message : std::string())};
+                                          (trouble ? ": " + trouble->message : std::string()));
     }
 }
 
 void endIfInterrupted(bool is_interrupted)
 {
-  if (is_interrupted) throw Failure{ExitStatus::Interrupted, "interrupted; nothing was written"};
+  if (is_interrupted) throw Failure(ExitStatus::Interrupted, "interrupted; nothing was written");
 }
 
 /** Writes a page or a record; what goes wrong is reported beside the others. */
@@ -139,7 +106,7 @@ RunFolderPlan checkedFolder(
     const std::vector<std::string>& recordings)
 {
   if (files.wants("simplemap") && runs > 1)
-    throw Failure{ExitStatus::Usage, "--export simplemap takes one run, not several"};
+    throw Failure(ExitStatus::Usage, "--export simplemap takes one run, not several");
   return failingWith(ExitStatus::Usage, [&] { return folderPlan(arguments, files, recordings); });
 }
 
@@ -257,20 +224,12 @@ int main(int argc, char** argv)
   auto parsed = parseCommandLine(argc, argv);
   if (const auto* status = std::get_if<int>(&parsed)) return *status;
   auto& arguments = std::get<MapArguments>(parsed);
-  try
-  {
-    if (arguments.output_directory.empty())
-      arguments.output_directory = freeRunFolder(arguments.runs.front(), "-map");
-    return static_cast<int>(run(arguments));
-  }
-  catch (const Failure& failure)
-  {
-    std::cerr << "fastlio-map: " << failure.text << '\n';
-    return static_cast<int>(failure.status);
-  }
-  catch (const std::exception& e)
-  {
-    std::cerr << "fastlio-map: " << failureText(e) << '\n';
-    return static_cast<int>(ExitStatus::Usage);
-  }
+  return endOf(
+      "fastlio-map", ExitStatus::Usage,
+      [&]
+      {
+        if (arguments.output_directory.empty())
+          arguments.output_directory = freeRunFolder(arguments.runs.front(), "-map");
+        return run(arguments);
+      });
 }

@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-replay: a recording in, trajectory and map out. */
 
+#include "../shared/failure.h"
 #include "../shared/interruption.h"
 #include "../shared/run_names.h"
 #include "batch.h"
@@ -41,7 +42,7 @@ int execute(ReplayRun& run, mrpt::system::COutputLogger& logger)
   }
   catch (const std::exception& e)
   {
-    throw SetupError(ExitStatus::OutputFailed, "the run could not be completed: " + failureText(e));
+    throw Failure(ExitStatus::OutputFailed, "the run could not be completed: " + failureText(e));
   }
 }
 
@@ -50,7 +51,7 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
   if (!arguments.dump_config.empty())
   {
     std::cout << dumpedConfig(arguments) << std::flush;
-    if (!std::cout) throw SetupError(ExitStatus::OutputFailed, "standard output cannot be written");
+    if (!std::cout) throw Failure(ExitStatus::OutputFailed, "standard output cannot be written");
     return static_cast<int>(ExitStatus::Ok);
   }
   RunSetup setup = setUpRun(arguments);
@@ -90,10 +91,10 @@ int logged(BatchRun& run)
   {
     return runNamed(arguments, logger);
   }
-  catch (const SetupError& e)
+  catch (const Failure& e)
   {
     logger.logStr(mrpt::system::LVL_ERROR, e.what());
-    return static_cast<int>(e.status());
+    return e.status();
   }
   catch (const std::exception& e)
   {

@@ -3,6 +3,7 @@
 
 #include "run_setup.h"
 
+#include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
 #include "calibration_first.h"
 #include <fastlio/config/config_document.h>
@@ -66,29 +67,24 @@ struct Loaded
 
 ConfigFile readFile(const ReplayArguments& arguments)
 {
-  try
-  {
-    return arguments.config_file.empty() ? ConfigFile{} : readConfigFile(arguments.config_file);
-  }
-  catch (const std::exception& e)
-  {
-    throw SetupError(ExitStatus::Usage, failureText(e));
-  }
+  return failingWith(
+      ExitStatus::Usage,
+      [&] {
+        return arguments.config_file.empty() ? ConfigFile{} : readConfigFile(arguments.config_file);
+      });
 }
 
 /** The command line goes before the file, and its own options before --set. */
 Loaded loadConfiguration(const ReplayArguments& arguments)
 {
   Loaded loaded{readFile(arguments), {}};
-  try
-  {
-    for (const std::string& setting : arguments.settings)
-      loaded.origins[applySetting(setting, loaded.file.config)] = "--set";
-  }
-  catch (const std::invalid_argument& e)
-  {
-    throw SetupError(ExitStatus::Usage, e.what());
-  }
+  failingWith(
+      ExitStatus::Usage,
+      [&]
+      {
+        for (const std::string& setting : arguments.settings)
+          loaded.origins[applySetting(setting, loaded.file.config)] = "--set";
+      });
   OdometryOptions& odometry = loaded.file.config.odometry;
   SensorOptions& sensors = loaded.file.config.sensors;
   std::string& exporters = loaded.file.config.exporters.exporters;
@@ -125,24 +121,12 @@ std::string inOneLine(std::string text)
   return text;
 }
 
-OutputPlan checkedOutputs(const ReplayArguments& arguments, const Config& config)
-{
-  try
-  {
-    return planOutputs(arguments, config);
-  }
-  catch (const std::exception& e)
-  {
-    throw SetupError(ExitStatus::Usage, failureText(e));
-  }
-}
-
 /** A reference that is named has to be one; the page alone would say that it is not. */
 void requireReference(const std::string& file)
 {
   if (file.empty()) return;
   const auto refuse = [&file](const std::string& why)
-  { throw SetupError(ExitStatus::Usage, "--reference '" + printable(file) + "' " + why); };
+  { throw Failure(ExitStatus::Usage, "--reference '" + printable(file) + "' " + why); };
   if (const auto problem = inputFileProblem(file)) refuse(*problem);
   if (std::filesystem::file_size(file) > ReferenceComparison::kLargestFile) return;
   try
@@ -155,25 +139,13 @@ void requireReference(const std::string& file)
   }
 }
 
-/** Runs what may throw std::invalid_argument for a parameter, others for the input. */
 template <typename Step>
 auto checked(Step step)
 {
-  try
-  {
-    return step();
-  }
-  catch (const std::invalid_argument& e)
-  {
-    throw SetupError(ExitStatus::Usage, failureText(e));
-  }
-  catch (const std::exception& e)
-  {
-    throw SetupError(ExitStatus::InputUnusable, failureText(e));
-  }
+  return failingWith(ExitStatus::Usage, ExitStatus::InputUnusable, step);
 }
 
-/** The sensors of the recording. \exception SetupError none can be used */
+/** The sensors of the recording. \exception Failure none can be used */
 SensorSelection sensorsOf(const ReplayArguments& arguments, const Config& config)
 {
   const SensorPatterns patterns = patternsOf(config.sensors);
@@ -198,7 +170,7 @@ Pose poseOf(const std::vector<double>& numbers)
   if (numbers.empty()) return {};
   for (const double number : numbers)
     if (!(std::abs(number) <= kLargestPoseNumber))
-      throw SetupError(
+      throw Failure(
           ExitStatus::Usage,
           "--initial-pose has a number that is not between -1e7 and 1e7 [m, deg]");
   return toPose(mrpt::poses::CPose3D(
@@ -209,21 +181,15 @@ Pose poseOf(const std::vector<double>& numbers)
 std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const OutputFrame& frame)
 {
   if (arguments.map_in.empty()) return std::nullopt;
-  try
-  {
-    SavedMap saved = loadSavedMap(arguments.map_in);
-    if (!arguments.initial_pose.empty())
-      saved.T_map_imu = poseOf(arguments.initial_pose) * frame.T_imu_body.inverse();
-    return saved;
-  }
-  catch (const SetupError&)
-  {
-    throw;
-  }
-  catch (const std::exception& e)
-  {
-    throw SetupError(ExitStatus::InputUnusable, failureText(e));
-  }
+  return failingWith(
+      ExitStatus::InputUnusable,
+      [&]
+      {
+        SavedMap saved = loadSavedMap(arguments.map_in);
+        if (!arguments.initial_pose.empty())
+          saved.T_map_imu = poseOf(arguments.initial_pose) * frame.T_imu_body.inverse();
+        return std::optional(std::move(saved));
+      });
 }
 
 OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
@@ -260,7 +226,8 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   setup.config = loaded.file.config;
   if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
-  setup.outputs = checkedOutputs(setup.arguments, setup.config);
+  setup.outputs =
+      failingWith(ExitStatus::Usage, [&] { return planOutputs(setup.arguments, setup.config); });
   checked([&] { requireReadableRecordings(arguments.input_files); });
   requireReference(arguments.reference);
   checked(

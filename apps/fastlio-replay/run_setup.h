@@ -14,26 +14,10 @@
 #include <fastlio/survey/sensor_selection.h>
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace fastlio
 {
-/** Why a run cannot start, and its exit status. */
-class SetupError : public std::runtime_error
-{
- public:
-  SetupError(ExitStatus status, const std::string& message)
-      : std::runtime_error(message), status_(status)
-  {
-  }
-
-  [[nodiscard]] ExitStatus status() const { return status_; }
-
- private:
-  ExitStatus status_;
-};
-
 /** A run that can start. */
 struct RunSetup
 {
@@ -48,11 +32,11 @@ struct RunSetup
 };
 
 /** The configuration that the arguments ask for as YAML, each value with its origin
- * (--dump-config). \exception SetupError the file cannot be used */
+ * (--dump-config). \exception Failure the file cannot be used */
 [[nodiscard]] std::string dumpedConfig(const ReplayArguments& arguments);
 
 /** Loads the configuration, checks the output places, looks for the sensors, in this order.
- * \exception SetupError with the exit status to end with */
+ * \exception Failure with the exit status to end with */
 [[nodiscard]] RunSetup setUpRun(const ReplayArguments& arguments);
 
 }  // namespace fastlio
