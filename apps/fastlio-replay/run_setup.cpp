@@ -5,7 +5,7 @@
 
 #include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
-#include "calibration_first.h"
+#include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/config/presets.h>
@@ -190,6 +190,20 @@ std::optional<SavedMap> savedMapOf(const ReplayArguments& arguments, const Outpu
           saved.T_map_imu = poseOf(arguments.initial_pose) * frame.T_imu_body.inverse();
         return std::optional(std::move(saved));
       });
+}
+
+/** --calibrate: tries the result on the last part of the recording; where that is better, \a config
+ * gets it. \return what was found, for people */
+std::string calibrateFirst(const std::vector<std::string>& files, Config& config)
+{
+  constexpr int kPasses = 8;  // as fastlio-calibrate
+  const std::string name = std::filesystem::path(files.front()).filename().string();
+  const Calibrator calibrator({{name, files}}, config, kPasses);
+  const RigEstimate estimate = calibrator.calibrate();
+  const CalibrationTrial trial = calibrator.tryOut();
+  if (trial.worthUsing()) config = calibrator.configWith(estimate);
+  return "Calibration (--calibrate): " + describe(trial) +
+         (trial.worthUsing() ? "" : " The run keeps what was given.");
 }
 
 OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)

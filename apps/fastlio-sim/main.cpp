@@ -69,14 +69,7 @@ try
   CLI::App app{"Makes simulated LiDAR-inertial recordings with exact ground truth.", "fastlio-sim"};
   fastlio::SimCommand command;
   fastlio::addOptions(app, command);
-  try
-  {
-    app.parse(argc, argv);
-  }
-  catch (const CLI::ParseError& e)
-  {
-    return fastlio::endOfParsing(app, e, kExitError);
-  }
+  if (const auto end = fastlio::endAfterParsing(app, argc, argv, kExitError, [] {})) return *end;
   run(command);
   return kExitOk;
 }
