@@ -200,13 +200,18 @@ TEST_F(RunFolderTest, WhatAKilledRunLeftIsReplacedAndRemoved)
   fs::create_directories(folder().file("map-tiles-Ab12xY"));
   fs::create_directories(folder().file("map-submaps-Ab12xY"));
   fs::create_directories(folder().file("map-tiles-of-mine"));
+  fs::create_directories(folder().file("map-tiles-vienna"));
+  write("map-tiles-vienna/ring.ply", "x");
+  fs::create_directories(folder().file("a.csv.folders0.tmp"));
   EXPECT_EQ(refusal(), "");
   write(".fastlio-lock", "x");
   {
     const RunFolder run(plan());
     run.removeLeftovers({});
   }
-  EXPECT_EQ(namesIn(folder()), "a.csv b.csv.abcdefgh.tmp map-tiles-of-mine");
+  EXPECT_EQ(
+      namesIn(folder()),
+      "a.csv a.csv.folders0.tmp b.csv.abcdefgh.tmp map-tiles-of-mine map-tiles-vienna");
 }
 
 TEST_F(RunFolderTest, OneRunAtATime)

@@ -21,6 +21,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::string_view kUnique = "XXXXXX";  // for mkdtemp
+constexpr const char* kNameOfFile = "0123456789-_";
 
 struct Words
 {
@@ -126,15 +127,26 @@ void ScratchFolder::remove(const ScratchFile& file)
   fs::remove(file.path, ignored);
 }
 
-bool isScratchFolder(std::string_view name)
+bool isScratchFolder(const std::string& path)
 {
-  return std::any_of(
-      kWords.begin(), kWords.end(),
-      [name](const Words& words)
-      {
-        return name.size() == words.folder.size() + kUnique.size() &&
-               name.substr(0, words.folder.size()) == words.folder;
-      });
+  const std::string name = fs::path(path).filename().string();
+  const auto is_of = [&name](const Words& words) {
+    return name.size() == words.folder.size() + kUnique.size() && name.rfind(words.folder, 0) == 0;
+  };
+  std::error_code error;
+  if (std::none_of(kWords.begin(), kWords.end(), is_of) ||
+      !fs::is_directory(fs::symlink_status(path, error)))
+    return false;
+  const auto is_ours = [](const fs::directory_entry& entry)
+  {
+    std::error_code ignored;
+    return fs::is_regular_file(entry.symlink_status(ignored)) &&
+           entry.path().filename().string().find_first_not_of(kNameOfFile) == std::string::npos;
+  };
+  fs::directory_iterator at(path, error);
+  while (!error && at != fs::directory_iterator() && is_ours(*at))
+    at.increment(error);
+  return !error && at == fs::directory_iterator();
 }
 
 }  // namespace fastlio

@@ -52,7 +52,7 @@ TEST(ScratchFolder, GivesBackWhatItWasGivenAndLeavesNothing)
     EXPECT_EQ(problemOf(scratch, first), "");
     std::vector<float> none;
     scratch.read(second, none);
-    EXPECT_TRUE(isScratchFolder(fs::path(first.path).parent_path().filename().string()));
+    EXPECT_TRUE(isScratchFolder(fs::path(first.path).parent_path().string()));
     ScratchFolder::remove(second);
     EXPECT_FALSE(fs::exists(second.path));
   }
@@ -63,7 +63,7 @@ TEST(ScratchFolder, SaysThatAFileIsNotWhatWasWritten)
 {
   const TemporaryFolder folder;
   ScratchFolder scratch(ScratchContent::MapTiles, folder.path());
-  const ScratchFile file = scratch.write("tile", kFloats, kNumbers);
+  const ScratchFile file = scratch.write("3_-1", kFloats, kNumbers);
   const std::string bytes = testing::contentOf(file.path);
   const auto expectRefused = [&](const std::string& what)
   {
@@ -109,10 +109,27 @@ TEST(ScratchFolder, SaysWhatCannotBeWrittenAndWhy)
 
 TEST(ScratchFolder, OfOthersAreNoScratchFolders)
 {
-  EXPECT_TRUE(isScratchFolder("map-tiles-Ab12xY"));
-  EXPECT_TRUE(isScratchFolder("map-submaps-Ab12xY"));
+  const TemporaryFolder folder;
+  for (const char* name : {"map-tiles-Ab12xY", "map-submaps-Ab12xY"})
+  {
+    fs::create_directory(folder.file(name));
+    std::ofstream(folder.file(name) + "/-3_12") << "x";
+    EXPECT_TRUE(isScratchFolder(folder.file(name))) << name;
+  }
   for (const char* name : {"map-tiles-of-mine", "map-submaps-", "map-Ab12xY", "xmap-tiles-Ab12xY"})
-    EXPECT_FALSE(isScratchFolder(name)) << name;
+  {
+    fs::create_directory(folder.file(name));
+    EXPECT_FALSE(isScratchFolder(folder.file(name))) << name;
+  }
+  // By chance a name may be like those.
+  const std::string vienna = folder.file("map-tiles-vienna");
+  fs::create_directories(vienna + "/1");
+  EXPECT_FALSE(isScratchFolder(vienna));
+  fs::remove(vienna + "/1");
+  std::ofstream(vienna + "/ring.ply") << "x";
+  EXPECT_FALSE(isScratchFolder(vienna));
+  fs::create_directory_symlink("map-tiles-Ab12xY", folder.file("map-tiles-graz20"));
+  EXPECT_FALSE(isScratchFolder(folder.file("map-tiles-graz20")));
 }
 
 }  // namespace

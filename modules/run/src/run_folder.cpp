@@ -80,10 +80,14 @@ void removeFinishedOf(
   }
 }
 
-bool isUnfinished(const RunFolderPlan& plan, const std::string& name)
+bool isUnfinished(const RunFolderPlan& plan, const fs::directory_entry& entry)
 {
+  const std::string name = entry.path().filename().string();
   const auto is_of = [&name](const std::string& file) { return isTemporaryOf(file, name); };
-  return isScratchFolder(name) || std::any_of(plan.files.begin(), plan.files.end(), is_of);
+  std::error_code ignored;
+  return isScratchFolder(entry.path().string()) ||
+         (fs::is_regular_file(entry.symlink_status(ignored)) &&
+          std::any_of(plan.files.begin(), plan.files.end(), is_of));
 }
 
 void removeUnfinished(const RunFolderPlan& plan)
@@ -92,7 +96,7 @@ void removeUnfinished(const RunFolderPlan& plan)
   std::vector<fs::path> unfinished;
   for (fs::directory_iterator at(plan.directory, error); !error && at != fs::directory_iterator();
        at.increment(error))
-    if (isUnfinished(plan, at->path().filename().string())) unfinished.push_back(at->path());
+    if (isUnfinished(plan, *at)) unfinished.push_back(at->path());
   for (const fs::path& path : unfinished)
     fs::remove_all(path, error);
 }

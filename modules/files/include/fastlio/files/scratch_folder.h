@@ -39,6 +39,7 @@ class ScratchFolder
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   /** Writes columns of numbers one after the other; a file of that name is replaced.
+   * \param name of digits, '-' and '_' alone
    * \exception std::runtime_error the file cannot be written; then there is none of that name */
   template <typename... T>
   ScratchFile write(const std::string& name, const std::vector<T>&... columns)
@@ -79,8 +80,8 @@ class ScratchFolder
   std::string path_;  //!< empty until there is a file
 };
 
-/** Whether a folder of that name is a ScratchFolder: its process was killed when it is still there
- * afterwards. */
-[[nodiscard]] bool isScratchFolder(std::string_view name);
+/** Whether it is a ScratchFolder, by its name and those of its files: its process was killed when
+ * it is still there afterwards. */
+[[nodiscard]] bool isScratchFolder(const std::string& path);
 
 }  // namespace fastlio
