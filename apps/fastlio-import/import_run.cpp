@@ -169,6 +169,7 @@ std::vector<std::string> partsThere(const RawlogParts::Options& output)
     if (const auto part = RawlogParts::partOf(output, at->path().filename().string()))
       parts.insert(*part);
   std::vector<std::string> there;
+  there.reserve(parts.size());
   for (const std::size_t part : parts)
     there.push_back(RawlogParts::pathOfPart(output, part));
   return there;
