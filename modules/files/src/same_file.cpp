@@ -5,8 +5,12 @@
 #include <fastlio/files/same_file.h>
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <sys/stat.h>
+#include <utility>
+#include <variant>
 
 namespace fastlio
 {
@@ -28,6 +32,18 @@ fs::path canonicalPath(const std::string& path)
   const fs::path canonical = fs::weakly_canonical(absolute, error);
   return error ? absolute.lexically_normal() : canonical;
 }
+
+/** Device and inode of a file that is there, the place of one that is not. */
+using Identity = std::variant<std::pair<dev_t, ino_t>, fs::path>;
+
+/** Nothing for a device that swallows everything: it is never the same file. */
+std::optional<Identity> identityOf(const std::string& path)
+{
+  struct stat status = {};
+  if (stat(path.c_str(), &status) != 0) return canonicalPath(path);
+  if (S_ISCHR(status.st_mode)) return std::nullopt;
+  return std::pair(status.st_dev, status.st_ino);
+}
 }  // namespace
 
 std::string withLinksFollowed(const std::string& path)
@@ -44,11 +60,10 @@ std::string withLinksFollowed(const std::string& path)
 
 bool isSameFile(const std::string& a, const std::string& b)
 {
-  struct stat of_a = {}, of_b = {};
-  const bool a_exists = stat(a.c_str(), &of_a) == 0, b_exists = stat(b.c_str(), &of_b) == 0;
-  if (a_exists && b_exists)
-    return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino && !S_ISCHR(of_a.st_mode);
-  return a_exists == b_exists && canonicalPath(a) == canonicalPath(b);
+  std::error_code ignored;
+  if (fs::exists(a, ignored) != fs::exists(b, ignored)) return false;
+  const auto identity = identityOf(a);
+  return identity && identity == identityOf(b);
 }
 
 bool isBelow(const std::string& path, const std::string& folder)
@@ -59,12 +74,20 @@ bool isBelow(const std::string& path, const std::string& folder)
 
 void requireGivenOnce(const std::vector<std::string>& inputs)
 {
-  for (std::size_t i = 1; i < inputs.size(); ++i)
-    for (std::size_t first = 0; first < i; ++first)
-      if (isSameFile(inputs[first], inputs[i]))
-        throw std::invalid_argument(
-            "input file '" + inputs[i] + "' is given twice, first as '" + inputs[first] +
-            "'; give each recording once");
+  // Looked up once each: the place of a file that is missing takes a walk through its folders.
+  std::map<Identity, std::string> given;
+  for (const std::string& input : inputs)
+  {
+    std::error_code error;
+    if (fs::status(input, error).type() == fs::file_type::none) continue;  // reading says why
+    const auto identity = identityOf(input);
+    if (!identity) continue;
+    const auto [first, is_new] = given.emplace(*identity, input);
+    if (!is_new)
+      throw std::invalid_argument(
+          "input file '" + input + "' is given twice, first as '" + first->second +
+          "'; give each recording once");
+  }
 }
 
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs)

@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 #include <fastlio/files/same_file.h>
 
+#include <chrono>
 #include <stdexcept>
 
 namespace fastlio
@@ -87,6 +88,28 @@ TEST(SameFile, PartsOfARecordingAreGivenOnce)
     EXPECT_THROW(
         requireGivenOnce({folder.file("b"), folder.file("a"), other}), std::invalid_argument)
         << other;
+}
+
+TEST(SameFile, LinksInCirclesAreNoPartsTwice)
+{
+  const TemporaryFolder folder;
+  fs::create_symlink("circle", folder.file("circle"));
+  requireGivenOnce({folder.file("circle"), folder.file("gone"), folder.file("circle")});
+  EXPECT_FALSE(isSameFile(folder.path(), folder.file("circle")));
+}
+
+TEST(SameFile, ManyMissingPartsAreLookedUpOnceEach)
+{
+  constexpr int kCount = 3000;
+  constexpr std::chrono::seconds kPlenty{5};  // each with each other would take a minute
+  std::vector<std::string> missing;
+  for (int i = 0; i < kCount; ++i)
+    missing.push_back("/no/such/folder/part_" + std::to_string(i));
+  const auto begin = std::chrono::steady_clock::now();
+  requireGivenOnce(missing);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, kPlenty);
+  missing.push_back("/no/such/folder/../folder/part_0");
+  EXPECT_THROW(requireGivenOnce(missing), std::invalid_argument);
 }
 
 }  // namespace
