@@ -3,12 +3,15 @@
 
 #include <fastlio/archives/object_stream.h>
 
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/poses/CPosePDF.h>
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 
 namespace
 {
@@ -19,6 +22,7 @@ constexpr unsigned char kHeaderFlag = 0x80;
 // A small part of any thread's stack.
 constexpr std::uintptr_t kMostStack = 128U << 10U;
 const std::string kObservations = "mrpt::obs::";
+constexpr std::string_view kMovement = "CActionRobotMovement2D";  // MRPT needs no namespace
 
 bool isClassNameCharacter(char c)
 {
@@ -93,9 +97,33 @@ std::size_t ObjectStream::Read(void* data, std::size_t size)
     position_ = bytes_.size();
     throw std::runtime_error("the file ends inside an object");
   }
-  std::memcpy(data, bytes_.data() + position_, size);
+  const char* read = bytes_.data() + position_;
+  std::memcpy(data, read, size);
   position_ += size;
+  if (size >= kMovement.size() && size <= kLongestClassName &&
+      std::string_view(read, size).substr(size - kMovement.size()) == kMovement)
+    requirePoseOfMovement(size);
   return size;
+}
+
+// MRPT takes any object for the pose of a movement and follows the null pointer that its cast then
+// gives. The name of the class has just been read: what lies behind is looked at before MRPT does.
+void ObjectStream::requirePoseOfMovement(std::size_t name_size)
+{
+  constexpr unsigned char kFirstWithMethod = 2;  // in front of the pose
+  const auto fail = [] { throw std::runtime_error("a movement in it has no pose"); };
+  const std::size_t name = position_ - name_size, at = position_ - object_;
+  // Headers without the flag are those of MRPT before 0.5.5.
+  if (name == 0 || (static_cast<unsigned char>(bytes_[name - 1]) & kHeaderFlag) == 0) fail();
+  if (!holds(at, 5)) return;  // the next reads meet the end
+  const bool has_method = byteAt(at) >= kFirstWithMethod;
+  if (has_method && wordAt(at + 1) == mrpt::obs::CActionRobotMovement2D::emOdometry) return;
+  const std::size_t pose = at + (has_method ? 5 : 1);
+  const auto header = headerAtOffset(pose);
+  if (!header && endsInsideHeader(pose)) return;
+  if (!header || header->class_name == "nullptr") fail();
+  const auto* id = mrpt::rtti::findRegisteredClass(header->class_name);
+  if (id != nullptr && !id->derivedFrom(CLASS_ID(mrpt::poses::CPosePDF))) fail();
 }
 
 std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)

@@ -8,8 +8,10 @@
 
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <algorithm>
 
@@ -18,6 +20,7 @@ namespace
 using namespace fastlio::testing;
 using fastlio::ReadProblem;
 using fastlio::ReadProblemKind;
+using mrpt::obs::CActionRobotMovement2D;
 
 class NestedObjects : public RawlogTest
 {
@@ -101,6 +104,63 @@ TEST_F(NestedObjects, ACollectionHoldsActionsOnly)
     EXPECT_GE(reading.seconds.size(), 5U);
     ASSERT_FALSE(reading.problems.empty());
     EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt) << reading.problems[0].message;
+  }
+}
+
+/** With an object where its pose belongs. */
+std::string movementWith(const std::string& pose)
+{
+  auto movement = std::make_shared<CActionRobotMovement2D>();
+  const auto gaussian = std::make_shared<mrpt::poses::CPosePDFGaussian>();
+  movement->estimationMethod = CActionRobotMovement2D::emScan2DMatching;
+  movement->poseChange = mrpt::poses::CPosePDF::Ptr(gaussian);
+  std::string bytes = serialize({movement});
+  const std::string own = serialize({gaussian});
+  return bytes.replace(bytes.find(own), own.size(), pose);
+}
+
+// MRPT copies the pose behind the null pointer of a cast.
+TEST_F(NestedObjects, AMovementHoldsAPose)
+{
+  const std::string null = "\x87nullptr\x88";
+  const std::string collection = beginningOf(mrpt::obs::CActionCollection::Create(), '\1');
+  const std::string map = beginningOf(mrpt::maps::CSimpleMap::Create(), '\1') + null;
+  for (const std::string& pose : {null, serialize({comment()}), std::string("no object")})
+  {
+    std::string old = movementWith(pose);
+    old.replace(0, 1, std::string(1, static_cast<char>(old[0] & 0x7F)) + std::string(3, '\0'));
+    for (const std::string& object :
+         {movementWith(pose), collection + movementWith(pose) + '\x88',
+          map + movementWith(pose) + '\x88', map + old + '\x88'})
+    {
+      const Reading reading =
+          readAll({fileOf(serialize(samples(3)) + object + serialize(samples(2)))});
+      EXPECT_GE(reading.seconds.size(), 5U);
+      ASSERT_FALSE(reading.problems.empty());
+      EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::Corrupt);
+      EXPECT_NE(reading.problems[0].message.find("movement"), std::string::npos)
+          << reading.problems[0].message;
+    }
+  }
+}
+
+TEST_F(NestedObjects, MovementsAreReadAsMrptReadsThem)
+{
+  const std::string pose = serialize({std::make_shared<mrpt::poses::CPosePDFGaussian>()});
+  const std::string whole = movementWith(pose);
+  auto odometry = std::make_shared<CActionRobotMovement2D>();
+  odometry->computeFromOdometry({1, 2, 0.5}, {});
+  const std::string actions = beginningOf(mrpt::obs::CActionCollection::Create(), '\2') + whole +
+                              serialize({odometry}) + '\x88';
+  const Reading reading =
+      readAll({fileOf(serialize(samples(3)) + whole + actions + serialize(samples(2)))});
+  EXPECT_EQ(reading.seconds.size(), 5U);
+  EXPECT_TRUE(reading.problems.empty()) << reading.problems[0].message;
+  for (std::size_t size = 1; size < whole.size(); ++size)
+  {
+    const Reading cut = readAll({fileOf(serialize(samples(3)) + whole.substr(0, size))});
+    ASSERT_EQ(cut.problems.size(), 1U) << size;
+    EXPECT_EQ(cut.problems[0].kind, ReadProblemKind::Truncated) << cut.problems[0].message;
   }
 }
 

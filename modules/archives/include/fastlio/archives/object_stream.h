@@ -40,8 +40,9 @@ class ObjectStream
   }
 
   /** Exactly \a size bytes.
-   * \exception std::runtime_error the file has fewer left, the object is larger than the limit, or
-   * the caller has come too far down the stack since the first call for this object */
+   * \exception std::runtime_error the file has fewer left, the object is larger than the limit,
+   * the caller has come too far down the stack since the first call for this object, or an action
+   * of MRPT that begins there would end the program */
   std::size_t Read(void* data, std::size_t size);
 
   /** \exception std::logic_error always: this stream is for reading */
@@ -91,6 +92,7 @@ class ObjectStream
  private:
   [[nodiscard]] std::size_t available() const { return bytes_.size() - position_; }
   void requireRoomOnStack();
+  void requirePoseOfMovement(std::size_t name_size);
   bool require(std::size_t size);
   bool fill(std::size_t end);
   bool seekHeaderFlag();
