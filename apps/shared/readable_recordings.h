@@ -4,7 +4,6 @@
 /** \file readable_recordings.h Whether the recordings that the user names are there. */
 #pragma once
 
-#include <fastlio/files/input_file.h>
 #include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
 
@@ -19,7 +18,7 @@ namespace fastlio
 inline void requireReadableRecordings(const std::vector<std::string>& files)
 {
   for (const std::string& file : files)
-    if (const auto problem = inputFileProblem(file); problem && recordingFormatOf(file) == nullptr)
+    if (const auto problem = recordingProblem(file))
       throw std::runtime_error("the recording '" + printable(file) + "' " + *problem);
 }
 

@@ -105,7 +105,7 @@ TEST_F(BadInput, MissingFile)
 
 TEST_F(BadInput, Folder)
 {
-  expectEnd(replayFile(file("")), 2, "is a folder");
+  expectEnd(replayFile(file("")), 2, "is a folder in which no recording was found");
 }
 
 TEST_F(BadInput, NotARawlog)

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/bags/bag_formats.h>
+#include <fastlio/files/input_file.h>
 #include <fastlio/folders/folder_formats.h>
 #include <fastlio/formats/recording_formats.h>
 #include <fastlio/packets/capture_formats.h>
+
+#include <filesystem>
 
 namespace fastlio
 {
@@ -25,6 +28,17 @@ const RecordingFormat* recordingFormatOf(const std::string& path)
   for (const RecordingFormat& format : recordingFormats())
     if (format.recognises(path)) return &format;
   return nullptr;
+}
+
+std::optional<std::string> recordingProblem(const std::string& path)
+{
+  const auto problem = inputFileProblem(path);
+  if (!problem || recordingFormatOf(path) != nullptr) return std::nullopt;
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return problem;
+  return "is a folder in which no recording was found; give a rawlog, bag, MCAP or pcap by its "
+         "file. Folders that are read: a bag of ROS 2, a drive or sequence of KITTI, PCD or BIN "
+         "clouds with their times (docs/import.md)";
 }
 
 }  // namespace fastlio

@@ -6,7 +6,7 @@
 #include <fastlio/archives/rotating_scan_stream.h>
 #include <fastlio/archives/size_check.h>
 #include <fastlio/compat/mrpt_messages.h>
-#include <fastlio/files/input_file.h>
+#include <fastlio/formats/recording_formats.h>
 
 #include <mrpt/obs/CAction.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -88,7 +88,7 @@ NextObject ObjectReader::next()
   if (!stream_)
   {
     finished_ = true;  // unless the file can be opened
-    if (const auto problem = inputFileProblem(path_))
+    if (const auto problem = recordingProblem(path_))
       return makeProblem(ReadProblemKind::NotFound, "", "the file " + *problem);
     try
     {

@@ -71,6 +71,9 @@ TEST_F(RawlogSourceTest, AMissingFileDoesNotStopTheNext)
   EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotFound);
   EXPECT_EQ(reading.problems[0].file, folder_.file("1"));
   EXPECT_EQ(reading.problems[1].kind, ReadProblemKind::NotFound);
+  const std::string& of_folder = reading.problems[1].message;
+  for (const char* part : {"no recording was found", "rawlog", "bag", "pcap", "PCD"})
+    EXPECT_NE(of_folder.find(part), std::string::npos) << part << " is not in " << of_folder;
 }
 
 TEST_F(RawlogSourceTest, SortsWithinTheWindow)

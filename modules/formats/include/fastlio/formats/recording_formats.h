@@ -6,6 +6,7 @@
 
 #include <fastlio/recordings/recording_reader.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,5 +17,9 @@ namespace fastlio
 
 /** The format of a file or folder; null: none of the table. */
 [[nodiscard]] const RecordingFormat* recordingFormatOf(const std::string& path);
+
+/** Why there is no recording to be read; nothing: a folder of the table, or any file. The words
+ * continue a sentence that begins with the path. */
+[[nodiscard]] std::optional<std::string> recordingProblem(const std::string& path);
 
 }  // namespace fastlio
