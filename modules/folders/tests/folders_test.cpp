@@ -207,8 +207,8 @@ TEST_F(Folders, PcdThatLiesIsRefused)
   many.replace(many.find("POINTS 2"), 8, "POINTS 9");
   std::string huge = pcdHead("binary_compressed") + points;
   for (const std::string& bytes :
-       {many, huge, std::string(), std::string("FIELDS\n"), pcdHead("xyz"),
-        pcdHead("binary").substr(0, 60), std::string(100'000, 'x')})
+       {many, huge, pcdHead("ascii") + "1 2 3 0.5 0 7\n", std::string(), std::string("FIELDS\n"),
+        pcdHead("xyz"), pcdHead("binary").substr(0, 60), std::string(100'000, 'x')})
     EXPECT_THROW((void)readPcdCloud(fileOf(bytes, "cloud.pcd")), std::runtime_error);
 }
 }  // namespace

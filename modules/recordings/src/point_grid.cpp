@@ -137,4 +137,10 @@ CloudColumns columnsOf(
   return columns;
 }
 
+std::vector<double> valuesOf(
+    const PointGrid& grid, const std::vector<PointField>& fields, std::string_view name)
+{
+  return columnOf<double>(grid, requireField<1>(fields, {name}, grid.step));
+}
+
 }  // namespace fastlio

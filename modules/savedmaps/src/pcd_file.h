@@ -10,7 +10,7 @@
 
 namespace fastlio
 {
-/** The fields x, y, z of a PCD file (version 0.7, DATA ascii or binary, 4- or 8-byte floats).
+/** The fields x, y, z of a PCD file, in double precision where it has it.
  * \exception std::runtime_error the file is damaged or of another form */
 [[nodiscard]] FilePoints readPcd(const std::string& path);
 

@@ -143,14 +143,43 @@ TEST(DamagedMapFile, PcdHeadersThatLieAreRefused)
     text(folder.file("x.pcd"), bytes);
     expectRefused(folder.file("x.pcd"), part);
   };
-  refused("POINTS 1", "POINTS 18446744073709551615", "it ends after 1 of");
+  refused("POINTS 1", "POINTS 18446744073709551615", "ends after 1 of");
   refused("POINTS 1", "POINTS -1", "'-1'");
   refused("SIZE 4 4 4", "SIZE 4 4 99999999999", "'99999999999'");
   refused("COUNT 1 1 1", "COUNT 1 1 4294967297", "'4294967297'");
-  refused("FIELDS x y z", "FIELDS x y w", "no fields x, y, z");
+  refused("FIELDS x y z", "FIELDS x y w", "has no field z");
+  refused("TYPE F F F", "TYPE F I F", "a field y that is not a float");
+  refused("COUNT 1 1 1", "COUNT 1 2 1", "a field y that is not a float");
+  refused("COUNT 1 1 1", "COUNT 1 1", "do not fit together");
+  refused("POINTS 1\n", "", "lacks FIELDS");
   refused("DATA binary", "DATA \x1B[2J", "\\x1b[2J");
+  refused("0123456789ab", "", "ends after 0 of 1 points");
+  refused("DATA binary\n0123456789ab", "DATA binary", "ends after 0 of 1 points");
+  refused(
+      "DATA binary\n0123456789ab", "DATA ascii\n1 2", "fewer numbers than its head says: '1 2'");
   text(folder.file("long.pcd"), "# .PCD v0.7\n" + std::string(30'000'000, 'x'));
-  expectRefused(folder.file("long.pcd"), "its header does not end");
+  expectRefused(folder.file("long.pcd"), "has a head that does not end");
+}
+
+TEST(DamagedMapFile, CompressedPcdThatLiesIsRefused)
+{
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* points, const std::string& data, const char* part)
+  {
+    text(
+        folder.file("x.pcd"), "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS " +
+                                  std::string(points) + "\nDATA binary_compressed\n" + data);
+    expectRefused(folder.file("x.pcd"), part);
+  };
+  const std::string sizes("\x03\0\0\0\x0C\0\0\0", 8);
+  refused("1", "", "end early");
+  refused("1", sizes + "\1", "end early");
+  refused("1", sizes + std::string("\1\0\0", 3), "end early");
+  refused("1", sizes + std::string("\3\0\0", 3), "end early");
+  refused("1", sizes + std::string("\x20\5\0", 3), "damaged");
+  refused("2", sizes + std::string("\1\0\0", 3), "12 bytes for 2 points of 12");
+  // 25 million points.
+  refused("25000000", std::string("\0\0\0\0\0\xA3\xE1\x11", 8), "more than 256 MiB");
 }
 
 TEST(DamagedMapFile, ArchivesThatLieAreRefused)

@@ -112,6 +112,22 @@ TEST(SavedMapFile, TextPcdWithFurtherFieldsInAnyOrder)
   EXPECT_EQ(saved.points.y[1], 400.0F);
 }
 
+TEST(SavedMapFile, CompressedPcd)
+{
+  const TemporaryFolder folder;
+  // The x of two points, 1 and 2; a 3, and 12 bytes that repeat it.
+  const std::string numbers("\0\0\x80\x3F\0\0\0\x40\0\0\x40\x40", 12);
+  const std::string packed = std::string(1, 11) + numbers + "\xE0\3\3";
+  text(
+      folder.file("c.pcd"),
+      "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA binary_compressed\n" +
+          std::string("\x10\0\0\0\x18\0\0\0", 8) + packed);
+  const SavedMap saved = loadSavedMap(folder.file("c.pcd"));
+  EXPECT_EQ(saved.points.x, (std::vector<float>{1, 2}));
+  EXPECT_EQ(saved.points.y, (std::vector<float>{3, 3}));
+  EXPECT_EQ(saved.points.z, (std::vector<float>{3, 3}));
+}
+
 TEST(SavedMapFile, PlanesAreTakenAsTheyAre)
 {
   const TemporaryFolder folder;
@@ -145,10 +161,6 @@ TEST(SavedMapFile, SaysWhatIsWrong)
   write(*makePcdMapExporter(folder.file("cut.pcd")));
   std::filesystem::resize_file(folder.file("cut.pcd"), 1000);
   EXPECT_NE(messageOf(folder.file("cut.pcd")).find("of 5000 points"), std::string::npos);
-  text(
-      folder.file("c.pcd"),
-      "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 1\nDATA binary_compressed\n");
-  EXPECT_NE(messageOf(folder.file("c.pcd")).find("binary_compressed"), std::string::npos);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -51,5 +52,11 @@ struct PointGrid
  * \exception std::runtime_error the records are not within the bytes, or have no coordinates */
 [[nodiscard]] CloudColumns columnsOf(
     const PointGrid& grid, std::size_t bytes, const std::vector<PointField>& fields);
+
+/** The values of one field, for what single precision does not hold.
+ * \pre the records are within the bytes
+ * \exception std::runtime_error there is no such field */
+[[nodiscard]] std::vector<double> valuesOf(
+    const PointGrid& grid, const std::vector<PointField>& fields, std::string_view name);
 
 }  // namespace fastlio

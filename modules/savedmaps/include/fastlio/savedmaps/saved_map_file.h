@@ -12,7 +12,7 @@ namespace fastlio
 {
 /** Reads a map to start in; its content decides what it is, not its name:
  *
- * - PLY (ASCII or binary), PCD (ASCII or binary): the points,
+ * - PLY (ASCII or binary), PCD (ASCII, binary or compressed): the points,
  * - an archive of MRPT, gzip or not: points maps of any class, fastlio::CVoxelPlanesMap (its planes
  *   are taken as they are), CMultiMetricMap (its first map that has points).
  *
