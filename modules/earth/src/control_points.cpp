@@ -66,8 +66,8 @@ std::vector<std::string_view> fieldsOf(std::string_view row)
 class ControlPointFile
 {
  public:
-  ControlPointFile(const std::string& path, const ReferenceSystem* system, double std_m)
-      : path_(path), system_(system), std_m_(std_m)
+  ControlPointFile(const std::string& path, const ReferenceSystem* system)
+      : path_(path), system_(system)
   {
     if (const auto problem = inputFileProblem(path))
       throw std::runtime_error("control points: '" + printable(path) + "' " + *problem);
@@ -178,7 +178,7 @@ class ControlPointFile
     point.name = std::string(fields_[columns_[kName]]);
     if (point.name.empty()) fail("the point has no name; give it one for the report");
     point.map = {number(kMapX), number(kMapY), number(kMapZ)};
-    point.std_m = has(kStd) && !fields_[columns_[kStd]].empty() ? number(kStd) : std_m_;
+    if (has(kStd) && !fields_[columns_[kStd]].empty()) point.std_m = number(kStd);
     if (!(point.std_m > 0))
       fail("a standard deviation of " + shortestText(point.std_m) + " m; it is above 0");
     point.place = place();
@@ -210,7 +210,6 @@ class ControlPointFile
 
   std::string path_;
   const ReferenceSystem* system_;
-  double std_m_;
   std::ifstream in_;
   std::array<std::size_t, kColumns> columns_ = {};
   std::size_t width_ = 0, line_ = 0;
@@ -219,10 +218,9 @@ class ControlPointFile
 };
 }  // namespace
 
-std::vector<ControlPoint> readControlPoints(
-    const std::string& path, const ReferenceSystem* system, double std_m)
+std::vector<ControlPoint> readControlPoints(const std::string& path, const ReferenceSystem* system)
 {
-  return ControlPointFile(path, system, std_m).read();
+  return ControlPointFile(path, system).read();
 }
 
 std::vector<Correspondence> correspondencesIn(

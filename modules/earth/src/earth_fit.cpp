@@ -21,7 +21,9 @@ constexpr std::size_t kMostPointsForPairs = 64;
 constexpr int kMostSteps = 100;       // of the graduated non-convexity; 40 are usual
 constexpr double kStepOfMu = 1.4;     // as in the paper
 constexpr int kMostRefinements = 20;  // until the used points stay the same; 3 are usual
-constexpr double kNarrowestGate = 1.0;
+// A point contradicts when its residual is longer than so many standard deviations: one good point
+// in a thousand is beyond (chi square, 3 degrees of freedom).
+constexpr double kGate = 4.03, kSquaredGate = kGate * kGate;
 
 std::string called(const Correspondence& point, std::size_t index)
 {
@@ -35,11 +37,10 @@ void requireUsable(const std::vector<Correspondence>& points, const EarthFitOpti
     throw std::invalid_argument(
         "control points: " + std::to_string(points.size()) +
         "; give at least two, far apart, for the heading of the map");
-  if (!(options.map_std_m >= 0) || !(options.gate >= kNarrowestGate) ||
-      !(options.most_yaw_std_deg > 0))
+  if (!(options.map_std_m >= 0) || !(options.most_yaw_std_deg > 0))
     throw std::invalid_argument(
-        "control points: the map's standard deviation is at least 0 m, the gate at least 1 and the "
-        "largest standard deviation of the heading above 0 deg");
+        "control points: the map's standard deviation is at least 0 m, and the largest standard "
+        "deviation of the heading above 0 deg");
   for (std::size_t i = 0; i < points.size(); ++i)
     if (!points[i].map.allFinite() || !points[i].enu.allFinite() || !(points[i].std_m > 0) ||
         !std::isfinite(points[i].std_m))
@@ -52,27 +53,25 @@ void requireUsable(const std::vector<Correspondence>& points, const EarthFitOpti
 class Problem
 {
  public:
-  Problem(const std::vector<Correspondence>& points, const EarthFitOptions& options)
-      : points_(points), gate_(options.gate * options.gate)
+  Problem(const std::vector<Correspondence>& points, double map_std_m) : points_(points)
   {
     information_.reserve(points.size());
     for (const Correspondence& point : points)
-      information_.push_back(
-          1.0 / (point.std_m * point.std_m + options.map_std_m * options.map_std_m));
+      information_.push_back(1.0 / (point.std_m * point.std_m + map_std_m * map_std_m));
   }
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
-  /** 1 / m^2 */
-  [[nodiscard]] double information(std::size_t i) const { return information_[i]; }
-  /** A squared normalized residual that is longer contradicts. */
-  [[nodiscard]] double gate() const { return gate_; }
-
+  /** Of each point [1/m^2]. */
+  [[nodiscard]] std::vector<double> information(const std::vector<double>& weights) const
+  {
+    std::vector<double> weighted(weights);
+    for (std::size_t i = 0; i < size(); ++i)
+      weighted[i] *= information_[i];
+    return weighted;
+  }
   [[nodiscard]] Pose fit(const std::vector<double>& weights) const
   {
-    std::vector<double> information(weights);
-    for (std::size_t i = 0; i < size(); ++i)
-      information[i] *= information_[i];
-    return weightedYawFit(points_, information);
+    return weightedYawFit(points_, information(weights));
   }
   [[nodiscard]] double squared(const Pose& pose, std::size_t i) const
   {
@@ -82,21 +81,20 @@ class Problem
   {
     double cost = 0;
     for (std::size_t i = 0; i < size(); ++i)
-      cost += std::min(squared(pose, i), gate_);
+      cost += std::min(squared(pose, i), kSquaredGate);
     return cost;
   }
   [[nodiscard]] std::vector<double> within(const Pose& pose) const
   {
     std::vector<double> weights(size());
     for (std::size_t i = 0; i < size(); ++i)
-      weights[i] = squared(pose, i) <= gate_ ? 1.0 : 0.0;
+      weights[i] = squared(pose, i) <= kSquaredGate ? 1.0 : 0.0;
     return weights;
   }
 
  private:
   const std::vector<Correspondence>& points_;
   std::vector<double> information_;
-  double gate_;
 };
 
 double sum(const std::vector<double>& weights)
@@ -115,14 +113,14 @@ Pose graduatedFit(const Problem& problem)
   double worst = 0;
   for (std::size_t i = 0; i < problem.size(); ++i)
     worst = std::max(worst, problem.squared(pose, i));
-  if (worst <= problem.gate()) return pose;
-  double mu = problem.gate() / (2.0 * worst - problem.gate());
+  if (worst <= kSquaredGate) return pose;
+  double mu = kSquaredGate / (2.0 * worst - kSquaredGate);
   for (int step = 0; step < kMostSteps; ++step, mu *= kStepOfMu)
   {
     bool is_decided = true;
     for (std::size_t i = 0; i < problem.size(); ++i)
     {
-      weights[i] = truncatedWeight(problem.squared(pose, i), problem.gate(), mu);
+      weights[i] = truncatedWeight(problem.squared(pose, i), kSquaredGate, mu);
       is_decided = is_decided && (weights[i] == 0.0 || weights[i] == 1.0);
     }
     if (sum(weights) <= 0) break;
@@ -186,50 +184,44 @@ std::string worstDistance(const std::vector<Correspondence>& points)
   return text;
 }
 
-void requireAgreement(
-    const std::vector<Correspondence>& points, const std::vector<double>& used,
-    const EarthFitOptions& options)
+void requireAgreement(const std::vector<Correspondence>& points, const std::vector<double>& used)
 {
   const double count = sum(used);
   if (count >= 2 && 2 * count > static_cast<double>(points.size())) return;
   throw std::runtime_error(
       "control points contradict each other: no more than " + fixedText(count, 0) + " of " +
-      std::to_string(points.size()) + " agree within " + shortestText(options.gate) +
+      std::to_string(points.size()) + " agree within " + shortestText(kGate) +
       " standard deviations; " + worstDistance(points) +
       "; check the coordinates, or give larger standard deviations if the map has drifted");
 }
 
-void requireHeading(double yaw_std_rad, const EarthFit& fit, const EarthFitOptions& options)
+void requireHeading(const YawObservability& seen, std::size_t used, double most_yaw_std_deg)
 {
-  const double yaw_std_deg = yaw_std_rad * kDegPerRad;
-  if (yaw_std_deg <= options.most_yaw_std_deg) return;
+  const double yaw_std_deg = seen.yaw_std_rad * kDegPerRad;
+  if (yaw_std_deg <= most_yaw_std_deg) return;
   throw std::runtime_error(
-      "control points do not show the heading of the map: the " + std::to_string(fit.used()) +
-      " in use lie within " + fixedText(fit.horizontal_spread_m, 2) +
+      "control points do not show the heading of the map: the " + std::to_string(used) +
+      " in use lie within " + fixedText(seen.horizontal_spread_m, 2) +
       " m of their centre (rms, horizontal)" +
       (std::isfinite(yaw_std_deg)
            ? ", which leaves a standard deviation of " + fixedText(yaw_std_deg, 1) +
-                 " deg, more than " + shortestText(options.most_yaw_std_deg)
+                 " deg, more than " + shortestText(most_yaw_std_deg)
            : "") +
       "; give points that lie further apart");
 }
 
-/** The residual at each point, and their sums. */
+/** The residual at each point, and their mean. */
 void addResiduals(
-    const std::vector<Correspondence>& points, const Problem& problem,
-    const std::vector<double>& used, EarthFit& fit)
+    const std::vector<Correspondence>& points, const std::vector<double>& used, EarthFit& fit)
 {
-  double squares_m = 0, squares = 0;
+  double squares_m = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const Vec3 residual = fit.T_enu_map * points[i].map - points[i].enu;
-    const double squared = problem.squared(fit.T_enu_map, i);
-    fit.residuals.push_back({points[i].name, residual, std::sqrt(squared), used[i] > 0});
+    fit.residuals.push_back({points[i].name, residual, used[i] > 0});
     squares_m += used[i] * residual.squaredNorm();
-    squares += used[i] * squared;
   }
   fit.rms_m = std::sqrt(squares_m / sum(used));
-  fit.variance_factor = squares / (3 * sum(used) - 4);
 }
 }  // namespace
 
@@ -242,21 +234,14 @@ std::size_t EarthFit::used() const
 EarthFit fitToEarth(const std::vector<Correspondence>& points, const EarthFitOptions& options)
 {
   requireUsable(points, options);
-  const Problem problem(points, options);
-  const std::vector<double> all(points.size(), 1.0);
+  const Problem problem(points, options.map_std_m);
   EarthFit fit;
-  fit.T_enu_map = options.robust ? robustFit(problem) : problem.fit(all);
-  const std::vector<double> used = options.robust ? problem.within(fit.T_enu_map) : all;
-  requireAgreement(points, used, options);
-  fit.yaw_rad = std::atan2(fit.T_enu_map.R(1, 0), fit.T_enu_map.R(0, 0));
-  addResiduals(points, problem, used, fit);
-  std::vector<double> information(used);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    information[i] *= problem.information(i);
-  const YawObservability seen = yawObservability(points, information, fit.T_enu_map);
-  fit.horizontal_spread_m = seen.horizontal_spread_m;
-  requireHeading(seen.yaw_std_rad, fit, options);
-  fit.covariance = seen.covariance;
+  fit.T_enu_map = robustFit(problem);
+  const std::vector<double> used = problem.within(fit.T_enu_map);
+  requireAgreement(points, used);
+  addResiduals(points, used, fit);
+  requireHeading(
+      yawObservability(points, problem.information(used)), fit.used(), options.most_yaw_std_deg);
   return fit;
 }
 

@@ -49,23 +49,13 @@ Pose weightedYawFit(
 }
 
 YawObservability yawObservability(
-    const std::vector<Correspondence>& points, const std::vector<double>& information,
-    const Pose& T_enu_map)
+    const std::vector<Correspondence>& points, const std::vector<double>& information)
 {
   const Centres centres = centresOf(points, information);
   double about_centre = 0;  // information on yaw, with the position of the centre free [1/rad^2]
   for (std::size_t i = 0; i < points.size(); ++i)
     about_centre += information[i] * (points[i].map - centres.map).head<2>().squaredNorm();
-  YawObservability seen;
-  seen.horizontal_spread_m = std::sqrt(about_centre / centres.information);
-  seen.yaw_std_rad = 1.0 / std::sqrt(about_centre);
-  // The centre and the yaw about it are independent; the origin moves with both:
-  // p = centre_enu - R(yaw) centre_map.
-  const Vec3 arm = T_enu_map.R * centres.map;
-  const Eigen::Vector4d by_yaw(1.0, arm.y(), -arm.x(), 0.0);
-  seen.covariance = by_yaw * by_yaw.transpose() / about_centre;
-  seen.covariance.diagonal().tail<3>().array() += 1.0 / centres.information;
-  return seen;
+  return {1.0 / std::sqrt(about_centre), std::sqrt(about_centre / centres.information)};
 }
 
 }  // namespace fastlio

@@ -18,13 +18,11 @@ namespace fastlio
 /** How well the points show the four. */
 struct YawObservability
 {
-  double yaw_std_rad = 0;  //!< infinite where all points lie in one place
-  double horizontal_spread_m = 0;
-  EarthFit::Matrix4 covariance = EarthFit::Matrix4::Zero();
+  double yaw_std_rad = 0;          //!< infinite where all points lie in one place
+  double horizontal_spread_m = 0;  //!< rms distance from their centre, in the plane
 };
 
 [[nodiscard]] YawObservability yawObservability(
-    const std::vector<Correspondence>& points, const std::vector<double>& information,
-    const Pose& T_enu_map);
+    const std::vector<Correspondence>& points, const std::vector<double>& information);
 
 }  // namespace fastlio

@@ -3,7 +3,6 @@
 
 #include <fastlio/earth/earth_fit.h>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,6 +20,11 @@ Pose yawPose(double yaw, const Vec3& p)
   pose.R << std::cos(yaw), -std::sin(yaw), 0, std::sin(yaw), std::cos(yaw), 0, 0, 0, 1;
   pose.p = p;
   return pose;
+}
+
+double yawOf(const Pose& pose)
+{
+  return std::atan2(pose.R(1, 0), pose.R(0, 0));
 }
 
 const Pose kTruth = yawPose(2.1, {350, -80, 12});
@@ -78,63 +82,35 @@ double squaredSum(const std::vector<Correspondence>& points, const Pose& pose)
   return sum;
 }
 
-EarthFitOptions plain()
-{
-  EarthFitOptions options;
-  options.robust = false;
-  return options;
-}
-
 TEST(EarthFit, ExactPointsGiveTheExactPose)
 {
   Points source(1);
   auto points = source.make(5, 0.05);
   for (Correspondence& point : points)
     point.enu = kTruth * point.map;
-  for (const EarthFit& fit : {fitToEarth(points), fitToEarth(points, plain())})
-  {
-    EXPECT_LT((fit.T_enu_map.R - kTruth.R).norm(), 1e-12);
-    EXPECT_LT((fit.T_enu_map.p - kTruth.p).norm(), 1e-9);
-    EXPECT_NEAR(fit.yaw_rad, 2.1, 1e-12);
-    EXPECT_LT(fit.rms_m, 1e-9);
-    EXPECT_EQ(fit.used(), 5U);
-  }
+  const EarthFit fit = fitToEarth(points);
+  EXPECT_LT((fit.T_enu_map.R - kTruth.R).norm(), 1e-12);
+  EXPECT_LT((fit.T_enu_map.p - kTruth.p).norm(), 1e-9);
+  EXPECT_LT(fit.rms_m, 1e-9);
+  EXPECT_EQ(fit.used(), 5U);
 }
 
 TEST(EarthFit, NoOtherPoseHasASmallerSumOfSquares)
 {
   Points source(2);
   const auto points = source.make(7, 0.3);
-  const EarthFit fit = fitToEarth(points, plain());
-  const double least = squaredSum(points, fit.T_enu_map);
+  const EarthFit fit = fitToEarth(points);
+  ASSERT_EQ(fit.used(), 7U);
+  const double least = squaredSum(points, fit.T_enu_map), yaw = yawOf(fit.T_enu_map);
   for (const double step : {1e-4, -1e-4})
   {
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_GT(
-          squaredSum(points, yawPose(fit.yaw_rad, fit.T_enu_map.p + step * Vec3::Unit(axis))),
-          least);
+      EXPECT_GT(squaredSum(points, yawPose(yaw, fit.T_enu_map.p + step * Vec3::Unit(axis))), least);
     // About the middle of the map.
     const Vec3 middle(500, 300, 0);
-    const Pose turned = yawPose(fit.yaw_rad + step, Vec3::Zero());
+    const Pose turned = yawPose(yaw + step, Vec3::Zero());
     EXPECT_GT(squaredSum(points, {turned.R, fit.T_enu_map * middle - turned.R * middle}), least);
   }
-}
-
-TEST(EarthFit, ErrorsAreAsLargeAsTheCovarianceSays)
-{
-  Points source(3);
-  double nees = 0, factor = 0;
-  constexpr int kTrials = 4000;
-  for (int trial = 0; trial < kTrials; ++trial)
-  {
-    const EarthFit fit = fitToEarth(source.make(4, 0.2), plain());
-    Eigen::Vector4d error;
-    error << std::remainder(fit.yaw_rad - 2.1, 2 * M_PI), fit.T_enu_map.p - kTruth.p;
-    nees += error.dot(Eigen::Matrix4d(fit.covariance).inverse() * error) / kTrials;
-    factor += fit.variance_factor / kTrials;
-  }
-  EXPECT_NEAR(nees, 4.0, 0.2);  // the mean has a standard deviation of 0.045
-  EXPECT_NEAR(factor, 1.0, 0.05);
 }
 
 TEST(EarthFit, AnUncertainPointCountsLess)
@@ -187,17 +163,6 @@ TEST(EarthFit, ThreeOfTenAndManyOfHundredsAreFound)
     }
 }
 
-TEST(EarthFit, WithoutTheRobustCostAllTakePart)
-{
-  Points source(5);
-  auto points = source.make(10, 0.05);
-  points[3].enu += Vec3(20, 0, 0);
-  const EarthFit fit = fitToEarth(points, plain());
-  EXPECT_EQ(fit.used(), 10U);
-  EXPECT_GT(fit.variance_factor, 100);
-  EXPECT_GT((fit.T_enu_map * points[3].map - kTruth * points[3].map).x(), 1.0);
-}
-
 TEST(EarthFit, DriftOfTheMapIsAllowedFor)
 {
   Points source(6);
@@ -209,7 +174,6 @@ TEST(EarthFit, DriftOfTheMapIsAllowedFor)
   options.map_std_m = 0.3;
   const EarthFit fit = fitToEarth(points, options);
   EXPECT_EQ(fit.used(), 10U);
-  EXPECT_NEAR(fit.variance_factor, 1.0, 0.6);
 }
 
 TEST(EarthFit, TheHeadingMustBeSeen)
@@ -279,7 +243,7 @@ TEST(EarthFit, BadInputIsNamed)
   points[2].enu.y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusalOfFit(points).find("control point number 3: "), 0U);
   EarthFitOptions options;
-  options.gate = std::numeric_limits<double>::quiet_NaN();
+  options.map_std_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusalOfFit(source.make(3, 0.05), options), "none");
 }
 }  // namespace

@@ -20,7 +20,7 @@ struct ControlPoint
   std::string name;
   Vec3 map = Vec3::Zero();  //!< in the frame of the map [m]
   GeodeticPoint place;
-  double std_m = 0.05;  //!< of each coordinate
+  double std_m = 0.05;  //!< of each coordinate, where the row has none
 };
 
 /** More are no control points. */
@@ -31,11 +31,10 @@ inline constexpr std::size_t kMostControlPoints = 100'000;
  * [m]; `std` [m] may be there. Empty lines and those that begin with # are passed over.
  * \param system of easting, northing and height; latitudes do without one, and the heights beside
  * them are above the WGS84 ellipsoid
- * \param std_m of points that have none of their own
  * \exception std::runtime_error the file cannot be read, or a row is wrong; the message names file,
  * line, column and value */
 [[nodiscard]] std::vector<ControlPoint> readControlPoints(
-    const std::string& path, const ReferenceSystem* system = nullptr, double std_m = 0.05);
+    const std::string& path, const ReferenceSystem* system = nullptr);
 
 /** For fitToEarth(). */
 [[nodiscard]] std::vector<Correspondence> correspondencesIn(
