@@ -179,21 +179,12 @@ void ReferenceSystem::Proj::connect(const std::string& definition)
                "+lon_0=114 +x_0=500000 +datum=WGS84"));
 }
 
-ReferenceSystem::ReferenceSystem(
-    const std::string& definition, const std::optional<GeodeticPoint>& datum)
-    : definition_(definition)
+ReferenceSystem::ReferenceSystem(const std::string& definition) : definition_(definition)
 {
   if (definition.empty() || definition.size() > kLongestDefinition)
     throw std::invalid_argument(
         "a coordinate reference system of " + std::to_string(definition.size()) +
         " characters; give 1 to " + std::to_string(kLongestDefinition) + ", like EPSG:32632");
-  if (definition == "utm" || definition == "UTM")
-  {
-    if (!datum)
-      throw std::invalid_argument(
-          "the zone of 'utm' is not known without a place; give its code, like EPSG:32632");
-    definition_ = utmCodeAt(*datum);
-  }
   proj_ = std::make_unique<Proj>();
   proj_->open(definition_);
   proj_->requireMetresEastNorthUp(proj_->plane.get(), definition_);
@@ -252,24 +243,6 @@ std::string ReferenceSystem::wkt() const
         "'" + printable(definition_) + "' cannot be written as WKT" + proj_->reason() +
         "; give a plane system, like utm");
   return text;
-}
-
-std::string ReferenceSystem::name() const
-{
-  return proj_get_name(proj_->system.get());
-}
-
-bool ReferenceSystem::covers(const GeodeticPoint& point) const
-{
-  double west = 0, south = 0, east = 0, north = 0;
-  const bool known =
-      proj_get_area_of_use(
-          proj_->context.get(), proj_->system.get(), &west, &south, &east, &north, nullptr) != 0;
-  if (!known || west < -180 || south < -90) return true;  // -1000 is unknown
-  const double longitude = point.longitude_deg;
-  const bool between = west <= east ? longitude >= west && longitude <= east
-                                    : longitude >= west || longitude <= east;
-  return between && point.latitude_deg >= south && point.latitude_deg <= north;
 }
 
 }  // namespace fastlio

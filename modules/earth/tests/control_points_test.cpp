@@ -81,7 +81,7 @@ TEST(ControlPoints, EastingsAreOfTheirSystem)
 TEST(ControlPoints, AFileFindsThePlaceOfAMap)
 {
   const LocalFrame frame(kMunich);
-  const ReferenceSystem utm("utm", kMunich);
+  const ReferenceSystem utm(utmCodeAt(kMunich));
   Pose truth;
   const double yaw = -0.7;
   truth.R << std::cos(yaw), -std::sin(yaw), 0, std::sin(yaw), std::cos(yaw), 0, 0, 0, 1;

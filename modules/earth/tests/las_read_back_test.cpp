@@ -56,7 +56,7 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
 {
   const GeodeticPoint munich{48.137, 11.575, 520};
   const LocalFrame frame(munich);
-  const ReferenceSystem utm("utm", munich);
+  const ReferenceSystem utm(utmCodeAt(munich));
   LasOptions options;
   options.wkt = utm.wkt();
   options.scale_m = 0.0001;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -119,14 +120,6 @@ TEST(ReferenceSystem, UtmOfTheCentralMeridianIsTheMeridianArc)
   }
 }
 
-TEST(ReferenceSystem, UtmIsTheZoneOfTheDatum)
-{
-  const ReferenceSystem utm("utm", kMunichCity), code("EPSG:32632");
-  EXPECT_EQ(utm.definition(), "EPSG:32632");
-  EXPECT_EQ(utm.name(), "WGS 84 / UTM zone 32N");
-  EXPECT_EQ(utm.projectedOf(kMunichCity), code.projectedOf(kMunichCity));
-}
-
 TEST(ReferenceSystem, OtherFormsOfTheSameSystemAgree)
 {
   const ReferenceSystem code("EPSG:32632");
@@ -215,7 +208,6 @@ TEST(ReferenceSystem, SaysWhatIsWrongAndWhatToDo)
       {"EPSG:99999", "unknown coordinate reference system 'EPSG:99999' (PROJ says: "},
       {"", "a coordinate reference system of 0 characters; give 1 to 65536, like EPSG:32632"},
       {"nonsense\n\x1b[31m", "unknown coordinate reference system 'nonsense\\n\\x1b[31m'"},
-      {"utm", "the zone of 'utm' is not known without a place; give its code"},
       {"EPSG:4326", "'EPSG:4326' (WGS 84) is not projected"},
       {"EPSG:4978", "is not projected"},
       {"EPSG:5773", "is not projected"},
@@ -231,20 +223,6 @@ TEST(ReferenceSystem, SaysWhatIsWrongAndWhatToDo)
         << definition << ": " << refusalOfSystem(definition);
   EXPECT_NE(
       refusalOfSystem(std::string(70'000, 'x')).find("of 70000 characters"), std::string::npos);
-}
-
-TEST(ReferenceSystem, KnowsWhetherItIsMeantForAPlace)
-{
-  const ReferenceSystem system("EPSG:32632");
-  EXPECT_TRUE(system.covers(kMunichCity));
-  EXPECT_FALSE(system.covers({48.137, 13.0, 0}));
-  EXPECT_FALSE(system.covers({-48.137, 11.575, 0}));
-  EXPECT_TRUE(ReferenceSystem("EPSG:32601").covers({10, -179, 0}));
-  EXPECT_TRUE(ReferenceSystem("+proj=tmerc +lat_0=0 +lon_0=0 +datum=WGS84").covers(kMunichCity));
-  // New Zealand's reaches across the antimeridian.
-  EXPECT_TRUE(ReferenceSystem("EPSG:3851").covers({-44, -176.5, 0}));
-  EXPECT_TRUE(ReferenceSystem("EPSG:3851").covers({-41, 174, 0}));
-  EXPECT_FALSE(ReferenceSystem("EPSG:3851").covers({-41, 0, 0}));
 }
 
 TEST(ReferenceSystem, CoordinatesOfNowhereAreAnError)

@@ -7,7 +7,6 @@
 #include <fastlio/earth/local_frame.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace fastlio
@@ -28,13 +27,12 @@ namespace fastlio
 class ReferenceSystem
 {
  public:
-  /** \param definition a code of an authority ("EPSG:32632"), "utm" for the zone at the \a datum, a
-   * name that PROJ's database knows, WKT, or a PROJ string ("+proj=tmerc ...")
+  /** \param definition a code of an authority ("EPSG:32632", utmCodeAt()), a name that PROJ's
+   * database knows, WKT, or a PROJ string ("+proj=tmerc ...")
    * \exception std::invalid_argument it is unknown, is not projected, or its axes are not metres
    * East, North and Up; the message says what to give instead
    * \exception std::runtime_error PROJ's database is missing, or a grid that the system needs */
-  explicit ReferenceSystem(
-      const std::string& definition, const std::optional<GeodeticPoint>& datum = std::nullopt);
+  explicit ReferenceSystem(const std::string& definition);
   ~ReferenceSystem();
   ReferenceSystem(ReferenceSystem&& other) noexcept;
   ReferenceSystem& operator=(ReferenceSystem&& other) noexcept;
@@ -53,14 +51,6 @@ class ReferenceSystem
    * OGC 01-009 as GDAL writes it, what LAS 1.4 asks for.
    * \exception std::runtime_error it cannot express the system */
   [[nodiscard]] std::string wkt() const;
-
-  /** As given; of "utm" the code of the zone. */
-  [[nodiscard]] const std::string& definition() const { return definition_; }
-  /** "WGS 84 / UTM zone 32N". */
-  [[nodiscard]] std::string name() const;
-  /** Whether the authority means the system for this place; true where it does not say. Outside of
-   * it coordinates are computed, but distorted: a sign of a wrong code. */
-  [[nodiscard]] bool covers(const GeodeticPoint& point) const;
 
  private:
   struct Proj;
