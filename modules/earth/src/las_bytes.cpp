@@ -61,7 +61,7 @@ std::string lasHeaderBytes(const LasHeader& header)
       .number(kPointBytes)
       .zeros(kLegacyCounts);  // zero for this point format
   for (int axis = 0; axis < 3; ++axis)
-    out.number(header.scale_m);
+    out.number(kLasStep);
   for (int axis = 0; axis < 3; ++axis)
     out.number(header.offset[axis]);
   for (int axis = 0; axis < 3; ++axis)

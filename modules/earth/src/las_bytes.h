@@ -16,6 +16,8 @@
 namespace fastlio
 {
 inline constexpr std::size_t kLasNameLength = 32;
+/** The step of coordinates [m]: 32 bits of it reach 2147 km to both sides. */
+inline constexpr double kLasStep = 0.001;
 /** The length of a record has 16 bits, and a zero ends the text. */
 inline constexpr std::size_t kLongestLasWkt = 65534;
 /** Of point data record format 6: return number 1 in the lower four bits, 1 return in the upper. */
@@ -66,7 +68,6 @@ class LasBytes
 struct LasHeader
 {
   std::size_t wkt_bytes = 0;  //!< 0: there is no record of the reference system
-  double scale_m = 0.001;
   Vec3 offset = Vec3::Zero(), least = Vec3::Zero(), most = Vec3::Zero();  //!< [m]
   std::uint64_t points = 0;
   std::int64_t day_of_stamp_ns = 0;  //!< UTC; no time: no day

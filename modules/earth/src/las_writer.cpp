@@ -18,7 +18,6 @@ namespace fastlio
 namespace
 {
 constexpr double kMetresOfOffset = 1000.0;
-constexpr double kFinestScale = 1e-6, kCoarsestScale = 1.0;  // [m]
 
 bool endsInLaz(const std::string& path)
 {
@@ -42,10 +41,6 @@ const std::string& uncompressed(const std::string& path)
 void requireWritable(const LasOptions& options)
 {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument("LAS: " + what); };
-  if (!(options.scale_m >= kFinestScale && options.scale_m <= kCoarsestScale))
-    refuse(
-        "a step of the coordinates of " + shortestText(options.scale_m) +
-        " m; give 1e-6 to 1 m, like 0.001");
   if (!std::isfinite(options.intensity_scale) || options.intensity_scale < 0)
     refuse(
         "intensities times " + shortestText(options.intensity_scale) + "; give a factor above 0");
@@ -94,7 +89,7 @@ void LasWriter::add(const LasPoint& point)
       .number(sixteenBits(static_cast<double>(point.intensity) * options_.intensity_scale))
       .number(kLasOneOfOneReturns)
       .zeros(5)  // flags, classification, user data, scan angle
-      .number(point.source)
+      .zeros(2)  // source
       .number(adjustedGpsTime(point.stamp_ns));
   is_whole_ = false;
   file_.write(record_);
@@ -109,16 +104,16 @@ LasWriter::Steps LasWriter::stepsOf(const Vec3& position) const
   Steps steps = {};
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double step = std::round((position[axis] - offset_[axis]) / options_.scale_m);
+    const double step = std::round((position[axis] - offset_[axis]) / kLasStep);
     if (!(std::abs(step) <= most))
       throw std::runtime_error(
           "LAS: the point number " + std::to_string(count_ + 1) + " at (" +
           shortestText(position.x()) + ", " + shortestText(position.y()) + ", " +
           shortestText(position.z()) + ") m does not fit: coordinates reach " +
-          shortestText(std::floor(most * options_.scale_m)) + " m from the offset (" +
+          shortestText(std::floor(most * kLasStep)) + " m from the offset (" +
           shortestText(offset_.x()) + ", " + shortestText(offset_.y()) + ", " +
-          shortestText(offset_.z()) + ") at steps of " + shortestText(options_.scale_m) +
-          " m; remove the point, give larger steps, or split the map");
+          shortestText(offset_.z()) + ") at steps of " + shortestText(kLasStep) +
+          " m; remove the point, or split the map");
     steps[static_cast<std::size_t>(axis)] = static_cast<std::int32_t>(step);
   }
   return steps;
@@ -126,14 +121,13 @@ LasWriter::Steps LasWriter::stepsOf(const Vec3& position) const
 
 double LasWriter::coordinateOf(int axis, std::int32_t steps) const
 {
-  return static_cast<double>(steps) * options_.scale_m + offset_[axis];
+  return static_cast<double>(steps) * kLasStep + offset_[axis];
 }
 
 std::string LasWriter::header() const
 {
   LasHeader header;
   header.wkt_bytes = options_.wkt.size();
-  header.scale_m = options_.scale_m;
   header.offset = offset_;
   header.points = count_;
   header.day_of_stamp_ns = latest_stamp_ns_;

@@ -16,7 +16,7 @@ inline constexpr std::int64_t kStamp = 1'700'000'000'123'456'789;  // 2023-11-14
 
 inline LasPoint point(double x, double y, double z)
 {
-  return {{x, y, z}, 17.4F, kStamp, 3};
+  return {{x, y, z}, 17.4F, kStamp};
 }
 
 inline std::string written(

@@ -45,8 +45,8 @@ class LasReadBack : public ::testing::Test
   static std::string row(const LasPoint& p)
   {
     return fixedText(p.position.x(), 4) + " " + fixedText(p.position.y(), 4) + " " +
-           fixedText(p.position.z(), 4) + " " + fixedText(std::round(p.intensity), 0) + " 1 1 0 " +
-           std::to_string(p.source) + " " + fixedText(adjustedGpsTime(p.stamp_ns), 7) + "\n";
+           fixedText(p.position.z(), 4) + " " + fixedText(std::round(p.intensity), 0) +
+           " 1 1 0 0 " + fixedText(adjustedGpsTime(p.stamp_ns), 7) + "\n";
   }
 
   TemporaryFolder folder_;
@@ -59,7 +59,6 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
   const ReferenceSystem utm(utmCodeAt(munich));
   LasOptions options;
   options.wkt = utm.wkt();
-  options.scale_m = 0.0001;
   LasWriter writer(folder_.file("map.las"), options);
   std::string rows;
   Vec3 least = Vec3::Constant(1e9), most = -least;
@@ -67,10 +66,9 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
   {
     LasPoint p;
     p.position = utm.projectedOf(frame, {i * 0.37, 200.0 - i, std::sin(i)});
-    p.position = (p.position * 1e4).array().round() / 1e4;
+    p.position = (p.position * 1e3).array().round() / 1e3;
     p.intensity = static_cast<float>(i % 256);
     p.stamp_ns = kReadStamp + i * 12'345'678LL;
-    p.source = static_cast<std::uint16_t>(1 + i / 500);
     writer.add(p);
     rows += row(p);
     least = least.cwiseMin(p.position);
@@ -83,7 +81,7 @@ TEST_F(LasReadBack, AGeoreferencedMapByCopc)
       read(folder_.file("map.las")),
       "version 1.4 format 6 record 30 encoding 17\nsoftware mrpt_fastlio\ncreated 318 2023\n"
       "points 1000 returns 1000 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n"
-      "scale 0.0001 0.0001 0.0001 offset 691000 5334000 0\nmin " +
+      "scale 0.001 0.001 0.001 offset 691000 5334000 0\nmin " +
           three(least) + " max " + three(most) + "\nrecords 1\nwkt " + options.wkt + "\n" + rows);
 }
 
@@ -91,7 +89,7 @@ TEST_F(LasReadBack, AMapWithoutAPlaceByCopc)
 {
   LasWriter writer(folder_.file("map.las"), {});
   const std::vector<LasPoint> points = {
-      {{-12.5, 3.25, -0.125}, 7, 2'000'000'000, 0}, {{999.999, -999.999, 0}, 65535, 0, 65535}};
+      {{-12.5, 3.25, -0.125}, 7, 2'000'000'000}, {{999.999, -999.999, 0}, 65535, 0}};
   for (const LasPoint& p : points)
     writer.add(p);
   writer.commit();

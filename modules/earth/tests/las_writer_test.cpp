@@ -83,7 +83,6 @@ TEST(LasWriter, BoundsAreThoseOfThePointsAsTheyAreStored)
     points.push_back(point(691e3 + metres(random), 5334e3 + metres(random), metres(random)));
     writer.add(points.back());
   }
-  EXPECT_EQ(writer.size(), 5000U);
   writer.commit();
   const std::string bytes = contentOf(folder.file("map.las"));
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -113,7 +112,7 @@ TEST(LasWriter, IntensitiesAreScaledAndLimited)
   const std::vector<std::pair<float, int>> cases = {
       {0.0F, 0}, {1.0F, 256}, {255.0F, 65280}, {300.0F, 65535}, {-5.0F, 0}, {NAN, 0}, {0.01F, 3}};
   for (const auto& one : cases)
-    writer.add({{1, 2, 3}, one.first, kStamp, 0});
+    writer.add({{1, 2, 3}, one.first, kStamp});
   writer.commit();
   const std::string bytes = contentOf(folder.file("map.las"));
   for (std::size_t i = 0; i < cases.size(); ++i)

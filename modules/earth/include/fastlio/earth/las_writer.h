@@ -20,7 +20,6 @@ struct LasPoint
   Vec3 position = Vec3::Zero();  //!< easting, northing, height [m]
   float intensity = 0;           //!< as the sensor gives it; see LasOptions::intensity_scale
   std::int64_t stamp_ns = 0;     //!< UTC since 1970
-  std::uint16_t source = 0;      //!< a session or a scanner; 0: unknown
 };
 
 struct LasOptions
@@ -28,18 +27,17 @@ struct LasOptions
   /** The reference system (ReferenceSystem::wkt(), OGC WKT 1); empty: coordinates of a map without
    * a place on the earth. */
   std::string wkt;
-  /** The step of the coordinates [m]; 32 bits of it reach 2147 km to both sides at 0.001. */
-  double scale_m = 0.001;
   /** LAS has 16 bits for intensities: they are multiplied by this, rounded and limited. */
   double intensity_scale = 1.0;
 };
 
 /** Writes points as they come, in constant memory; the file gets its name in commit().
  *
- * Point data record format 6: coordinates, intensity, return 1 of 1, "created, never classified",
- * adjusted standard GPS time (gps_time.h; flagged in the global encoding), source. The reference
- * system is a variable length record "LASF_Projection" 2112. The day of creation is that of the
- * latest stamp, so that the same points make the same bytes. Each number of points fits the format.
+ * Point data record format 6: coordinates in steps of 1 mm, intensity, return 1 of 1, "created,
+ * never classified", adjusted standard GPS time (gps_time.h; flagged in the global encoding). The
+ * reference system is a variable length record "LASF_Projection" 2112. The day of creation is that
+ * of the latest stamp, so that the same points make the same bytes. Each number of points fits the
+ * format.
  *
  * A point that is refused leaves the file as it was. When the disk refused bytes, the file cannot
  * be completed, and nothing of it stays. */
@@ -55,8 +53,6 @@ class LasWriter
   /** \exception std::runtime_error the position is not finite or too far from the offset, or the
    * disk refused the bytes */
   void add(const LasPoint& point);
-
-  [[nodiscard]] std::uint64_t size() const { return count_; }
 
   /** Completes the header.
    * \exception std::logic_error the disk had refused a point
