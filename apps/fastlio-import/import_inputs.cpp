@@ -90,8 +90,6 @@ ReadProgress ImportInputs::progress() const
     const ReadProgress progress = input.source.progress();
     all.bytes_read += progress.bytes_read;
     all.bytes_total += progress.bytes_total;
-    all.objects_read += progress.objects_read;
-    all.observations_read += progress.observations_read;
   }
   return all;
 }

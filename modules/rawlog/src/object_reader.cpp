@@ -84,7 +84,7 @@ ReadProblem ObjectReader::makeProblem(
 
 NextObject ObjectReader::next()
 {
-  if (finished_) return EndOfObjects{};
+  if (finished_) return EndOfRecording{};
   if (!stream_)
   {
     finished_ = true;  // unless the file can be opened
@@ -219,7 +219,7 @@ NextObject ObjectReader::atEndOfFile()
   }
   if (index_ == 0 && !recovered_)
     return makeProblem(ReadProblemKind::NotARawlog, "", "the file is empty");
-  return EndOfObjects{};
+  return EndOfRecording{};
 }
 
 ReadProblem ObjectReader::diagnoseEnd(const std::string& class_name) const

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <fastlio/archives/object_stream.h>
-#include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/recordings/recording_reader.h>
 
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
@@ -18,13 +18,9 @@
 
 namespace fastlio
 {
-/** No more objects, nothing wrong. */
-struct EndOfObjects
-{
-};
-
 /** An object (never null), a problem, after which reading may go on, or the end. */
-using NextObject = std::variant<mrpt::serialization::CSerializable::Ptr, ReadProblem, EndOfObjects>;
+using NextObject =
+    std::variant<mrpt::serialization::CSerializable::Ptr, ReadProblem, EndOfRecording>;
 
 class ObjectReader
 {
@@ -32,7 +28,7 @@ class ObjectReader
   explicit ObjectReader(std::string path);
 
   /** Never throws for what the file holds. Behind an object that cannot be decoded it goes on at
-   * the next one that can be found. Once EndOfObjects was returned it is returned again. */
+   * the next one that can be found. Once EndOfRecording was returned it is returned again. */
   [[nodiscard]] NextObject next();
 
   /** Bytes of the file as it lies on disk that have been used. */

@@ -36,28 +36,6 @@ std::vector<CObservation::Ptr> observationsOf(const mrpt::serialization::CSerial
   return observations;
 }
 
-/** Stands for a recording that was recognised and cannot be opened: says why, and ends. */
-class UnreadableRecording : public fastlio::RecordingReader
-{
- public:
-  UnreadableRecording(std::string file, const std::string& why)
-      : problem_{file, fastlio::ReadProblemKind::NotSupported, "", file + ": the file " + why}
-  {
-  }
-
-  fastlio::NextRecorded next() override
-  {
-    if (std::exchange(told_, true)) return fastlio::EndOfRecording{};
-    return problem_;
-  }
-  [[nodiscard]] std::uint64_t position() const override { return 0; }
-  [[nodiscard]] std::vector<fastlio::TopicReport> topics() const override { return {}; }
-
- private:
-  fastlio::ReadProblem problem_;
-  bool told_ = false;
-};
-
 bool belongsInARawlog(const mrpt::serialization::CSerializable& object)
 {
   return dynamic_cast<const CObservation*>(&object) != nullptr ||
@@ -75,7 +53,7 @@ class RawlogSource::Impl
       : files_(std::move(files)), sorter_(toNanoseconds(options.sorting_window))
   {
     for (const std::string& file : files_)
-      progress_.bytes_total += recordingBytes(file);
+      bytes_total_ += recordingBytes(file);
   }
 
   CObservation::Ptr next()
@@ -83,25 +61,22 @@ class RawlogSource::Impl
     while (!sorter_.ready() && readMore())
     {
     }
-    if (sorter_.empty()) return nullptr;
-    ++progress_.observations_read;
-    return sorter_.pop();
+    return sorter_.empty() ? nullptr : sorter_.pop();
   }
 
   [[nodiscard]] const std::vector<ReadProblem>& problems() const { return problems_; }
 
   [[nodiscard]] ReadProgress progress() const
   {
-    ReadProgress now = progress_;
-    now.bytes_read = bytes_of_files_read_ + (reader_    ? reader_->compressedPosition()
-                                             : foreign_ ? foreign_->position()
-                                                        : 0);
-    return now;
+    const std::uint64_t at_hand = reader_    ? reader_->compressedPosition()
+                                  : foreign_ ? foreign_->position()
+                                             : 0;
+    return {bytes_of_files_read_ + at_hand, bytes_total_};
   }
 
  private:
   bool readMore();
-  void open();
+  [[nodiscard]] bool open();
   void readForeign();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void add(ReadProblem problem);
@@ -114,8 +89,7 @@ class RawlogSource::Impl
   std::unique_ptr<RecordingReader> foreign_;  // instead of it, for a recording of another format
   std::string foreign_class_;    // of the first object in this file that belongs into no rawlog
   bool rawlog_content_ = false;  // this file has held something that does
-  std::uint64_t bytes_of_files_read_ = 0;
-  ReadProgress progress_;
+  std::uint64_t bytes_of_files_read_ = 0, bytes_total_ = 0;
   std::vector<ReadProblem> problems_;
 };
 
@@ -123,7 +97,11 @@ class RawlogSource::Impl
 bool RawlogSource::Impl::readMore()
 {
   if (file_ == files_.size()) return false;
-  if (!reader_ && !foreign_) open();
+  if (!reader_ && !foreign_ && !open())
+  {
+    closeFile();
+    return true;
+  }
   if (foreign_)
   {
     readForeign();
@@ -139,7 +117,8 @@ bool RawlogSource::Impl::readMore()
   return true;
 }
 
-void RawlogSource::Impl::open()
+/** False: the file was recognised and cannot be opened. */
+bool RawlogSource::Impl::open()
 {
   const std::string& file = files_[file_];
   try
@@ -148,19 +127,18 @@ void RawlogSource::Impl::open()
   }
   catch (const std::exception& e)
   {
-    foreign_ = std::make_unique<UnreadableRecording>(file, e.what());
+    add({file, ReadProblemKind::NotSupported, "", file + ": the file " + e.what()});
+    return false;
   }
   if (!foreign_) reader_.emplace(file);
+  return true;
 }
 
 void RawlogSource::Impl::readForeign()
 {
   NextRecorded next = foreign_->next();
   if (auto* observation = std::get_if<CObservation::Ptr>(&next))
-  {
-    ++progress_.objects_read;
     sorter_.push(std::move(*observation));
-  }
   else if (auto* problem = std::get_if<ReadProblem>(&next))
     add(std::move(*problem));
   else
@@ -169,7 +147,6 @@ void RawlogSource::Impl::readForeign()
 
 void RawlogSource::Impl::take(const mrpt::serialization::CSerializable::Ptr& object)
 {
-  ++progress_.objects_read;
   if (belongsInARawlog(*object))
     rawlog_content_ = true;
   else if (foreign_class_.empty())

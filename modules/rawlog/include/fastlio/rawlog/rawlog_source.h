@@ -9,7 +9,6 @@
 
 #include <mrpt/obs/CObservation.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -22,8 +21,6 @@ struct ReadProgress
 {
   std::uint64_t bytes_read = 0;  //!< of the files as they lie on disk
   std::uint64_t bytes_total = 0;
-  std::size_t objects_read = 0;
-  std::size_t observations_read = 0;
 };
 
 struct RawlogSourceOptions
