@@ -76,6 +76,17 @@ TEST_F(RawlogSourceTest, AMissingFileDoesNotStopTheNext)
     EXPECT_NE(of_folder.find(part), std::string::npos) << part << " is not in " << of_folder;
 }
 
+TEST_F(RawlogSourceTest, ARecordingThatCannotBeOpenedDoesNotStopTheNext)
+{
+  write(folder_.file("1"), "#ROSBAG V1.2\n");
+  write(folder_.file("2"), serialize({imuAt(2)}));
+  const Reading reading = readAll({folder_.file("1"), folder_.file("2")});
+  EXPECT_EQ(reading.seconds.size(), 1U);
+  ASSERT_EQ(reading.problems.size(), 1U);
+  EXPECT_EQ(reading.problems[0].kind, ReadProblemKind::NotSupported);
+  EXPECT_NE(reading.problems[0].message.find("another version"), std::string::npos);
+}
+
 TEST_F(RawlogSourceTest, SortsWithinTheWindow)
 {
   const std::string file = fileOf(serialize(
