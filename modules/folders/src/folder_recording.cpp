@@ -203,13 +203,13 @@ std::unique_ptr<RecordingReader> openKittiDrive(const std::string& path)
       T_imu_velodyne ? "The pose of the LiDAR is that of calib_imu_to_velo.txt."
                      : "There is no calib_imu_to_velo.txt: the pose of the LiDAR is not known.");
   std::vector<std::unique_ptr<TimedStream>> streams;
-  streams.push_back(std::make_unique<CloudStream>(
+  streams.push_back(cloudStream(
       "velodyne",
       timedByNumber(
           filesIn(velodyne + "/data", {".bin"}), stampsOfFile(velodyne + "/timestamps.txt")),
       kWithoutTimes, T_imu_velodyne));
   if (isThere(oxts + "/data"))
-    streams.push_back(std::make_unique<OxtsStream>(
+    streams.push_back(oxtsStream(
         timedByNumber(filesIn(oxts + "/data", {".txt"}), stampsOfFile(oxts + "/timestamps.txt"))));
   return std::make_unique<FolderRecording>(std::move(streams), std::move(notes));
 }
@@ -223,7 +223,7 @@ bool isKittiSequence(const std::string& path)
 std::unique_ptr<RecordingReader> openKittiSequence(const std::string& path)
 {
   std::vector<std::unique_ptr<TimedStream>> streams;
-  streams.push_back(std::make_unique<CloudStream>(
+  streams.push_back(cloudStream(
       "velodyne",
       timedByNumber(filesIn(path + "/velodyne", {".bin"}), stampsOfFile(path + "/times.txt")),
       "LiDAR, clouds that are motion compensated"));
@@ -248,7 +248,7 @@ std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)
         "holds clouds whose names are numbers and no times; put a file times.txt beside them, with "
         "the time of each cloud [s] in a line");
   std::vector<std::unique_ptr<TimedStream>> streams;
-  streams.push_back(std::make_unique<CloudStream>(
+  streams.push_back(cloudStream(
       "lidar", timed(files, times.empty() ? stampsOfNames(files) : stampsOfFile(times), times),
       "LiDAR; stamps from " + (times.empty() ? "the names of the files" : "'" + times + "'")));
   if (!table.empty()) streams.push_back(std::make_unique<ImuTable>(table));

@@ -9,6 +9,7 @@
 #include <fastlio/recordings/sensor_imu.h>
 
 #include <array>
+#include <stdexcept>
 
 namespace fastlio
 {
@@ -17,18 +18,19 @@ namespace
 constexpr std::size_t kOxtsValues = 30, kAccelerationAt = 11, kRateAt = 17;
 constexpr std::size_t kLongestOxts = 4096;
 
-std::optional<std::array<double, kOxtsValues>> oxtsOf(const std::string& path)
+std::array<double, kOxtsValues> oxtsOf(const std::string& path)
 {
+  const std::runtime_error failure("does not hold the 30 numbers of an OXTS sample");
   const std::string text = headOf(path, kLongestOxts);
   std::array<double, kOxtsValues> values{};
   std::size_t at = 0;
   for (double& value : values)
   {
     at = text.find_first_not_of(" \t\r\n", at);
-    if (at == std::string::npos) return std::nullopt;
+    if (at == std::string::npos) throw failure;
     const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
     const auto number = parsed<double>(std::string_view(text).substr(at, end - at));
-    if (!number) return std::nullopt;
+    if (!number) throw failure;
     value = *number;
     at = end;
   }
@@ -36,31 +38,17 @@ std::optional<std::array<double, kOxtsValues>> oxtsOf(const std::string& path)
 }
 }  // namespace
 
-std::optional<std::int64_t> OxtsStream::stamp() const
+std::unique_ptr<TimedStream> oxtsStream(std::vector<TimedFile> files)
 {
-  if (next_ == files_.size()) return std::nullopt;
-  return files_[next_].stamp_ns;
-}
-
-NextRecorded OxtsStream::take()
-{
-  const TimedFile& file = files_[next_++];
-  bytes_ += recordingBytes(file.path);
-  const auto values = oxtsOf(file.path);
-  if (!values)
-    return ReadProblem{
-        file.path, ReadProblemKind::Corrupt, "",
-        file.path + ": the file does not hold the 30 numbers of an OXTS sample."};
-  ++taken_;
-  const auto vectorAt = [&](std::size_t at)
-  { return Vec3(values->at(at), values->at(at + 1), values->at(at + 2)); };
-  return mrpt::obs::CObservation::Ptr(
-      makeImu("oxts", file.stamp_ns, vectorAt(kRateAt), vectorAt(kAccelerationAt)));
-}
-
-TopicReport OxtsStream::report() const
-{
-  return {"oxts", "OXTS", next_, taken_, "IMU"};
+  const auto read = [](const TimedFile& file)
+  {
+    const auto values = oxtsOf(file.path);
+    const auto vectorAt = [&](std::size_t at)
+    { return Vec3(values.at(at), values.at(at + 1), values.at(at + 2)); };
+    return makeImu("oxts", file.stamp_ns, vectorAt(kRateAt), vectorAt(kAccelerationAt));
+  };
+  return std::make_unique<FileStream>(
+      TopicReport{"oxts", "OXTS", 0, 0, "IMU"}, std::move(files), read);
 }
 
 }  // namespace fastlio

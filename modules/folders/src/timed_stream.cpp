@@ -40,31 +40,21 @@ std::vector<std::string> filesIn(
   return files;
 }
 
-CloudStream::CloudStream(
-    std::string label, std::vector<TimedFile> files, std::string reason,
-    const std::optional<Pose>& pose)
-    : label_(std::move(label)), reason_(std::move(reason)), files_(std::move(files)), pose_(pose)
+std::optional<std::int64_t> FileStream::stamp() const
 {
+  if (report_.messages == files_.size()) return std::nullopt;
+  return files_[report_.messages].stamp_ns;
 }
 
-std::optional<std::int64_t> CloudStream::stamp() const
+NextRecorded FileStream::take()
 {
-  if (next_ == files_.size()) return std::nullopt;
-  return files_[next_].stamp_ns;
-}
-
-NextRecorded CloudStream::take()
-{
-  const TimedFile& file = files_[next_++];
+  const TimedFile& file = files_[report_.messages++];
   try
   {
     bytes_ += recordingBytes(file.path);
-    const bool pcd = fs::path(file.path).extension() == ".pcd";
-    auto cloud =
-        makeCloud(pcd ? readPcdCloud(file.path) : readBinCloud(file.path), label_, file.stamp_ns);
-    if (pose_) cloud->setSensorPose(toMrptPose(*pose_));
-    ++taken_;
-    return mrpt::obs::CObservation::Ptr(cloud);
+    auto observation = read_(file);
+    ++report_.taken;
+    return observation;
   }
   catch (const std::exception& e)
   {
@@ -72,9 +62,20 @@ NextRecorded CloudStream::take()
   }
 }
 
-TopicReport CloudStream::report() const
+std::unique_ptr<TimedStream> cloudStream(
+    const std::string& label, std::vector<TimedFile> files, const std::string& reason,
+    const std::optional<Pose>& pose)
 {
-  return {label_, "files of clouds", next_, taken_, reason_};
+  const auto read = [label, pose](const TimedFile& file)
+  {
+    const bool pcd = fs::path(file.path).extension() == ".pcd";
+    auto cloud =
+        makeCloud(pcd ? readPcdCloud(file.path) : readBinCloud(file.path), label, file.stamp_ns);
+    if (pose) cloud->setSensorPose(toMrptPose(*pose));
+    return cloud;
+  };
+  return std::make_unique<FileStream>(
+      TopicReport{label, "files of clouds", 0, 0, reason}, std::move(files), read);
 }
 
 }  // namespace fastlio

@@ -6,10 +6,10 @@
 
 #include <fastlio/math/pose.h>
 #include <fastlio/recordings/recording_reader.h>
-#include <fastlio/sensors/xyzirt_access.h>
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,27 +43,39 @@ struct TimedFile
   std::string path;
 };
 
-/** One cloud a file. */
-class CloudStream : public TimedStream
+/** One observation a file. */
+class FileStream : public TimedStream
 {
  public:
-  /** \param pose of the sensor in the vehicle, if the folder holds it */
-  CloudStream(
-      std::string label, std::vector<TimedFile> files, std::string reason,
-      const std::optional<Pose>& pose = {});
+  /** Throws what fileProblem() may say of the file. */
+  using Read = std::function<mrpt::obs::CObservation::Ptr(const TimedFile& file)>;
+
+  /** \param report name, type and reason of it; FileStream counts */
+  FileStream(TopicReport report, std::vector<TimedFile> files, Read read)
+      : report_(std::move(report)), files_(std::move(files)), read_(std::move(read))
+  {
+  }
 
   [[nodiscard]] std::optional<std::int64_t> stamp() const override;
   [[nodiscard]] NextRecorded take() override;
-  [[nodiscard]] TopicReport report() const override;
+  [[nodiscard]] TopicReport report() const override { return report_; }
   [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
 
  private:
-  std::string label_, reason_;
+  TopicReport report_;
   std::vector<TimedFile> files_;
-  std::optional<Pose> pose_;
-  std::size_t next_ = 0, taken_ = 0;
+  Read read_;
   std::uint64_t bytes_ = 0;
 };
+
+/** Clouds in PCD files or in KITTI's .bin files. \param pose of the sensor in the vehicle, if the
+ * folder holds it */
+[[nodiscard]] std::unique_ptr<TimedStream> cloudStream(
+    const std::string& label, std::vector<TimedFile> files, const std::string& reason,
+    const std::optional<Pose>& pose = {});
+
+/** KITTI's OXTS: acceleration and rate. */
+[[nodiscard]] std::unique_ptr<TimedStream> oxtsStream(std::vector<TimedFile> files);
 
 /** A table of inertial samples: time, angular rate, specific force, one sample a line. A first line
  * with names orders the columns, and may give the unit of the times; without one they are time,
@@ -96,23 +108,6 @@ class ImuTable : public TimedStream
   std::vector<double> values_;  // three rates, three accelerations
   std::size_t lines_ = 0, taken_ = 0, bad_ = 0;
   bool told_ = false;  // that some lines are bad
-  std::uint64_t bytes_ = 0;
-};
-
-/** One file of KITTI's OXTS a sample: acceleration and rate. */
-class OxtsStream : public TimedStream
-{
- public:
-  explicit OxtsStream(std::vector<TimedFile> files) : files_(std::move(files)) {}
-
-  [[nodiscard]] std::optional<std::int64_t> stamp() const override;
-  [[nodiscard]] NextRecorded take() override;
-  [[nodiscard]] TopicReport report() const override;
-  [[nodiscard]] std::uint64_t bytes() const override { return bytes_; }
-
- private:
-  std::vector<TimedFile> files_;
-  std::size_t next_ = 0, taken_ = 0;
   std::uint64_t bytes_ = 0;
 };
 
