@@ -7,6 +7,7 @@
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,6 @@ namespace fastlio
 namespace
 {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-constexpr std::string_view kBlanksOfRow = " \t\r";
 constexpr double kFarthest = 1e8;  // of a coordinate [m]: none on the earth is that large
 
 enum Column
@@ -42,25 +42,6 @@ enum Column
 constexpr std::array<std::string_view, kColumns> kColumnNames = {
     "name", "map_x", "map_y", "map_z", "latitude", "longitude", "east", "north", "height", "std"};
 constexpr std::size_t kMissing = std::numeric_limits<std::size_t>::max();
-
-std::string_view trimmed(std::string_view text)
-{
-  const auto first = text.find_first_not_of(kBlanksOfRow);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanksOfRow) - first + 1);
-}
-
-std::vector<std::string_view> fieldsOf(std::string_view row)
-{
-  std::vector<std::string_view> fields;
-  for (std::size_t begin = 0; begin <= row.size();)
-  {
-    const std::size_t end = std::min(row.find(',', begin), row.size());
-    fields.push_back(trimmed(row.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return fields;
-}
 
 /** A table and how far it is read. */
 class ControlPointFile
@@ -112,7 +93,7 @@ class ControlPointFile
       if (text_.size() >= kLongestLine) fail("the line is too long for a row of control points");
       const std::string_view row = trimmed(text_);
       if (row.empty() || row.front() == '#') continue;
-      fields_ = fieldsOf(row);
+      fields_ = splitAtCommas(row);
       return true;
     }
     return false;

@@ -8,6 +8,7 @@
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <cctype>
@@ -21,14 +22,6 @@ namespace fastlio
 namespace
 {
 constexpr std::int64_t kMaxSeconds = 9'223'372'035;  // of an int64_t in nanoseconds
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view trim(std::string_view text)
-{
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 std::string quoted(std::string_view text)
 {
@@ -105,37 +98,13 @@ std::vector<DataLine> readDataLines(const std::filesystem::path& file)
       failAt(
           {file, number},
           "the line is longer than " + std::to_string(kLongestLine) + " characters");
-    const std::string_view data = trim(text);
+    const std::string_view data = trimmed(text);
     if (!data.empty() && data.front() != '#') lines.push_back({number, std::string(data)});
   }
   if (in.bad()) throw std::runtime_error(file.string() + ": reading failed half way");
   if (lines.empty())
     throw std::runtime_error(file.string() + ": holds no data (empty, or comments only)");
   return lines;
-}
-
-std::vector<std::string_view> splitAtBlanks(std::string_view text)
-{
-  std::vector<std::string_view> columns;
-  while (!(text = trim(text)).empty())
-  {
-    const auto end = std::min(text.find_first_of(kBlanks), text.size());
-    columns.push_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return columns;
-}
-
-std::vector<std::string_view> splitAtCommas(std::string_view text)
-{
-  std::vector<std::string_view> columns;
-  for (;;)
-  {
-    const auto comma = text.find(',');
-    columns.push_back(trim(text.substr(0, comma)));
-    if (comma == std::string_view::npos) return columns;
-    text.remove_prefix(comma + 1);
-  }
 }
 
 double parseNumber(std::string_view text, const TextPlace& place)

@@ -32,12 +32,6 @@ struct DataLine
 /** All lines with data; throws std::runtime_error when the file cannot be read or has none. */
 [[nodiscard]] std::vector<DataLine> readDataLines(const std::filesystem::path& file);
 
-/** Columns between runs of blanks and tabs. */
-[[nodiscard]] std::vector<std::string_view> splitAtBlanks(std::string_view text);
-
-/** Columns between commas, without surrounding blanks. */
-[[nodiscard]] std::vector<std::string_view> splitAtCommas(std::string_view text);
-
 /** A finite number. */
 [[nodiscard]] double parseNumber(std::string_view text, const TextPlace& place);
 

@@ -3,6 +3,7 @@
 
 #include "pose_parsing.h"
 #include <fastlio/evaluation/trajectory_io.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <array>

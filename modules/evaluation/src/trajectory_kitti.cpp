@@ -5,6 +5,7 @@
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <Eigen/LU>
 

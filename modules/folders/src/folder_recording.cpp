@@ -6,6 +6,7 @@
 #include "stamp_text.h"
 #include <fastlio/math/statistics.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/recordings/byte_source.h>
 
 #include <algorithm>
@@ -66,18 +67,11 @@ std::optional<Pose> kittiPose(const std::string& path)
   const auto numbersBehind = [&](const std::string& name, std::size_t count)
   {
     std::vector<double> numbers;
-    std::size_t at = text.find(name);
+    const std::size_t at = text.find(name);
     if (at == std::string::npos) return numbers;
-    for (at += name.size(); numbers.size() < count;)
-    {
-      at = text.find_first_not_of(" \t", at);
-      if (at == std::string::npos) break;
-      const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-      const auto number = parsed<double>(std::string_view(text).substr(at, end - at));
-      if (!number) break;
-      numbers.push_back(*number);
-      at = end;
-    }
+    const std::string_view line = std::string_view(text).substr(at + name.size());
+    for (const std::string_view word : splitAtBlanks(line.substr(0, line.find('\n')), count))
+      if (const auto number = parsed<double>(word)) numbers.push_back(*number);
     return numbers;
   };
   const auto R = numbersBehind("R:", 9), p = numbersBehind("T:", 3);

@@ -5,6 +5,7 @@
 
 #include "timed_stream.h"
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/recordings/byte_source.h>
 #include <fastlio/recordings/sensor_imu.h>
 
@@ -20,19 +21,14 @@ constexpr std::size_t kLongestOxts = 4096;
 
 std::array<double, kOxtsValues> oxtsOf(const std::string& path)
 {
-  const std::runtime_error failure("does not hold the 30 numbers of an OXTS sample");
   const std::string text = headOf(path, kLongestOxts);
+  const auto words = splitAtBlanks(text, kOxtsValues);
   std::array<double, kOxtsValues> values{};
-  std::size_t at = 0;
-  for (double& value : values)
+  for (std::size_t i = 0; i < values.size(); ++i)
   {
-    at = text.find_first_not_of(" \t\r\n", at);
-    if (at == std::string::npos) throw failure;
-    const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-    const auto number = parsed<double>(std::string_view(text).substr(at, end - at));
-    if (!number) throw failure;
-    value = *number;
-    at = end;
+    const auto number = i < words.size() ? parsed<double>(words[i]) : std::nullopt;
+    if (!number) throw std::runtime_error("does not hold the 30 numbers of an OXTS sample");
+    values.at(i) = *number;
   }
   return values;
 }

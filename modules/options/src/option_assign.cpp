@@ -7,6 +7,7 @@
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/option_value.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,27 +43,13 @@ struct Target
   }
 };
 
-std::string_view trimmed(std::string_view text)
-{
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 /** The parts of a list separated by commas, with or without brackets. */
 std::vector<std::string_view> partsOf(std::string_view text)
 {
   text = trimmed(text);
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']')
     text = text.substr(1, text.size() - 2);
-  std::vector<std::string_view> parts;
-  for (std::size_t comma = 0; comma != std::string_view::npos;)
-  {
-    comma = text.find(',');
-    parts.push_back(trimmed(text.substr(0, comma)));
-    if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
-  }
-  return parts;
+  return splitAtCommas(text);
 }
 
 std::optional<double> finiteNumber(std::string_view text)

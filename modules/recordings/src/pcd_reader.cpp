@@ -5,6 +5,7 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/recordings/pcd_reader.h>
 
 #include <algorithm>
@@ -24,21 +25,6 @@ constexpr std::size_t kMostHeadLines = 1000;
 constexpr std::size_t kLargestNumber = 8;     // [bytes]
 constexpr std::size_t kMostNumbers = 10'000;  // of a field: descriptors have some hundred
 
-/** Not more than \a most, whatever the length of the line is. */
-std::vector<std::string_view> wordsOf(std::string_view line, std::size_t most)
-{
-  constexpr std::string_view kBlanks = " \t\r";
-  std::vector<std::string_view> words;
-  std::size_t begin = line.find_first_not_of(kBlanks);
-  while (begin != std::string_view::npos && words.size() < most)
-  {
-    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kBlanks, end);
-  }
-  return words;
-}
-
 /** The words behind the first one of each line. */
 using Head = std::map<std::string, std::vector<std::string>>;
 
@@ -49,7 +35,7 @@ Head readHeadLines(std::istream& in)
   for (std::string line; head.count("DATA") == 0 && readBoundedLine(in, line);)
   {
     if (++count > kMostHeadLines) throw std::runtime_error("has a head that does not end");
-    const auto words = wordsOf(line, kLongestLine);
+    const auto words = splitAtBlanks(line);
     if (words.empty() || words.front().front() == '#') continue;
     head[std::string(words.front())].assign(words.begin() + 1, words.end());
   }
@@ -226,7 +212,7 @@ void PcdReader::readAscii(std::size_t points)
   std::size_t done = 0;
   for (std::string line; done < points && readBoundedLine(in_, line);)
   {
-    const auto words = wordsOf(line, numbers);
+    const auto words = splitAtBlanks(line, numbers);
     if (words.empty()) continue;
     if (words.size() < numbers)
       throw std::runtime_error(

@@ -6,14 +6,15 @@
 #include <fastlio/files/bounded_line.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -66,16 +67,7 @@ struct PlyHeader
   throw std::runtime_error("PLY file '" + path + "': " + why);
 }
 
-std::vector<std::string> wordsOf(const std::string& line)
-{
-  std::istringstream in(line);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;)
-    words.push_back(word);
-  return words;
-}
-
-const Type* typeNamed(const std::string& name)
+const Type* typeNamed(std::string_view name)
 {
   const auto* found = std::find_if(
       std::begin(kTypes), std::end(kTypes),
@@ -84,7 +76,7 @@ const Type* typeNamed(const std::string& name)
 }
 
 /** Whether a line of the header is understood. */
-bool take(PlyHeader& header, const std::vector<std::string>& words)
+bool take(PlyHeader& header, const std::vector<std::string_view>& words)
 {
   if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
   if (words[0] == "format" && words.size() == 3 && words[2] == "1.0")
@@ -97,7 +89,7 @@ bool take(PlyHeader& header, const std::vector<std::string>& words)
   if (words[0] == "element" && words.size() == 3)
   {
     const auto count = parsed<std::size_t>(words[2]);
-    if (count) header.elements.push_back({words[1], *count, {}});
+    if (count) header.elements.push_back({std::string(words[1]), *count, {}});
     return count.has_value();
   }
   if (words[0] != "property" || header.elements.empty()) return false;
@@ -127,7 +119,7 @@ PlyHeader readPlyHeader(std::istream& in, const std::string& path)
       if (!header.format) failPly(path, "its header names no format");
       return header;
     }
-    if (!take(header, wordsOf(line)))
+    if (!take(header, splitAtBlanks(line)))
       failPly(
           path, "line " + std::to_string(number) + " of its header is not understood: '" +
                     printable(line) + "'");

@@ -1,0 +1,23 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file split_text.h Parts of a line; they point into its text. */
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace fastlio
+{
+/** Without the blanks around: spaces, tabs, ends of lines. */
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/** The words between blanks; at most so many, whatever the length of the text is. */
+[[nodiscard]] std::vector<std::string_view> splitAtBlanks(
+    std::string_view text, std::size_t most = std::string_view::npos);
+
+/** The parts between commas, trimmed: one more than there are commas. */
+[[nodiscard]] std::vector<std::string_view> splitAtCommas(std::string_view text);
+
+}  // namespace fastlio
