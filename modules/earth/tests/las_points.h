@@ -4,10 +4,10 @@
 /** \file las_points.h Points and files of tests of LAS. */
 #pragma once
 
+#include "failure_message.h"
 #include "temporary_folder.h"
 #include <fastlio/earth/las_writer.h>
 
-#include <exception>
 #include <string>
 
 namespace fastlio::testing
@@ -27,21 +27,6 @@ inline std::string written(
     writer.add(point(691'000 + static_cast<double>(i), 5'334'000.25, 520));
   writer.commit();
   return contentOf(folder.file("map.las"));
-}
-
-/** The message of a call that fails. */
-template <typename Call>
-std::string failureOf(const Call& call)
-{
-  try
-  {
-    call();
-  }
-  catch (const std::exception& error)
-  {
-    return error.what();
-  }
-  return "none";
 }
 
 }  // namespace fastlio::testing

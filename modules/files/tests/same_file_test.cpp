@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "temporary_folder.h"
 #include <fastlio/files/same_file.h>
 
@@ -57,17 +58,7 @@ TEST(SameFile, TheMessageNamesBoth)
 {
   const TemporaryFolder folder;
   const auto messageOf = [](const std::vector<FileUse>& in, const std::vector<FileUse>& out)
-  {
-    try
-    {
-      requireDistinctFiles(in, out);
-      return std::string();
-    }
-    catch (const std::invalid_argument& e)
-    {
-      return std::string(e.what());
-    }
-  };
+  { return testing::failureOf<std::invalid_argument>([&] { requireDistinctFiles(in, out); }); };
   const FileUse input{folder.file("a"), "--in"}, same{folder.file("./a"), "--out"};
   const FileUse other{folder.file("b"), "--plot"};
   EXPECT_EQ(messageOf({input}, {other}), "");

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "temporary_folder.h"
 #include <fastlio/files/scratch_folder.h>
 
@@ -28,14 +29,9 @@ std::string problemOf(const ScratchFolder& scratch, const ScratchFile& file)
 {
   std::vector<float> floats(kFloats.size());
   std::vector<std::int64_t> numbers(kNumbers.size());
-  try
-  {
-    scratch.read(file, floats, numbers);
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
+  const std::string problem =
+      testing::failureOf<std::runtime_error>([&] { scratch.read(file, floats, numbers); });
+  if (!problem.empty()) return problem;
   EXPECT_EQ(floats, kFloats);
   EXPECT_EQ(numbers, kNumbers);
   return {};
@@ -84,18 +80,8 @@ TEST(ScratchFolder, SaysThatAFileIsNotWhatWasWritten)
 TEST(ScratchFolder, SaysWhatCannotBeWrittenAndWhy)
 {
   const TemporaryFolder folder;
-  const auto problemIn = [](ScratchFolder& scratch) -> std::string
-  {
-    try
-    {
-      (void)scratch.write("1", kFloats);
-    }
-    catch (const std::runtime_error& e)
-    {
-      return e.what();
-    }
-    return {};
-  };
+  const auto problemIn = [](ScratchFolder& scratch)
+  { return testing::failureOf<std::runtime_error>([&] { (void)scratch.write("1", kFloats); }); };
   ScratchFolder nowhere(ScratchContent::Submaps, folder.file("is/not/there"));
   const std::string no_folder = problemIn(nowhere);
   EXPECT_NE(no_folder.find(folder.file("is/not/there")), std::string::npos) << no_folder;

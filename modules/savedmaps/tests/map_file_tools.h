@@ -5,6 +5,7 @@
  * reader says. */
 #pragma once
 
+#include "failure_message.h"
 #include "output_test_support.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/savedmaps/saved_map_file.h>
@@ -13,7 +14,6 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <fstream>
-#include <stdexcept>
 #include <string>
 
 namespace fastlio
@@ -28,15 +28,7 @@ inline void write(Exporter& exporter)
 /** Empty when the map is read. */
 inline std::string messageOf(const std::string& path)
 {
-  try
-  {
-    (void)loadSavedMap(path);
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
-  return "";
+  return testing::failureOf<std::runtime_error>([&] { (void)loadSavedMap(path); });
 }
 
 inline void archive(const mrpt::serialization::CSerializable& object, const std::string& path)
