@@ -1,7 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "pcd_file.h"
 #include "ply_file.h"
 #include <fastlio/archives/archived_object.h>
 #include <fastlio/archives/object_stream.h>
@@ -10,6 +9,8 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/recordings/byte_source.h>
+#include <fastlio/recordings/pcd_reader.h>
 #include <fastlio/savedmaps/saved_map_file.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -19,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -44,16 +44,35 @@ std::string beginningOf(const std::string& path)
   if (const auto problem = inputFileProblem(path))
     failMap(path, *problem + ": check the path given to --map-in");
   constexpr std::size_t kEnough = 256;
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(kEnough, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+  return headOf(path, kEnough);
 }
 
 bool isPcd(const std::string& beginning)
 {
   return beginning.rfind("# .PCD", 0) == 0 || beginning.rfind("VERSION", 0) == 0;
+}
+
+FilePoints readPcd(const std::string& path)
+{
+  constexpr std::size_t kPiece = 65536;  // points
+  FilePoints points;
+  try
+  {
+    PcdReader reader(path);
+    for (PointGrid piece = reader.next(kPiece); piece.width > 0; piece = reader.next(kPiece))
+    {
+      const auto x = valuesOf(piece, reader.fields(), "x");
+      const auto y = valuesOf(piece, reader.fields(), "y");
+      const auto z = valuesOf(piece, reader.fields(), "z");
+      for (std::size_t i = 0; i < piece.width; ++i)
+        points.add({x[i], y[i], z[i]});
+    }
+  }
+  catch (const std::runtime_error& e)
+  {
+    failMap(path, e.what());
+  }
+  return points;
 }
 
 void take(FilePoints&& read, SavedMap& saved)
