@@ -8,8 +8,6 @@
 
 #include <mrpt/obs/CObservationPointCloud.h>
 
-#include <set>
-
 namespace fastlio
 {
 namespace
@@ -28,33 +26,22 @@ std::string topicOf(const std::string& label)
 }
 }  // namespace
 
-class McapWriter::Impl
-{
- public:
-  explicit Impl(const std::string& path) : file(path) {}
+McapWriter::McapWriter(const std::string& path) : file_(std::make_unique<McapContainer>(path)) {}
 
-  bool write(const mrpt::obs::CObservation& observation);
+McapWriter::~McapWriter() = default;
 
-  McapContainer file;
-
- private:
-  void mount(const mrpt::obs::CObservation& observation, std::int64_t stamp_ns);
-
-  std::set<std::string> mounted_;  // frames whose transform is written
-};
-
-void McapWriter::Impl::mount(const mrpt::obs::CObservation& observation, std::int64_t stamp_ns)
+void McapWriter::mount(const mrpt::obs::CObservation& observation, std::int64_t stamp_ns)
 {
   const std::string frame = frameOf(observation.sensorLabel);
   if (!mounted_.insert(frame).second) return;
   mrpt::poses::CPose3D pose;
   observation.getSensorPose(pose);
-  file.message(
+  file_->message(
       "/tf_static", "tf2_msgs/msg/TFMessage", stamp_ns,
       transformMessageOf(stamp_ns, {kBase, frame, toPose(pose)}));
 }
 
-bool McapWriter::Impl::write(const mrpt::obs::CObservation& observation)
+bool McapWriter::write(const mrpt::obs::CObservation& observation)
 {
   const std::int64_t stamp_ns = toNanoseconds(observation.timestamp);
   const std::string frame = frameOf(observation.sensorLabel);
@@ -78,27 +65,18 @@ bool McapWriter::Impl::write(const mrpt::obs::CObservation& observation)
   else
     return false;
   mount(observation, stamp_ns);
-  file.message(topicOf(observation.sensorLabel), type, stamp_ns, data);
+  file_->message(topicOf(observation.sensorLabel), type, stamp_ns, data);
   return true;
-}
-
-McapWriter::McapWriter(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
-
-McapWriter::~McapWriter() = default;
-
-bool McapWriter::write(const mrpt::obs::CObservation& observation)
-{
-  return impl_->write(observation);
 }
 
 void McapWriter::writePose(
     const std::string& topic, std::int64_t stamp_ns, const Pose& T_odom_base,
     const std::optional<Matrix6>& covariance)
 {
-  impl_->file.message(
+  file_->message(
       topic, "nav_msgs/msg/Odometry", stamp_ns,
       odometryMessageOf(stamp_ns, kOdom, kBase, T_odom_base, covariance));
-  impl_->file.message(
+  file_->message(
       "/tf", "tf2_msgs/msg/TFMessage", stamp_ns,
       transformMessageOf(stamp_ns, {kOdom, kBase, T_odom_base}));
 }
@@ -106,20 +84,20 @@ void McapWriter::writePose(
 void McapWriter::writeMap(
     const std::string& topic, std::int64_t stamp_ns, const std::vector<Vec3>& points)
 {
-  impl_->file.message(
+  file_->message(
       topic, "sensor_msgs/msg/PointCloud2", stamp_ns, mapMessageOf(points, stamp_ns, kOdom));
 }
 
 void McapWriter::writeDiagnostic(std::int64_t stamp_ns, const DiagnosticStatus& status)
 {
-  impl_->file.message(
+  file_->message(
       "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", stamp_ns,
       diagnosticMessageOf(stamp_ns, status));
 }
 
 OutputFile McapWriter::commit()
 {
-  return impl_->file.commit();
+  return file_->commit();
 }
 
 }  // namespace fastlio

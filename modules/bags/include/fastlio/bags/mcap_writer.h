@@ -15,11 +15,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace fastlio
 {
+class McapContainer;
+
 /** Writes what tools of ROS 2 and Foxglove open. The file gets its name when it is complete. */
 class McapWriter
 {
@@ -55,8 +58,10 @@ class McapWriter
   OutputFile commit();
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void mount(const mrpt::obs::CObservation& observation, std::int64_t stamp_ns);
+
+  std::unique_ptr<McapContainer> file_;
+  std::set<std::string> mounted_;  //!< frames whose transform is written
 };
 
 }  // namespace fastlio
