@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <stdexcept>
 
 namespace fastlio
@@ -47,6 +48,11 @@ Pose worldTransform(const AssociatedTrajectories& t, NeesAlignment alignment)
 {
   if (alignment == NeesAlignment::None) return {};
   return t.estimate.front().T_world_body * t.reference.front().T_world_body.inverse();
+}
+
+double chiSquareQuantile(double probability, double degrees)
+{
+  return boost::math::quantile(boost::math::chi_squared(degrees), probability);
 }
 
 NeesSummary summarizeMember(

@@ -50,42 +50,16 @@ Consistency consistencyOf(
   return consistency(associate(estimate, truth, {}), alignment).value();
 }
 
-TEST(ChiSquare, QuantilesOfTheTables)
+TEST(Nees, BoundsAreThoseOfTheTables)
 {
-  EXPECT_NEAR(chiSquareQuantile(0.95, 1), 3.8415, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.95, 3), 7.8147, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.95, 6), 12.5916, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.025, 6), 1.2373, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.975, 6), 14.4494, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.025, 100), 74.2219, 1e-4);
-  EXPECT_NEAR(chiSquareQuantile(0.975, 100), 129.5612, 1e-4);
-}
-
-TEST(ChiSquare, ClosedFormOfTwoDegrees)
-{
-  for (const double p : {1e-6, 0.01, 0.5, 0.95, 0.999999})
-    EXPECT_NEAR(chiSquareQuantile(p, 2), -2.0 * std::log1p(-p), 1e-9 * (1.0 - std::log1p(-p)));
-}
-
-/** Wilson and Hilferty 1931: the cube root is nearly normal. */
-TEST(ChiSquare, ManyDegreesAreNearlyNormal)
-{
-  for (const double degrees : {2e4, 1e6})
-  {
-    const double variance = 2.0 / (9.0 * degrees);
-    for (const auto& [p, sigmas] : {std::pair(0.025, -1.95996398), {0.5, 0.0}, {0.975, 1.95996398}})
-      EXPECT_NEAR(
-          chiSquareQuantile(p, degrees) / degrees,
-          std::pow(1.0 - variance + sigmas * std::sqrt(variance), 3), 1e-6);
-  }
-}
-
-TEST(ChiSquare, OutsideOfItsRangesIsAnError)
-{
-  for (const double p : {0.0, 1.0, -0.1, std::nan("")})
-    expectThrows<std::invalid_argument>([p] { (void)chiSquareQuantile(p, 3); }, {"probability"});
-  for (const double n : {0.0, -1.0, std::nan("")})
-    expectThrows<std::invalid_argument>([n] { (void)chiSquareQuantile(0.5, n); }, {"degrees"});
+  for (const auto& [degrees, bound] : {std::pair(1, 3.8415), {3, 7.8147}, {6, 12.5916}})
+    EXPECT_NEAR(summarizeNees({1.0}, degrees).sample_bound, bound, 1e-4);
+  const NeesSummary one = summarizeNees({1.0}, 6);
+  EXPECT_NEAR(one.mean_lower, 1.2373, 1e-4);
+  EXPECT_NEAR(one.mean_upper, 14.4494, 1e-4);
+  const NeesSummary ten = summarizeNees(std::vector<double>(10, 1.0), 10);
+  EXPECT_NEAR(ten.mean_lower, 7.42219, 1e-5);
+  EXPECT_NEAR(ten.mean_upper, 12.95612, 1e-5);
 }
 
 TEST(Nees, OfOneKnownError)

@@ -16,11 +16,6 @@
 
 namespace fastlio
 {
-/** Quantile of the chi-square distribution.
- * \param probability in (0, 1) \param degrees of freedom, above 0
- * \exception std::invalid_argument outside of these ranges */
-[[nodiscard]] double chiSquareQuantile(double probability, double degrees);
-
 /** e^T P^-1 e of one pose; dof 6 (pose) and of its blocks, dof 3 each. */
 struct NeesSample
 {
