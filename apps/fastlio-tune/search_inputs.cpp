@@ -7,6 +7,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
+#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
@@ -27,9 +28,7 @@ namespace fs = std::filesystem;
 void requireReadable(const std::string& file, const std::string& role)
 {
   // Some recordings are folders.
-  std::error_code ignored;
-  if (role == "recording" && fs::is_directory(file, ignored)) return;
-  if (const auto problem = inputFileProblem(file))
+  if (const auto problem = role == "recording" ? recordingProblem(file) : inputFileProblem(file))
     throw std::invalid_argument(role + " '" + printable(file) + "' " + *problem);
 }
 

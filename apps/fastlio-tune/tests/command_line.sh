@@ -18,6 +18,8 @@ expect 0 'Exit status' "$tune" --help
 expect 1 'recordings' "$tune" "$dir/good.yaml"
 expect 1 'lidar.min_range' "$tune" "$dir/bad.yaml" "$dir/a.rawlog"
 expect 1 'a.rawlog' "$tune" "$dir/good.yaml" "$dir/a.rawlog" -o "$dir/o.yaml"
+# Folders may be recordings: whether one is shows before the runs.
+expect 1 "is a folder in which no recording was found" "$tune" "$dir/good.yaml" "$dir" -o "$dir/o.yaml"
 expect 1 'method' "$tune" "$dir/good.yaml" "$dir/a.rawlog" --method luck
 # Recordings first: said in words.
 printf '\001\002\003 a recording' >"$dir/b.rawlog"
