@@ -4,7 +4,8 @@
 #include <fastlio/archives/object_stream.h>
 
 #include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/poses/CPosePDF.h>
+#include <mrpt/poses/CPosePDFParticles.h>
+#include <mrpt/poses/CPosePDFSOG.h>
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
@@ -117,13 +118,39 @@ void ObjectStream::requirePoseOfMovement(std::size_t name_size)
   if (name == 0 || (static_cast<unsigned char>(bytes_[name - 1]) & kHeaderFlag) == 0) fail();
   if (!holds(at, 5)) return;  // the next reads meet the end
   const bool has_method = byteAt(at) >= kFirstWithMethod;
-  if (has_method && wordAt(at + 1) == mrpt::obs::CActionRobotMovement2D::emOdometry) return;
   const std::size_t pose = at + (has_method ? 5 : 1);
   const auto header = headerAtOffset(pose);
+  if (has_method && wordAt(at + 1) == mrpt::obs::CActionRobotMovement2D::emOdometry)
+  {
+    if (header) requireFewParticles(pose + header->length, byteAt(at));
+    return;
+  }
   if (!header && endsInsideHeader(pose)) return;
   if (!header || header->class_name == "nullptr") fail();
   const auto* id = mrpt::rtti::findRegisteredClass(header->class_name);
   if (id != nullptr && !id->derivedFrom(CLASS_ID(mrpt::poses::CPosePDF))) fail();
+  if (id == CLASS_ID(mrpt::poses::CPosePDFParticles) || id == CLASS_ID(mrpt::poses::CPosePDFSOG))
+    requireFewParticles(pose + header->length, {});
+}
+
+// MRPT takes the memory for as many as are claimed, and draws them for a movement of odometry.
+void ObjectStream::requireFewParticles(
+    std::size_t pose_version, std::optional<unsigned char> odometry_version)
+{
+  constexpr std::size_t kMostParticles = 1'000'000;  // 300 are usual
+  constexpr unsigned char kFirstWithCount = 3;
+  if (!holds(pose_version, 1)) return;
+  std::size_t count = pose_version + 1;
+  if (odometry_version)
+  {
+    if (*odometry_version < kFirstWithCount) return;
+    // Three coordinates, the end flag, the model, and its options for the other model.
+    count += byteAt(pose_version) == 0 ? 3 * sizeof(float) : 3 * sizeof(double);
+    count += 1 + 4 + (*odometry_version == kFirstWithCount ? 5 : 6) * sizeof(float);
+  }
+  if (holds(count, 4) && wordAt(count) > kMostParticles)
+    throw std::runtime_error(
+        "a movement in it claims " + std::to_string(wordAt(count)) + " particles");
 }
 
 std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)

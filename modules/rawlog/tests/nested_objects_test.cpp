@@ -12,6 +12,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
+#include <mrpt/poses/CPosePDFParticles.h>
 
 #include <algorithm>
 
@@ -141,6 +142,31 @@ TEST_F(NestedObjects, AMovementHoldsAPose)
       EXPECT_NE(reading.problems[0].message.find("movement"), std::string::npos)
           << reading.problems[0].message;
     }
+  }
+}
+
+// 68 GB for particles of odometry, and of a pose; MRPT draws the former.
+TEST_F(NestedObjects, AMovementTakesNoMemoryThatItClaims)
+{
+  auto odometry = std::make_shared<CActionRobotMovement2D>();
+  CActionRobotMovement2D::TMotionModelOptions options;
+  options.modelSelection = CActionRobotMovement2D::mmThrun;
+  options.thrunModel.nParticlesCount = 54321;
+  odometry->computeFromOdometry({1, 2, 0.5}, options);
+  std::string drawn = serialize({odometry});
+  const std::string many("\xFF\xFF\xFF\x7F", 4);
+  drawn.replace(drawn.find(std::string("\x31\xD4\0\0", 4)), 4, many);
+  std::string particles = serialize({std::make_shared<mrpt::poses::CPosePDFParticles>(1)});
+  const std::size_t version = particles.find("Particles") + std::string("Particles").size();
+  particles.replace(version + 1, 4, many);
+  for (const std::string& object : {drawn, movementWith(particles)})
+  {
+    const Reading reading =
+        readAll({fileOf(serialize(samples(3)) + object + serialize(samples(2)))});
+    EXPECT_EQ(reading.seconds.size(), 5U);
+    ASSERT_FALSE(reading.problems.empty());
+    EXPECT_NE(reading.problems[0].message.find("claims 2147483647 particles"), std::string::npos)
+        << reading.problems[0].message;
   }
 }
 

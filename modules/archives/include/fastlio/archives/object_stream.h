@@ -93,6 +93,7 @@ class ObjectStream
   [[nodiscard]] std::size_t available() const { return bytes_.size() - position_; }
   void requireRoomOnStack();
   void requirePoseOfMovement(std::size_t name_size);
+  void requireFewParticles(std::size_t pose_version, std::optional<unsigned char> odometry_version);
   bool require(std::size_t size);
   bool fill(std::size_t end);
   bool seekHeaderFlag();
