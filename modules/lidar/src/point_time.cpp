@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/point_time.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 
 #include <algorithm>
@@ -15,13 +16,20 @@ namespace fastlio
 namespace
 {
 
-/** Smallest and largest finite number; points: how many there are. */
-PointTimeSample extremesOf(const std::vector<double>& times)
+/** An interval of times, in the field's own unit. */
+struct Interval
+{
+  double first = -std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
+};
+
+/** Smallest and largest finite number of the interval; points: how many there are. */
+PointTimeSample extremesOf(const std::vector<double>& times, const Interval& within = {})
 {
   PointTimeSample sample;
   for (const double t : times)
   {
-    if (!std::isfinite(t)) continue;
+    if (!std::isfinite(t) || t < within.first || t > within.last) continue;
     if (sample.points++ == 0) sample.min = sample.max = t;
     sample.min = std::min(sample.min, t);
     sample.max = std::max(sample.max, t);
@@ -29,12 +37,45 @@ PointTimeSample extremesOf(const std::vector<double>& times)
   return sample;
 }
 
-/** The stored number that is measured at the stamp. */
-double zeroOf(const std::vector<double>& times, PointTimeReference reference)
+std::vector<double> finiteOf(std::vector<double> times)
 {
-  if (reference == PointTimeReference::Stamp) return 0.0;
-  const PointTimeSample extremes = extremesOf(times);
-  switch (reference)
+  const auto finite = [](double t) { return std::isfinite(t); };
+  times.erase(std::partition(times.begin(), times.end(), finite), times.end());
+  return times;
+}
+
+/** Where the times of a scan lie whose unit is not known yet: damaged ones are farther from the
+ * others than a scan is long, in any unit. */
+Interval plausibleOf(const std::vector<double>& all)
+{
+  constexpr std::size_t kDamaged = 20;  // at most one in so many, on either side
+  constexpr double kFar = 100.0;        // in lengths of the scan
+  std::vector<double> times = finiteOf(all);
+  if (times.empty()) return {};
+  const auto skipped = static_cast<std::ptrdiff_t>(times.size() / kDamaged);
+  const auto low = times.begin() + skipped, high = times.end() - 1 - skipped;
+  std::nth_element(times.begin(), low, times.end());
+  std::nth_element(low, high, times.end());
+  const double margin = kFar * (*high - *low);
+  return {*low - margin, *high + margin};
+}
+
+/** First and last time, without those that no scan of this length has. */
+PointTimeSample endsOf(const std::vector<double>& times, double unit)
+{
+  const double farthest = kMaxTimeOffset / unit;
+  const PointTimeSample all = extremesOf(times);
+  if (all.max - all.min <= farthest) return all;
+  const double middle = median(finiteOf(times));
+  return extremesOf(times, {middle - farthest, middle + farthest});
+}
+
+/** The stored number that is measured at the stamp. */
+double zeroOf(const std::vector<double>& times, const PointTimeReading& reading)
+{
+  if (reading.reference == PointTimeReference::Stamp) return 0.0;
+  const PointTimeSample extremes = endsOf(times, secondsPer(reading.unit));
+  switch (reading.reference)
   {
     case PointTimeReference::Start:
       return extremes.min;
@@ -51,7 +92,7 @@ double zeroOf(const std::vector<double>& times, PointTimeReference reference)
 PointTimeSample sampleOf(
     std::int64_t stamp_ns, const std::vector<double>& times, bool single_precision)
 {
-  PointTimeSample sample = extremesOf(times);
+  PointTimeSample sample = extremesOf(times, plausibleOf(times));
   sample.stamp_ns = stamp_ns;
   const double largest = std::max(std::abs(sample.min), std::abs(sample.max));
   if (single_precision)
@@ -80,7 +121,7 @@ void toSecondsAfterStamp(
       t = (t - stamp) * unit;
     return;
   }
-  const double zero = zeroOf(times, reading.reference);
+  const double zero = zeroOf(times, reading);
   for (double& t : times)
     t = (t - zero) * unit;
 }

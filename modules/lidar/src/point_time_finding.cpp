@@ -20,7 +20,6 @@ constexpr std::array<PointTimeUnit, 4> kUnits{
 constexpr double kCertainLeast = 0.05, kCertainMost = 1.5;
 constexpr double kPossibleLeast = 0.001, kPossibleMost = 10.0;
 
-constexpr double kFarthest = 2.0;        // from the stamp [s]
 constexpr double kClockTolerance = 0.5;  // of the ratio between a clock and the stamps
 constexpr double kClockAgreement = 0.8;  // fraction of the intervals that show the ratio
 constexpr double kClockScans = 1.5;      // farthest from the stamp, in scans
@@ -132,7 +131,8 @@ std::optional<PointTimeUnit> unitOfEpoch(const Question& question)
   constexpr double kAccidental = 1e6;  // stamps counted from the start of a simulation [s]
   if (question.facts.stamp_s < kAccidental) return std::nullopt;
   for (const PointTimeUnit unit : kUnits)
-    if (question.mayBe(unit) && std::abs(question.facts.clockOffset(secondsPer(unit))) < kFarthest)
+    if (question.mayBe(unit) &&
+        std::abs(question.facts.clockOffset(secondsPer(unit))) < kMaxTimeOffset)
       return unit;
   return std::nullopt;
 }
@@ -177,7 +177,7 @@ PointTimeFinding readRelative(const Question& question)
   const PointTimeReading reading{possible.front(), reference};
   if (std::max(
           std::abs(facts.secondsAfterStamp(facts.min, reading)),
-          std::abs(facts.secondsAfterStamp(facts.max, reading))) > kFarthest)
+          std::abs(facts.secondsAfterStamp(facts.max, reading))) > kMaxTimeOffset)
     return unusable(
         facts, "they run from " + numberText(facts.min) + " to " + numberText(facts.max) +
                    " within a scan, and in " + nameOf(reading.unit) +

@@ -249,27 +249,26 @@ TEST(PointTime, NumbersThatAreNotFiniteDoNotDecide)
   expectFound(findPointTimes({sample}), Unit::Seconds, Reference::Stamp);
 }
 
-TEST(PointTime, ReadingGivesSecondsAfterTheStamp)
+TEST(PointTime, SingleWildTimesDoNotDecide)
 {
-  const auto read = [](std::vector<double> times, PointTimeReading reading)
-  {
-    toSecondsAfterStamp(times, kStart, reading);
-    return times;
-  };
-  EXPECT_DOUBLE_EQ(read({50.0}, {Unit::Milliseconds, Reference::Stamp})[0], 0.05);
-  EXPECT_DOUBLE_EQ(read({7e6, 8e6}, {Unit::Nanoseconds, Reference::Start})[1], 1e-3);
-  EXPECT_DOUBLE_EQ(read({7e3, 8e3}, {Unit::Microseconds, Reference::Middle})[0], -5e-4);
-  EXPECT_DOUBLE_EQ(read({1.0, 1.1}, {Unit::Seconds, Reference::End})[1], 0.0);
-  EXPECT_NEAR(
-      read({kStartSeconds + 0.0625}, {Unit::Seconds, Reference::Absolute})[0], 0.0625, 3e-7);
-  EXPECT_NEAR(
-      read({(kStartSeconds + 0.0625) * 1e9}, {Unit::Nanoseconds, Reference::Absolute})[0], 0.0625,
-      3e-7);
-  std::vector<double> times{1.0};
-  EXPECT_THROW(
-      toSecondsAfterStamp(times, 0, {Unit::Auto, Reference::Stamp}), std::invalid_argument);
-  EXPECT_THROW(
-      toSecondsAfterStamp(times, 0, {Unit::Seconds, Reference::Auto}), std::invalid_argument);
+  for (const Unit unit : {Unit::Seconds, Unit::Nanoseconds})
+    for (const double wild : {-1e12, -40.0, 3600.0, 1e30})
+    {
+      std::vector<PointTimeSample> samples;
+      for (int k = 0; k < 20; ++k)
+      {
+        std::vector<double> times;
+        for (int i = 0; i <= 100; ++i)
+          times.push_back(i == 33 ? wild : 0.000999 * i);
+        for (double& t : times)
+          t /= secondsPer(unit);
+        samples.push_back(sampleOf(kStart + k * 100'000'000, times, false));
+      }
+      EXPECT_EQ(samples.front().points, 100U);
+      const PointTimeFinding finding = findPointTimes(samples);
+      expectFound(finding, unit, Reference::Stamp);
+      EXPECT_NEAR(finding.end, 0.0999, 1e-9) << wild;
+    }
 }
 
 }  // namespace fastlio

@@ -14,15 +14,20 @@ namespace
 {
 using namespace fastlio;
 
-// Turns the time field into seconds after the stamp. Not-a-number does not decide: single points
-// without a time are dropped later.
+// So many of a scan's times may be damaged before none of them is believed.
+constexpr double kMostImpossible = 0.05;
+
+// Turns the time field into seconds after the stamp. Not-a-number does not decide: points without
+// a time are dropped later, as are single ones of an impossible time.
 PointTimes readTimes(CloudColumns& cloud, std::int64_t stamp_ns, const CloudTiming& timing)
 {
   if (cloud.time.empty() || !timing.reading) return PointTimes::Absent;
   toSecondsAfterStamp(cloud.time, stamp_ns, *timing.reading);
-  const bool any_far = std::any_of(
+  const auto impossible = std::count_if(
       cloud.time.begin(), cloud.time.end(), [](double t) { return std::abs(t) > kMaxTimeOffset; });
-  return any_far ? PointTimes::Unusable : PointTimes::PerPoint;
+  const bool many =
+      static_cast<double>(impossible) > kMostImpossible * static_cast<double>(cloud.size());
+  return many ? PointTimes::Unusable : PointTimes::PerPoint;
 }
 
 bool isUsable(const CloudColumns& cloud, std::size_t i)
@@ -52,7 +57,7 @@ void takeUsablePoints(CloudColumns& cloud, CloudConversion& result)
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i)
   {
-    if (!isUsable(cloud, i) || (timed && !std::isfinite(cloud.time[i]))) continue;
+    if (!isUsable(cloud, i) || (timed && !(std::abs(cloud.time[i]) <= kMaxTimeOffset))) continue;
     if (timed) offsets[kept] = nanoseconds(cloud.time[i]);
     if (kept != i)
     {

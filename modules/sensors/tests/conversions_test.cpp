@@ -135,6 +135,36 @@ TEST(PointCloud, MissingAndUnusableTimesAreReported)
   EXPECT_EQ(toTimedPoints({}, 0).points.size(), 0U);
 }
 
+TEST(PointCloud, SinglePointsOfAnImpossibleTimeAreDropped)
+{
+  constexpr std::size_t kPoints = 29'000;
+  CloudColumns cloud;
+  for (std::size_t i = 0; i < kPoints; ++i)
+    cloud.time.push_back(0.1 * static_cast<double>(i) / kPoints);
+  cloud.x = cloud.y = cloud.z = std::vector<float>(kPoints, 1.0F);
+  cloud.time[17] = 1e9;
+  cloud.time[1000] = -2.1;
+  cloud.time.back() = std::numeric_limits<double>::infinity();
+  for (const auto reference : {PointTimeReference::Stamp, PointTimeReference::Start})
+  {
+    CloudTiming timing;
+    timing.reading->reference = reference;
+    const auto result = toTimedPoints(cloud, 0, timing);
+    EXPECT_EQ(result.times, PointTimes::PerPoint);
+    EXPECT_EQ(result.dropped_invalid, 3U);
+    ASSERT_EQ(result.points.size(), kPoints - 3);
+    EXPECT_EQ(result.points.time_offset_ns[16], std::lround(1e9 * cloud.time[16]));
+    EXPECT_EQ(result.points.time_offset_ns[17], std::lround(1e9 * cloud.time[18]));
+  }
+  // One in ten: the field means something else.
+  for (std::size_t i = 0; i < kPoints; i += 10)
+    cloud.time[i] = 50.0;
+  const auto result = toTimedPoints(cloud, 0);
+  EXPECT_EQ(result.times, PointTimes::Unusable);
+  EXPECT_EQ(result.dropped_invalid, 0U);
+  EXPECT_EQ(result.points.size(), kPoints);
+}
+
 TEST(PointCloud, TimesAreRoundedAndWhatIsUnusableIsLeftOut)
 {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

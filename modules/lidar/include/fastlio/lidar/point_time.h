@@ -35,6 +35,10 @@ enum class PointTimeReference
   Absolute,  //!< time = t, since 1970
 };
 
+/** Farthest that a point may lie from its scan's stamp [s]; offsets are stored as 32-bit
+ * nanoseconds. */
+constexpr double kMaxTimeOffset = 2.0;
+
 /** How to read a time field. */
 struct PointTimeReading
 {
@@ -46,7 +50,7 @@ struct PointTimeReading
 struct PointTimeSample
 {
   std::int64_t stamp_ns = 0;  //!< of the scan
-  std::size_t points = 0;     //!< whose time is a finite number
+  std::size_t points = 0;     //!< whose time is a finite number, and no single one far from all
   double min = 0, max = 0;    //!< of these
   double resolution = 0;      //!< distance of neighbouring numbers of the field's type at max
 };
@@ -92,7 +96,7 @@ struct PointTimeFinding
     const PointTimeReading& given = {PointTimeUnit::Auto, PointTimeReference::Auto});
 
 /** Times of a scan's points as seconds after its stamp, in place. Times that are not finite stay
- * so.
+ * so. The first and the last point are those within kMaxTimeOffset of the median.
  * \exception std::invalid_argument the unit or the reference is Auto */
 void toSecondsAfterStamp(
     std::vector<double>& times, std::int64_t stamp_ns, const PointTimeReading& reading);

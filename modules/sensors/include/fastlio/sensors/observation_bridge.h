@@ -56,7 +56,7 @@ struct BridgeStatistics
   std::size_t points_left_out = 0;    //!< of those: no scan of the first one is near in time
   std::size_t points_no_return = 0;
   std::size_t points_out_of_range = 0;
-  std::size_t points_invalid = 0;  //!< NaN, infinite, at the origin
+  std::size_t points_invalid = 0;  //!< NaN, infinite, at the origin, of an impossible time
   std::size_t points_duplicate = 0;
   std::size_t packet_blocks_corrupt = 0;
   std::size_t packet_times_corrupt = 0;

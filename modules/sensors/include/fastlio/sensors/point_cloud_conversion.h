@@ -19,12 +19,8 @@ enum class PointTimes
   PerPoint,   //!< the cloud's own
   Synthetic,  //!< from the azimuth
   Absent,     //!< there are none, or they are not to be used: all points at the stamp
-  Unusable    //!< some are more than kMaxTimeOffset away from the stamp: all points at the stamp
+  Unusable    //!< many are more than kMaxTimeOffset away from the stamp: all points at the stamp
 };
-
-/** Farthest that a point may lie from its scan's stamp [s]; offsets are stored as 32-bit
- * nanoseconds. */
-constexpr double kMaxTimeOffset = 2.0;
 
 /** A revolution, for points whose azimuth gives their time. */
 struct SweepTiming
@@ -47,7 +43,7 @@ struct CloudConversion
 {
   PointColumns points;  //!< time offsets are zero unless times is PerPoint or Synthetic
   PointTimes times = PointTimes::Absent;
-  std::size_t dropped_invalid = 0;  //!< not finite (also in time), or at the origin
+  std::size_t dropped_invalid = 0;  //!< not finite, at the origin, or of an impossible time
 };
 
 /** Gives every point the time that its azimuth gives. */
