@@ -1,9 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "captured_scan.h"
-
 #include "packet_numbers.h"
+#include <fastlio/packets/captured_scan.h>
 #include <fastlio/recordings/cloud_builder.h>
 
 #include <algorithm>
@@ -13,7 +12,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kLongestScanNs = 2'000'000'000;
 constexpr std::int64_t kLatenessNs = 1'000'000;  // packets of a scan may overtake each other
 constexpr int kHalfTurn = 18'000, kBack = -100;  // [0.01 deg]: the azimuth has come round
 constexpr std::int64_t kMrptTickNs = 100;        // the resolution of MRPT's stamps
@@ -29,7 +27,7 @@ void CapturedScan::beginBlock(std::int64_t stamp_ns, int azimuth, ObservationQue
 void CapturedScan::beginBlock(std::int64_t stamp_ns, bool anew, ObservationQueue& out)
 {
   const std::int64_t age_ns = stamp_ns - origin_ns_;
-  const bool jump = age_ns < -kLatenessNs || age_ns > kLongestScanNs;
+  const bool jump = age_ns < -kLatenessNs || age_ns >= longest_ns_;
   if (begun_ && (anew || jump || columns_.size() > kMostPointsPerScan)) flush(out);
   if (!begun_) origin_ns_ = stamp_ns;
   begun_ = true;
@@ -48,15 +46,18 @@ void CapturedScan::add(const CapturedPoint& point, double after_ns)
 
 void CapturedScan::flush(ObservationQueue& out)
 {
+  if (!begun_) return;
   begun_ = false;
-  if (columns_.size() == 0) return;
-  const double first_ns = *std::min_element(columns_.time.begin(), columns_.time.end());
+  const auto first = std::min_element(columns_.time.begin(), columns_.time.end());
+  const double first_ns = first == columns_.time.end() ? 0.0 : *first;
   auto stamp_ns = origin_ns_ + static_cast<std::int64_t>(std::floor(first_ns));
   stamp_ns -= stamp_ns % kMrptTickNs;
   const auto stamp_after_ns = static_cast<double>(stamp_ns - origin_ns_);
   for (double& time : columns_.time)
     time = 1e-9 * std::round(time - stamp_after_ns);
-  out.push_back(makeCloud(columns_, label_, stamp_ns));
+  auto cloud = makeCloud(columns_, label_, stamp_ns);
+  cloud->setSensorPose(T_sensor_lidar_);
+  out.push_back(std::move(cloud));
   columns_ = {};
 }
 

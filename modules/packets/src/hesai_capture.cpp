@@ -3,12 +3,12 @@
 
 // Hesai's data packets: Pandar40P, Pandar64, PandarQT, PandarXT, Pandar128 and OT128.
 
-#include "captured_scan.h"
 #include "hesai_models.h"
 #include "packet_kinds.h"
 #include "packet_numbers.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/packets/captured_scan.h>
 
 #include <cmath>
 

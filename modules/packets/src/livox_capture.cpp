@@ -9,7 +9,7 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
-#include <fastlio/recordings/cloud_builder.h>
+#include <fastlio/packets/captured_scan.h>
 #include <fastlio/recordings/sensor_imu.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kScanNs =
-    100'000'000;  // the pattern does not repeat: Livox's own drivers do so
+// The pattern does not repeat: Livox's own drivers do so.
+constexpr std::int64_t kScanNs = 100'000'000;
 
 enum class LivoxPoints : std::uint8_t
 {
@@ -128,39 +128,30 @@ std::optional<LivoxPacket> livoxPacketOf(const UdpPacket& packet)
   return sane ? result : std::nullopt;
 }
 
-/** A point [m] and where its brightness is. */
-struct LivoxPoint
-{
-  float x = 0, y = 0, z = 0;
-  std::uint8_t reflectivity = 0;
-};
-
-LivoxPoint spherical(const std::uint8_t* at)
+CapturedPoint spherical(const std::uint8_t* at)
 {
   const double range = 1e-3 * littleAt<std::uint32_t>(at);
   const double zenith = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 4);
   const double azimuth = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 6);
   return {
-      static_cast<float>(range * std::sin(zenith) * std::cos(azimuth)),
-      static_cast<float>(range * std::sin(zenith) * std::sin(azimuth)),
-      static_cast<float>(range * std::cos(zenith)), at[8]};
+      range * std::sin(zenith) * std::cos(azimuth), range * std::sin(zenith) * std::sin(azimuth),
+      range * std::cos(zenith), static_cast<float>(at[8])};
 }
 
-LivoxPoint pointAt(const std::uint8_t* at, LivoxPoints kind)
+/** Without its line. */
+CapturedPoint pointAt(const std::uint8_t* at, LivoxPoints kind)
 {
-  const auto mm = [at](std::size_t i)
-  { return static_cast<float>(1e-3 * littleAt<std::int32_t>(at + 4 * i)); };
-  const auto cm = [at](std::size_t i)
-  { return static_cast<float>(1e-2 * littleAt<std::int16_t>(at + 2 * i)); };
-  if (kind == LivoxPoints::Cartesian) return {mm(0), mm(1), mm(2), at[12]};
-  if (kind == LivoxPoints::Coarse) return {cm(0), cm(1), cm(2), at[6]};
+  const auto mm = [at](std::size_t i) { return 1e-3 * littleAt<std::int32_t>(at + 4 * i); };
+  const auto cm = [at](std::size_t i) { return 1e-2 * littleAt<std::int16_t>(at + 2 * i); };
+  if (kind == LivoxPoints::Cartesian) return {mm(0), mm(1), mm(2), static_cast<float>(at[12])};
+  if (kind == LivoxPoints::Coarse) return {cm(0), cm(1), cm(2), static_cast<float>(at[6])};
   return spherical(at);
 }
 
 class LivoxSensor : public PacketSensor
 {
  public:
-  explicit LivoxSensor(std::string label) : label_(std::move(label)) {}
+  explicit LivoxSensor(const std::string& label) : label_(label), scan_(label, kScanNs) {}
 
   void take(const UdpPacket& udp, ObservationQueue& out) override
   {
@@ -171,19 +162,11 @@ class LivoxSensor : public PacketSensor
       takeImu(*packet, out);
       return;
     }
-    const std::int64_t age_ns = packet->stamp_ns - stamp_ns_;
-    const bool full = age_ns >= kScanNs || age_ns < 0 || columns_.size() > kMostPointsPerScan;
-    if (columns_.size() > 0 && full) flush(out);
-    if (columns_.size() == 0) stamp_ns_ = packet->stamp_ns;
+    scan_.beginBlock(packet->stamp_ns, false, out);
     takePoints(*packet);
   }
 
-  void flush(ObservationQueue& out) override
-  {
-    if (columns_.size() == 0) return;
-    out.push_back(makeCloud(columns_, label_, stamp_ns_));
-    columns_ = {};
-  }
+  void flush(ObservationQueue& out) override { scan_.flush(out); }
 
  private:
   void takeImu(const LivoxPacket& packet, ObservationQueue& out) const
@@ -203,8 +186,7 @@ class LivoxSensor : public PacketSensor
     const bool shared = layout.kind == LivoxPoints::Spherical && layout.returns > 1;
     for (std::size_t i = 0; i < layout.count; ++i)
     {
-      const double time_ns = static_cast<double>(packet.stamp_ns - stamp_ns_) +
-                             layout.interval_ns * static_cast<double>(i);
+      const double time_ns = layout.interval_ns * static_cast<double>(i);
       const auto line = static_cast<std::uint16_t>(i % packet.lines);
       const std::uint8_t* group = packet.data + i * layout.bytes;
       if (shared)
@@ -230,19 +212,14 @@ class LivoxSensor : public PacketSensor
     }
   }
 
-  void add(const LivoxPoint& point, double time_ns, std::uint16_t line)
+  void add(CapturedPoint point, double time_ns, std::uint16_t line)
   {
-    columns_.x.push_back(point.x);
-    columns_.y.push_back(point.y);
-    columns_.z.push_back(point.z);
-    columns_.intensity.push_back(point.reflectivity);
-    columns_.ring.push_back(line);
-    columns_.time.push_back(1e-9 * std::round(time_ns));
+    point.ring = line;
+    scan_.add(point, time_ns);
   }
 
   std::string label_;
-  CloudColumns columns_;
-  std::int64_t stamp_ns_ = 0;  // of its first point
+  CapturedScan scan_;
 };
 }  // namespace
 

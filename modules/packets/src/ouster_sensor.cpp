@@ -8,7 +8,6 @@
 #include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 #include <fastlio/packets/ouster_sensor.h>
-#include <fastlio/recordings/cloud_builder.h>
 #include <fastlio/recordings/sensor_imu.h>
 #include <fastlio/sensors/conversions.h>
 
@@ -34,8 +33,9 @@ bool isSane(std::int64_t stamp_ns)
 }  // namespace
 
 OusterSensor::OusterSensor(OusterMetadata metadata, std::string label)
-    : metadata_(std::move(metadata)), label_(std::move(label))
+    : metadata_(std::move(metadata)), label_(std::move(label)), scan_(label_)
 {
+  scan_.setPose(toMrptPose(metadata_.T_sensor_lidar));
 }
 
 bool OusterSensor::isMine(const UdpPacket& packet) const
@@ -103,15 +103,9 @@ OusterSensor::Column OusterSensor::columnAt(const std::uint8_t* packet, std::siz
 
 void OusterSensor::takeColumn(const Column& column, ObservationQueue& out)
 {
-  constexpr std::int64_t kLongestScanNs = 2'000'000'000;
   if (!column.valid) return;
-  const std::int64_t age_ns = column.stamp_ns - stamp_ns_;
-  const bool anew = column.id < last_id_ || age_ns < 0 || age_ns > kLongestScanNs;
-  if (begun_ && (anew || columns_.size() > kMostPointsPerScan)) flush(out);
-  if (!begun_) stamp_ns_ = column.stamp_ns;
-  begun_ = true;
+  scan_.beginBlock(column.stamp_ns, column.id < last_id_, out);
   last_id_ = column.id;
-  const double time = toSeconds(column.stamp_ns - stamp_ns_);
   const double encoder =
       2.0 * M_PI *
       (1.0 - static_cast<double>(column.id) / static_cast<double>(metadata_.columns_per_frame));
@@ -122,43 +116,28 @@ void OusterSensor::takeColumn(const Column& column, ObservationQueue& out)
     const auto range = [&](std::size_t at)
     { return (littleAt<std::uint32_t>(pixel + at) & profile.range_mask) << profile.range_shift; };
     const std::uint32_t first = range(0);
-    add(first, pixel[profile.reflectivity], i, encoder, time);
+    add(first, pixel[profile.reflectivity], i, encoder);
     if (profile.second == 0) continue;
     const std::uint32_t second = range(profile.second);
-    if (second != first) add(second, pixel[profile.second_reflectivity], i, encoder, time);
+    if (second != first) add(second, pixel[profile.second_reflectivity], i, encoder);
   }
 }
 
 // The beams leave from a circle around the axis, whose radius is part of the range.
 void OusterSensor::add(
-    std::uint32_t range_mm, std::uint8_t reflectivity, std::size_t pixel, double encoder,
-    double time)
+    std::uint32_t range_mm, std::uint8_t reflectivity, std::size_t pixel, double encoder)
 {
   if (range_mm == 0) return;
   const Vec3& origin = metadata_.beam_origin;
   const double range = 1e-3 * range_mm - std::hypot(origin.x(), origin.z());
   const double altitude = metadata_.altitude[pixel];
   const double azimuth = encoder - metadata_.azimuth[pixel];
-  columns_.x.push_back(static_cast<float>(
-      range * std::cos(azimuth) * std::cos(altitude) + origin.x() * std::cos(encoder)));
-  columns_.y.push_back(static_cast<float>(
-      range * std::sin(azimuth) * std::cos(altitude) + origin.x() * std::sin(encoder)));
-  columns_.z.push_back(static_cast<float>(range * std::sin(altitude) + origin.z()));
-  columns_.intensity.push_back(reflectivity);
-  columns_.ring.push_back(static_cast<std::uint16_t>(pixel));
-  columns_.time.push_back(time);
-}
-
-void OusterSensor::flush(ObservationQueue& out)
-{
-  if (begun_)
-  {
-    auto cloud = makeCloud(columns_, label_, stamp_ns_);
-    cloud->setSensorPose(toMrptPose(metadata_.T_sensor_lidar));
-    out.push_back(cloud);
-  }
-  columns_ = {};
-  begun_ = false;
+  scan_.add(
+      {range * std::cos(azimuth) * std::cos(altitude) + origin.x() * std::cos(encoder),
+       range * std::sin(azimuth) * std::cos(altitude) + origin.x() * std::sin(encoder),
+       range * std::sin(altitude) + origin.z(), static_cast<float>(reflectivity),
+       static_cast<std::uint16_t>(pixel)},
+      0.0);
 }
 
 }  // namespace fastlio

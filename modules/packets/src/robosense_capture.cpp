@@ -3,13 +3,13 @@
 
 // RoboSense's packets: RS-LiDAR-16 and -32, Helios, Airy with its IMU, and M1.
 
-#include "captured_scan.h"
 #include "packet_kinds.h"
 #include "packet_numbers.h"
 #include "robosense_models.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
+#include <fastlio/packets/captured_scan.h>
 #include <fastlio/recordings/sensor_imu.h>
 
 #include <algorithm>

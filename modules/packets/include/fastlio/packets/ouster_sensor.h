@@ -4,9 +4,9 @@
 /** \file ouster_sensor.h Packets of an Ouster, out of captures or of topics. */
 #pragma once
 
+#include <fastlio/packets/captured_scan.h>
 #include <fastlio/packets/ouster_metadata.h>
 #include <fastlio/packets/packet_sensor.h>
-#include <fastlio/sensors/xyzirt_access.h>
 
 namespace fastlio
 {
@@ -20,7 +20,7 @@ class OusterSensor : public PacketSensor
 
   /** A packet of the LiDAR or of the IMU, by its size; others are left alone. */
   void take(const UdpPacket& packet, ObservationQueue& out) override;
-  void flush(ObservationQueue& out) override;
+  void flush(ObservationQueue& out) override { scan_.flush(out); }
 
   [[nodiscard]] bool isMine(const UdpPacket& packet) const;
 
@@ -40,16 +40,12 @@ class OusterSensor : public PacketSensor
       const std::uint8_t* stamp, const Vec3& rate, const Vec3& acceleration,
       ObservationQueue& out) const;
   void takeColumn(const Column& column, ObservationQueue& out);
-  void add(
-      std::uint32_t range_mm, std::uint8_t reflectivity, std::size_t pixel, double encoder,
-      double time);
+  void add(std::uint32_t range_mm, std::uint8_t reflectivity, std::size_t pixel, double encoder);
 
   OusterMetadata metadata_;
   std::string label_;
-  CloudColumns columns_;
-  std::int64_t stamp_ns_ = 0;  // of the first column of the scan
+  CapturedScan scan_;
   std::size_t last_id_ = 0;
-  bool begun_ = false;
 };
 
 }  // namespace fastlio

@@ -7,6 +7,8 @@
 #include <fastlio/packets/packet_streams.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
+#include <mrpt/poses/CPose3D.h>
+
 #include <cstdint>
 #include <string>
 
@@ -20,17 +22,29 @@ struct CapturedPoint
   std::uint16_t ring = 0;
 };
 
-/** Gathers the firings of one LiDAR. A scan ends where the azimuth comes round, or where the clock
- * jumps; its stamp is the time of its first point. */
+/** Gathers the firings of one LiDAR. A scan ends where the next one begins, when it has lasted its
+ * time, or where the clock jumps; its stamp is the time of its first point. A covered LiDAR gives
+ * scans without points. */
 class CapturedScan
 {
  public:
-  explicit CapturedScan(std::string label) : label_(std::move(label)) {}
+  /** Longer than any turn. */
+  static constexpr std::int64_t kLongestNs = 2'000'000'000;
 
-  /** The firings that follow begin at this time. \param azimuth [0.01 deg], 0 to 35999 */
+  explicit CapturedScan(std::string label, std::int64_t longest_ns = kLongestNs)
+      : label_(std::move(label)), longest_ns_(longest_ns)
+  {
+  }
+
+  /** Of all scans to come, in the frame of the sensor's housing. */
+  void setPose(const mrpt::poses::CPose3D& T_sensor_lidar) { T_sensor_lidar_ = T_sensor_lidar; }
+
+  /** The firings that follow begin at this time. \param azimuth [0.01 deg], 0 to 35999; another
+   * scan begins where it comes round */
   void beginBlock(std::int64_t stamp_ns, int azimuth, ObservationQueue& out);
 
-  /** The same for a LiDAR that does not turn. \param anew another scan begins here */
+  /** The same for a LiDAR whose packets do not count azimuths. \param anew another scan begins
+   * here */
   void beginBlock(std::int64_t stamp_ns, bool anew, ObservationQueue& out);
 
   /** \param after_ns after the time of the block; may be negative */
@@ -40,6 +54,8 @@ class CapturedScan
 
  private:
   std::string label_;
+  std::int64_t longest_ns_;
+  mrpt::poses::CPose3D T_sensor_lidar_;
   CloudColumns columns_;        // times in ns after the first block
   bool begun_ = false;          // a block of this scan has come
   std::int64_t origin_ns_ = 0;  // time of the first block
