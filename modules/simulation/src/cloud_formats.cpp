@@ -3,15 +3,13 @@
 
 #include "cloud_formats.h"
 
-#include <fastlio/compat/CGenericPointsMap.h>
 #include <fastlio/math/time.h>
-#include <fastlio/sensors/xyzirt_access.h>
+#include <fastlio/recordings/cloud_builder.h>
 
 #include <mrpt/maps/CPointsMapXYZI.h>
 
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 namespace fastlio
 {
@@ -27,25 +25,6 @@ mrpt::maps::CPointsMap::Ptr makeXyzi(const PointColumns& points)
     cloud->setPointIntensity(i, points.intensity[i]);
   }
   return cloud;
-}
-
-mrpt::maps::CPointsMap::Ptr makeGeneric(const PointColumns& points, std::vector<double> times)
-{
-#if FASTLIO_MRPT_HAS_GENERIC_MAP
-  (void)times;
-  throw std::runtime_error(
-      "lidar.cloud: generic is written with MRPT older than 2.15 only; " +
-      std::to_string(points.size()) + " points are lost.");
-#else
-  auto cloud = mrpt::maps::CGenericPointsMap::Create();
-  cloud->resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    cloud->setPointFast(i, points.x[i], points.y[i], points.z[i]);
-  cloud->float_fields["intensity"] = points.intensity;
-  cloud->uint16_fields["ring"] = points.ring;
-  cloud->double_fields["t"] = std::move(times);
-  return cloud;
-#endif
 }
 
 std::int64_t shiftOf(const LidarSettings& lidar)
@@ -84,13 +63,11 @@ mrpt::maps::CPointsMap::Ptr CloudFormat::encode(
     const PointColumns& points, std::int64_t first_shot_ns) const
 {
   if (cloud_ == LidarCloud::Xyzi) return makeXyzi(points);
-  std::vector<double> times;
-  times.reserve(points.size());
+  CloudColumns columns{points.x, points.y, points.z, points.intensity, points.ring, {}};
   for (const std::int32_t offset_ns : points.time_offset_ns)
-    times.push_back(timeOf(offset_ns, first_shot_ns));
-  if (cloud_ == LidarCloud::Generic) return makeGeneric(points, std::move(times));
-  return makeXyzirt(
-      {points.x, points.y, points.z, points.intensity, points.ring, std::move(times), true});
+    columns.time.push_back(timeOf(offset_ns, first_shot_ns));
+  if (cloud_ == LidarCloud::Generic) return makeCloud(columns, {}, 0)->pointcloud;
+  return makeXyzirt(columns);
 }
 
 }  // namespace fastlio

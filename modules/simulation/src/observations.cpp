@@ -4,6 +4,7 @@
 #include "cloud_formats.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
+#include <fastlio/recordings/sensor_imu.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/velodyne_decoder.h>
 #include <fastlio/simulation/observations.h>
@@ -118,16 +119,7 @@ CObservationPointCloud::Ptr toPointCloud(
 
 CObservationIMU::Ptr toImuObservation(const ImuSample& sample)
 {
-  auto observation = CObservationIMU::Create();
-  observation->sensorLabel = kImuLabel;
-  observation->timestamp = toMrptTime(sample.stamp_ns);
-  observation->set(mrpt::obs::IMU_X_ACC, sample.accel.x());
-  observation->set(mrpt::obs::IMU_Y_ACC, sample.accel.y());
-  observation->set(mrpt::obs::IMU_Z_ACC, sample.accel.z());
-  observation->set(mrpt::obs::IMU_WX, sample.gyro.x());
-  observation->set(mrpt::obs::IMU_WY, sample.gyro.y());
-  observation->set(mrpt::obs::IMU_WZ, sample.gyro.z());
-  return observation;
+  return makeImu(kImuLabel, sample.stamp_ns, sample.gyro, sample.accel);
 }
 
 mrpt::obs::CObservationOdometry::Ptr toWheelObservation(const WheelReading& reading)

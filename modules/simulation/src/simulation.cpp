@@ -53,11 +53,6 @@ std::size_t completeSweeps(const LidarModel& lidar, std::int64_t end_ns)
   return count;
 }
 
-std::int64_t nanoseconds(double seconds)
-{
-  return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
-}
-
 /** Dust or rain in the way: a weak return from somewhere before the surface, mostly near. */
 void addFalseReturns(std::vector<Echo>& echoes, const SimulationSettings& s, std::size_t index)
 {
@@ -129,7 +124,7 @@ Simulation::Simulation(Parts parts)
       wheels_(simulateWheels(motion_, settings_)),
       lidar_(makeLidarModel(settings_.lidar, settings_.start_ns + kFirstShotNs)),
       lidar_errors_(drawLidarErrors(settings_)),
-      scan_count_(completeSweeps(*lidar_, settings_.start_ns + nanoseconds(settings_.duration)))
+      scan_count_(completeSweeps(*lidar_, settings_.start_ns + toNanoseconds(settings_.duration)))
 {
 }
 
@@ -150,7 +145,7 @@ LidarScan Simulation::scan(std::size_t index) const
 {
   const FiredSweep fired = fire(index);
   LidarScan scan;
-  scan.stamp_ns = fired.sweep.stamp_ns + nanoseconds(clockOffset(settings_.lidar));
+  scan.stamp_ns = fired.sweep.stamp_ns + toNanoseconds(clockOffset(settings_.lidar));
   scan.points = pointsOf(fired);
   scan.T_imu_lidar = settings_.lidar.T_imu_lidar;
   scan.dropped_invalid = fired.sweep.shots.size() - scan.points.size();
