@@ -149,8 +149,8 @@ std::string settingsList(const SimulationSettings& defaults)
 {
   std::ostringstream text;
   for (const auto& row : settingsTable())
-    text << row.key << " = " << settingText(row, defaults) << '\n'
-         << "    " << describe(row) << "; " << allowedValues(row) << '\n';
+    text << row.key << " = " << valueText(row, defaults) << '\n'
+         << "    " << describe(row) << "; " << allowedText(row) << '\n';
   return text.str();
 }
 

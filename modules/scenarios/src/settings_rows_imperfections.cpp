@@ -170,10 +170,7 @@ Rows surroundingRows()
 
 OptionTable<SimulationSettings> imperfectionRows()
 {
-  Rows table;
-  for (const Rows& rows : {laserRows(), returnRows(), inertialRows(), surroundingRows()})
-    table.insert(table.end(), rows.begin(), rows.end());
-  return table;
+  return joinedRows<S>({laserRows(), returnRows(), inertialRows(), surroundingRows()});
 }
 
 }  // namespace fastlio

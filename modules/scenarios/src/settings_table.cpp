@@ -50,7 +50,9 @@ Rows lidarRows()
 {
   return {
       {"lidar.kind", "",
-       [](S& s) -> OptionValue { return choice(&s.lidar.kind, lidarKindNames()); },
+       [](S& s) -> OptionValue {
+         return choice(&s.lidar.kind, {"vlp16", "os64", "livox"});
+       },
        "which sensor is simulated"},
       {"lidar.rate", "Hz",
        [](S& s) -> OptionValue {
@@ -230,12 +232,6 @@ const OptionTable<SimulationSettings>& settingsTable()
       {generalRows(), worldRows(), lidarRows(), lidarFaultRows(), cloudRows(), imuNoiseRows(),
        imuFaultRows(), imperfectionRows(), aidRows()});
   return table;
-}
-
-const std::vector<std::string_view>& lidarKindNames()
-{
-  static const std::vector<std::string_view> names{"vlp16", "os64", "livox"};
-  return names;
 }
 
 }  // namespace fastlio

@@ -22,16 +22,6 @@ SimulationSettings withSetting(
       ".");
 }
 
-std::string settingText(const SettingRow& row, const SimulationSettings& settings)
-{
-  return valueText(row, settings);
-}
-
-std::string allowedValues(const SettingRow& row)
-{
-  return allowedText(row);
-}
-
 void requireValid(const SimulationSettings& settings)
 {
   std::string problems;

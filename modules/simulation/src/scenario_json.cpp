@@ -20,7 +20,7 @@ Json settingsJson(const SimulationSettings& settings)
 {
   Json all = Json::object();
   for (const auto& row : settingsTable())
-    all[std::string(row.key)] = jsonValue(settingText(row, settings));
+    all[std::string(row.key)] = jsonValue(valueText(row, settings));
   return all;
 }
 

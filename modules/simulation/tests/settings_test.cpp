@@ -39,9 +39,9 @@ TEST(Settings, EveryRowReadsBackWhatItPrints)
     const SimulationSettings settings = defaultSettings(info.name);
     SimulationSettings copy;
     for (const auto& row : settingsTable())
-      copy = withSetting(copy, row.key, settingText(row, settings));
+      copy = withSetting(copy, row.key, valueText(row, settings));
     for (const auto& row : settingsTable())
-      EXPECT_EQ(settingText(row, copy), settingText(row, settings)) << row.key;
+      EXPECT_EQ(valueText(row, copy), valueText(row, settings)) << row.key;
   }
 }
 
@@ -62,7 +62,7 @@ TEST(Settings, KeysAreUniqueAndReachDifferentMembers)
     const SimulationSettings changed = withSetting(base, row.key, std::to_string(value));
     int differences = 0;
     for (const auto& other : settingsTable())
-      differences += settingText(other, changed) != settingText(other, base) ? 1 : 0;
+      differences += valueText(other, changed) != valueText(other, base) ? 1 : 0;
     EXPECT_EQ(differences, 1) << row.key;
   }
 }

@@ -10,7 +10,6 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace fastlio
 {
@@ -18,21 +17,12 @@ using SettingRow = OptionRow<SimulationSettings>;
 
 [[nodiscard]] const OptionTable<SimulationSettings>& settingsTable();
 
-/** Names of LidarKind in the order of its enumerators: vlp16, os64, livox. */
-[[nodiscard]] const std::vector<std::string_view>& lidarKindNames();
-
 /** The settings with one of them changed. \param text a number, a name, true/false, or numbers
  * separated by commas, with or without brackets
  * \exception std::invalid_argument unknown key (the message gives the nearest one), or a text that
  * is not a value in the allowed range */
 [[nodiscard]] SimulationSettings withSetting(
     SimulationSettings settings, std::string_view key, std::string_view text);
-
-/** A setting's value as withSetting() takes it. */
-[[nodiscard]] std::string settingText(const SettingRow& row, const SimulationSettings& settings);
-
-/** Allowed values of a setting in words. */
-[[nodiscard]] std::string allowedValues(const SettingRow& row);
 
 /** Checks all ranges, for settings that were made in code.
  * \exception std::invalid_argument names the settings out of range and what is allowed */
