@@ -6,8 +6,8 @@
 #include "../shared/choices.h"
 #include "../shared/parsing.h"
 #include "mcap_output.h"
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/rawlog/recording_formats.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>

@@ -3,8 +3,8 @@
 
 #include "topic_list.h"
 
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/rawlog/recording_formats.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/survey/sensor_selection.h>
 

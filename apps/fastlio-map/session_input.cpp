@@ -7,7 +7,7 @@
 #include "../shared/run_names.h"
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/formats/recording_formats.h>
+#include <fastlio/rawlog/recording_formats.h>
 #include <fastlio/survey/recording_parts.h>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 /** \file readable_recordings.h Whether the recordings that the user names are there. */
 #pragma once
 
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/rawlog/recording_formats.h>
 
 #include <stdexcept>
 #include <string>

@@ -5,9 +5,9 @@
 
 #include "cloud_files.h"
 #include "fuzz_targets.h"
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/messages/ros_types.h>
 #include <fastlio/packets/ouster_metadata.h>
+#include <fastlio/rawlog/recording_formats.h>
 #include <fastlio/recordings/recording_reader.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 

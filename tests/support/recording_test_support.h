@@ -7,8 +7,8 @@
 #include "bag_writers.h"
 #include "bridge_recording.h"
 #include "test_files.h"
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/time.h>
+#include <fastlio/rawlog/recording_formats.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/xyzirt_access.h>
 

@@ -5,9 +5,9 @@
 #include "object_reader.h"
 #include "time_sorter.h"
 #include <fastlio/compat/register_classes.h>
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/math/time.h>
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/rawlog/recording_formats.h>
 #include <fastlio/recordings/recording_reader.h>
 
 #include <mrpt/obs/CActionCollection.h>

@@ -4,8 +4,8 @@
 #include <fastlio/bags/bag_formats.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/folders/folder_formats.h>
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/packets/capture_formats.h>
+#include <fastlio/rawlog/recording_formats.h>
 
 #include <filesystem>
 
