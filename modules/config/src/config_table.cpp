@@ -32,12 +32,9 @@ auto placeOf(std::string_view key)
 Rows allRows()
 {
   Rows all = joinedRows<Config>(
-      {rowsOf(
-           sensorOptionTable(), +[](Config& c) -> SensorOptions& { return c.sensors; }),
-       rowsOf(
-           odometryOptionTable(), +[](Config& c) -> OdometryOptions& { return c.odometry; }),
-       rowsOf(
-           exportOptionTable(), +[](Config& c) -> ExportOptions& { return c.exporters; })});
+      {rowsOf(sensorOptionTable(), &Config::sensors),
+       rowsOf(odometryOptionTable(), &Config::odometry),
+       rowsOf(exportOptionTable(), &Config::exporters)});
   std::stable_sort(
       all.begin(), all.end(),
       [](const auto& a, const auto& b) { return placeOf(a.key) < placeOf(b.key); });

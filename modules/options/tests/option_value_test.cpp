@@ -38,28 +38,16 @@ struct House
 const OptionTable<Lamp>& lampTable()
 {
   static const OptionTable<Lamp> table = {
-      {"lamp.angle", "deg",
-       [](Lamp& l) -> OptionValue {
-         return RealValue{&l.angle, 0.0, 90.0, 0.5};
-       },
-       "angle", OptionTier::Main},
-      {"lamp.count", "",
-       [](Lamp& l) -> OptionValue {
-         return IntegerValue{&l.count, 0, 5};
-       },
-       "number"},
-      {"lamp.seed", "", [](Lamp& l) -> OptionValue { return SeedValue{&l.seed}; }, "seed"},
-      {"lamp.start", "s", [](Lamp& l) -> OptionValue { return EpochValue{&l.start_ns}; }, "start"},
-      {"lamp.on", "", [](Lamp& l) -> OptionValue { return BooleanValue{&l.on}; }, "on"},
-      {"colour", "",
-       [](Lamp& l) -> OptionValue {
-         return choice(&l.colour, {"red", "green"});
-       },
-       "colour"},
-      {"label", "", [](Lamp& l) -> OptionValue { return RegexValue{&l.label}; }, "label"},
-      {"place", "m", [](Lamp& l) -> OptionValue { return VectorValue{&l.place}; }, "place"},
-      {"pose", "", [](Lamp& l) -> OptionValue { return PoseValue{&l.pose}; }, "pose"},
-      {"other", "", [](Lamp& l) -> OptionValue { return OptionalPoseValue{&l.other}; }, "other"},
+      {"lamp.angle", "deg", number(&Lamp::angle, 0.0, 90.0, 0.5), "angle", OptionTier::Main},
+      {"lamp.count", "", wholeNumber(&Lamp::count, 0, 5), "number"},
+      {"lamp.seed", "", valueAs<SeedValue>(&Lamp::seed), "seed"},
+      {"lamp.start", "s", valueAs<EpochValue>(&Lamp::start_ns), "start"},
+      {"lamp.on", "", valueAs<BooleanValue>(&Lamp::on), "on"},
+      {"colour", "", choice(&Lamp::colour, {"red", "green"}), "colour"},
+      {"label", "", valueAs<RegexValue>(&Lamp::label), "label"},
+      {"place", "m", valueAs<VectorValue>(&Lamp::place), "place"},
+      {"pose", "", valueAs<PoseValue>(&Lamp::pose), "pose"},
+      {"other", "", valueAs<OptionalPoseValue>(&Lamp::other), "other"},
       {"rows", "",
        [](Lamp& l) -> OptionValue {
          return NumbersValue{&l.rows, 2, 3, 10.0, "rows of two"};
@@ -147,8 +135,7 @@ TEST(OptionTable, ListsWhatIsWrong)
 
 TEST(OptionTable, RowsOfAPartReachTheWhole)
 {
-  const OptionTable<House> table = rowsOf(
-      lampTable(), +[](House& house) -> Lamp& { return house.lamp; });
+  const OptionTable<House> table = rowsOf(lampTable(), &House::lamp);
   House house;
   ASSERT_EQ(table.size(), lampTable().size());
   EXPECT_FALSE(assign(table[1].value(house), "", "2"));

@@ -10,12 +10,6 @@
 
 namespace fastlio
 {
-// Defined in settings_rows_cloud.cpp.
-[[nodiscard]] OptionTable<SimulationSettings> cloudRows();
-
-// Defined in settings_rows_world.cpp.
-[[nodiscard]] OptionTable<SimulationSettings> worldRows();
-
 // Defined in settings_rows_aids.cpp: sensors beside LiDAR and IMU.
 [[nodiscard]] OptionTable<SimulationSettings> aidRows();
 

@@ -38,6 +38,39 @@ struct OptionRow
 template <typename Options>
 using OptionTable = std::vector<OptionRow<Options>>;
 
+/** \name Values of rows that are members of the options
+ * @{ */
+/** A RealValue with these limits. */
+template <typename Options>
+auto number(double Options::*member, double min, double max, double si_per_unit = 1.0)
+{
+  return [=](Options& options) -> OptionValue {
+    return RealValue{&(options.*member), min, max, si_per_unit};
+  };
+}
+/** An IntegerValue with these limits. */
+template <typename Options>
+auto wholeNumber(int Options::*member, int min, int max)
+{
+  return [=](Options& options) -> OptionValue {
+    return IntegerValue{&(options.*member), min, max};
+  };
+}
+/** A ChoiceValue. */
+template <typename Options, typename Enum>
+auto choice(Enum Options::*member, std::vector<std::string_view> names)
+{
+  return [member, names = std::move(names)](Options& options) -> OptionValue
+  { return choice(&(options.*member), names); };
+}
+/** A \a Value without limits: valueAs<BooleanValue>(&Lamp::on). */
+template <typename Value, typename Options, typename Member>
+auto valueAs(Member Options::*member)
+{
+  return [member](Options& options) -> OptionValue { return Value{&(options.*member)}; };
+}
+/** @} */
+
 /** The group of a key; empty for a key outside of the groups. */
 [[nodiscard]] std::string_view groupOf(std::string_view key);
 /** The key without its group. */
@@ -120,14 +153,14 @@ OptionTable<Options> joinedRows(const std::vector<OptionTable<Options>>& tables)
   return all;
 }
 
-/** The rows of a part as rows of the whole. \param part gives the part of a whole */
+/** The rows of a part as rows of the whole. */
 template <typename Whole, typename Part>
-OptionTable<Whole> rowsOf(const OptionTable<Part>& table, Part& (*part)(Whole&))
+OptionTable<Whole> rowsOf(const OptionTable<Part>& table, Part Whole::*part)
 {
   OptionTable<Whole> rows;
   for (const auto& row : table)
     rows.push_back(
-        {row.key, row.unit, [value = row.value, part](Whole& whole) { return value(part(whole)); },
+        {row.key, row.unit, [value = row.value, part](Whole& whole) { return value(whole.*part); },
          row.effect, row.tier});
   return rows;
 }
