@@ -3,6 +3,7 @@
 
 #include "caster.h"
 
+#include "near_bodies.h"
 #include <fastlio/math/time.h>
 #include <fastlio/worlds/sampled_motion.h>
 
@@ -14,14 +15,15 @@ namespace fastlio
 Caster::Caster(const Simulation& simulation)
     : simulation_(&simulation),
       beam_(simulation.settings().lidar.beam),
-      panes_(simulation.settings().surface),
-      near_(simulation.settings().carrier)
+      panes_(simulation.settings().surface)
 {
 }
 
 Caster::Instant Caster::instantOf(double t, const Pose& T_world_imu) const
 {
-  return {t, T_world_imu * simulation_->lidarErrors().T_imu_lidar, near_.at(t, T_world_imu)};
+  return {
+      t, T_world_imu * simulation_->lidarErrors().T_imu_lidar,
+      nearBodies(simulation_->settings().carrier, t, T_world_imu)};
 }
 
 std::vector<Echo> Caster::cast(const Sweep& sweep) const

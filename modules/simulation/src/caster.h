@@ -5,7 +5,6 @@
 #pragma once
 
 #include <fastlio/simulation/beam.h>
-#include <fastlio/simulation/near_bodies.h>
 #include <fastlio/simulation/panes.h>
 #include <fastlio/simulation/simulation.h>
 
@@ -38,7 +37,6 @@ class Caster
   const Simulation* simulation_;
   Beam beam_;
   Panes panes_;
-  NearBodies near_;
 };
 
 }  // namespace fastlio

@@ -6,7 +6,6 @@
 #include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/gnss_model.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace fastlio
@@ -79,17 +78,6 @@ class Multipath
   double begins_ = 0.0, ends_ = 0.0;
   Vec3 offset_ = Vec3::Zero();
 };
-
-bool isInOutage(const SimulationSettings& s, double t)
-{
-  const double interval = s.gnss.outage_interval;
-  if (interval == 0.0) return false;
-  const double turn = std::floor(t / interval);
-  RandomStream random(s.seed, NoiseSource::GnssOutage, static_cast<std::uint64_t>(turn));
-  const double room = std::max(0.0, interval - s.gnss.outage_length);
-  const double past = t - turn * interval - room * random.uniform();
-  return past >= 0.0 && past < s.gnss.outage_length;
-}
 }  // namespace
 
 std::vector<SimulatedFix> simulateGnss(const Motion& motion, const SimulationSettings& settings)
@@ -106,7 +94,9 @@ std::vector<SimulatedFix> simulateGnss(const Motion& motion, const SimulationSet
     const Vec3 reflected = multipath.at(t);
     SimulatedFix fix;
     fix.stamp_ns = settings.start_ns + toNanoseconds(t);
-    fix.known = !isInOutage(settings, t);
+    fix.known = !isInOutage(
+        t, settings.gnss.outage_interval, settings.gnss.outage_length, settings.seed,
+        NoiseSource::GnssOutage);
     fix.multipath = reflected != Vec3::Zero();
     fix.error = noise.next() + reflected;
     fix.antenna = motion.pose(t) * settings.gnss.lever_arm + fix.error;

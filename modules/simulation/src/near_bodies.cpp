@@ -1,8 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "near_bodies.h"
+
 #include <fastlio/math/angles.h>
-#include <fastlio/simulation/near_bodies.h>
 
 #include <cmath>
 
@@ -36,14 +37,13 @@ Primitive companion(int i, int count, double t, const Vec3& imu)
 }
 }  // namespace
 
-NearBodies::NearBodies(const CarrierSettings& settings) : settings_(settings) {}
-
-std::vector<Primitive> NearBodies::at(double t, const Pose& T_world_imu) const
+std::vector<Primitive> nearBodies(
+    const CarrierSettings& settings, double t, const Pose& T_world_imu)
 {
   std::vector<Primitive> bodies;
-  if (settings_.body) appendCarrier(bodies, T_world_imu);
-  for (int i = 0; i < settings_.crowd; ++i)
-    bodies.push_back(companion(i, settings_.crowd, t, T_world_imu.p));
+  if (settings.body) appendCarrier(bodies, T_world_imu);
+  for (int i = 0; i < settings.crowd; ++i)
+    bodies.push_back(companion(i, settings.crowd, t, T_world_imu.p));
   return bodies;
 }
 

@@ -3,12 +3,12 @@
 
 #include "carrier_vibration.h"
 #include "caster.h"
+#include "packet_loss.h"
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/random_stream.h>
 #include <fastlio/scenarios/scenario_table.h>
 #include <fastlio/scenarios/session_changes.h>
 #include <fastlio/scenarios/settings_table.h>
-#include <fastlio/simulation/packet_loss.h>
 #include <fastlio/simulation/simulation.h>
 
 #include <algorithm>
@@ -132,7 +132,7 @@ FiredSweep Simulation::fire(std::size_t index) const
 {
   FiredSweep fired;
   fired.sweep = lidar_->sweep(index);
-  fired.packet_lost = PacketLoss(settings_).lostOf(fired.sweep, index);
+  fired.packet_lost = lostPackets(fired.sweep, index, settings_);
   const Caster caster(*this);
   fired.echoes = caster.cast(fired.sweep);
   addFalseReturns(fired.echoes, settings_, index);

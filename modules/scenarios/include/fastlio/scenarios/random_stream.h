@@ -7,6 +7,8 @@
 
 #include <fastlio/math/so3.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -70,5 +72,18 @@ class RandomStream
   std::normal_distribution<double> normal_;
   std::uniform_real_distribution<double> uniform_;
 };
+
+/** Whether t [s] is in an outage: there is one in each interval, at a random time of it.
+ * \param interval, length [s]; interval 0: there are none */
+[[nodiscard]] inline bool isInOutage(
+    double t, double interval, double length, std::uint64_t seed, NoiseSource source)
+{
+  if (interval == 0.0) return false;
+  const double turn = std::max(0.0, std::floor(t / interval));
+  RandomStream random(seed, source, static_cast<std::uint64_t>(turn));
+  const double room = std::max(0.0, interval - length);
+  const double past = t - turn * interval - room * random.uniform();
+  return past >= 0.0 && past < length;
+}
 
 }  // namespace fastlio
