@@ -11,16 +11,9 @@ namespace fastlio
 using OdometryOptionRows = OptionTable<OdometryOptions>;
 
 // Defined in odometry_option_rows_inputs.cpp.
-[[nodiscard]] OdometryOptionRows initializationRows();
-[[nodiscard]] OdometryOptionRows startRows();
-[[nodiscard]] OdometryOptionRows imuRows();
-[[nodiscard]] OdometryOptionRows imuReadingRows();
-[[nodiscard]] OdometryOptionRows lidarRows();
-[[nodiscard]] OdometryOptionRows calibrationRows();
+[[nodiscard]] OdometryOptionRows inputRows();
 
 // Defined in odometry_option_rows_estimation.cpp.
-[[nodiscard]] OdometryOptionRows scanRows();
-[[nodiscard]] OdometryOptionRows measurementRows();
-[[nodiscard]] OdometryOptionRows behaviourRows();
+[[nodiscard]] OdometryOptionRows estimationRows();
 
 }  // namespace fastlio

@@ -15,9 +15,8 @@ constexpr double kLargestMatrixError = 0.5;
 
 const OptionTable<OdometryOptions>& odometryOptionTable()
 {
-  static const OdometryOptionRows table = joinedRows<OdometryOptions>(
-      {initializationRows(), startRows(), imuRows(), imuReadingRows(), lidarRows(),
-       calibrationRows(), scanRows(), measurementRows(), behaviourRows()});
+  static const OdometryOptionRows table =
+      joinedRows<OdometryOptions>({inputRows(), estimationRows()});
   return table;
 }
 
