@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "fuzz_targets.h"
+#include "test_files.h"
 #include <fastlio/compat/CPointsMapXYZIRT.h>
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/config/config_document.h>
 
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <cstring>
 
@@ -33,16 +32,7 @@ std::string bytesOf(const T& value)
   return bytes;
 }
 
-std::string serialized(const mrpt::serialization::CSerializable& object)
-{
-  mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream).WriteObject(object);
-  return {
-      static_cast<const char*>(stream.getRawBufferData()),
-      static_cast<std::size_t>(stream.getTotalBytesCount())};
-}
-
-mrpt::obs::CObservationIMU imuAt(double t)
+mrpt::obs::CObservationIMU sampleAt(double t)
 {
   mrpt::obs::CObservationIMU imu;
   imu.sensorLabel = "imu";
@@ -113,18 +103,18 @@ std::vector<Seed> rawlogSeeds()
   registerBridgeClasses();
   std::string imu, clouds;
   for (int i = 0; i < 40; ++i)
-    imu += serialized(imuAt(0.01 * i));
+    imu += serialize(sampleAt(0.01 * i));
   for (int i = 0; i < 3; ++i)
-    clouds += serialized(cloudAt<mrpt::maps::CPointsMapXYZIRT>(0.1 + 0.1 * i));
+    clouds += serialize(cloudAt<mrpt::maps::CPointsMapXYZIRT>(0.1 + 0.1 * i));
   mrpt::obs::CSensoryFrame frame;
-  frame.insert(std::make_shared<mrpt::obs::CObservationIMU>(imuAt(0.0)));
+  frame.insert(std::make_shared<mrpt::obs::CObservationIMU>(sampleAt(0.0)));
   frame.insert(std::make_shared<CObservationVelodyneScan>(velodyneAt(0.0)));
   return {
       {"imu_xyzirt", imu + clouds},
-      {"velodyne", serialized(imuAt(0.0)) + serialized(velodyneAt(0.0))},
-      {"xyzi", serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CPointsMapXYZI>(0.0))},
-      {"simple", serialized(imuAt(0.0)) + serialized(cloudAt<mrpt::maps::CSimplePointsMap>(0.0))},
-      {"frame", serialized(frame)}};
+      {"velodyne", serialize(sampleAt(0.0)) + serialize(velodyneAt(0.0))},
+      {"xyzi", serialize(sampleAt(0.0)) + serialize(cloudAt<mrpt::maps::CPointsMapXYZI>(0.0))},
+      {"simple", serialize(sampleAt(0.0)) + serialize(cloudAt<mrpt::maps::CSimplePointsMap>(0.0))},
+      {"frame", serialize(frame)}};
 }
 
 std::vector<Seed> packetSeeds()

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "fuzz_targets.h"
+#include "test_files.h"
 #include <fastlio/map/mrpt_voxel_planes_map.h>
 #include <fastlio/pointmap/incremental_points_map.h>
 
-#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CMultiMetricMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/serialization/CArchive.h>
 
 #include <cstring>
 #include <stdexcept>
@@ -17,15 +16,6 @@ namespace fastlio::testing
 {
 namespace
 {
-std::string archiveOf(const mrpt::serialization::CSerializable& object)
-{
-  mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream).WriteObject(object);
-  return {
-      static_cast<const char*>(stream.getRawBufferData()),
-      static_cast<std::size_t>(stream.getTotalBytesCount())};
-}
-
 std::string numbers(std::initializer_list<float> values)
 {
   std::string bytes(values.size() * sizeof(float), '\0');
@@ -82,10 +72,10 @@ std::vector<Seed> archiveSeeds()
   several.maps.push_back(mrpt::maps::CSimplePointsMap::Create());
   several.maps.push_back(std::make_shared<mrpt::maps::CSimplePointsMap>(points));
   return {
-      {"points", archiveOf(points)},
-      {"incremental", archiveOf(incremental)},
-      {"planes", archiveOf(planes)},
-      {"several", archiveOf(several)}};
+      {"points", serialize(points)},
+      {"incremental", serialize(incremental)},
+      {"planes", serialize(planes)},
+      {"several", serialize(several)}};
 }
 
 std::vector<Seed> trajectorySeeds()
@@ -115,7 +105,7 @@ std::vector<Seed> externalSeeds()
   mrpt::maps::CSimplePointsMap points;
   points.insertPoint(1, 2, 3);
   return {
-      {"archive", "own.bin\n" + archiveOf(points)},
+      {"archive", "own.bin\n" + serialize(points)},
       {"kitti", "./own.bin\n" + numbers({1, 2, 3, 0.5F, 4, 5, 6, 0.25F})},
       {"text", "near.bin\n1 2 3\n4 5 6\n"},
       {"flat", "near.bin\n1 2\n4 5\n"},

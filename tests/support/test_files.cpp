@@ -19,15 +19,21 @@
 
 namespace fastlio::testing
 {
-std::string serialize(const std::vector<Object>& objects)
+std::string serialize(const mrpt::serialization::CSerializable& object)
 {
   mrpt::io::CMemoryStream stream;
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  for (const Object& object : objects)
-    archive.WriteObject(object.get());
+  mrpt::serialization::archiveFrom(stream).WriteObject(object);
   return {
       static_cast<const char*>(stream.getRawBufferData()),
       static_cast<std::size_t>(stream.getTotalBytesCount())};
+}
+
+std::string serialize(const std::vector<Object>& objects)
+{
+  std::string bytes;
+  for (const Object& object : objects)
+    bytes += serialize(*object);
+  return bytes;
 }
 
 std::string gzip(const std::string& bytes, int level, int strategy, gz_header* header)

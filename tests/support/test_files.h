@@ -18,6 +18,9 @@ namespace fastlio::testing
 {
 using Object = mrpt::serialization::CSerializable::Ptr;
 
+/** The bytes of an object in an uncompressed rawlog. */
+std::string serialize(const mrpt::serialization::CSerializable& object);
+
 /** The bytes of an uncompressed rawlog. */
 std::string serialize(const std::vector<Object>& objects);
 

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "test_files.h"
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/compat/register_classes.h>
 
@@ -15,15 +16,6 @@ namespace fastlio
 {
 namespace
 {
-std::string bytesOf(const mrpt::serialization::CSerializable& object)
-{
-  mrpt::io::CMemoryStream stream;
-  mrpt::serialization::archiveFrom(stream) << object;
-  return {
-      static_cast<const char*>(stream.getRawBufferData()),
-      static_cast<std::size_t>(stream.getTotalBytesCount())};
-}
-
 /** As MRPT 2.15.3 writes the options of insertion: version 1, without one of the flags. */
 std::string inNewerForm(std::string bytes)
 {
@@ -40,7 +32,7 @@ typename Map::Ptr readBack(const std::string& bytes)
 {
   mrpt::obs::CObservationComment comment;
   comment.text = "behind";
-  std::string all = bytes + bytesOf(comment);
+  std::string all = bytes + testing::serialize(comment);
   mrpt::io::CMemoryStream stream;
   stream.assignMemoryNotOwn(all.data(), all.size());
   auto archive = mrpt::serialization::archiveFrom(stream);
@@ -54,7 +46,7 @@ template <typename Map>
 void expectBothFormsAreRead(const Map& map)
 {
   registerBridgeClasses();
-  const std::string old_form = bytesOf(map);
+  const std::string old_form = testing::serialize(map);
   std::vector<std::string> forms = {old_form};
   if (!FASTLIO_MRPT_READS_NEWER_POINTS) forms.push_back(inNewerForm(old_form));
   for (const std::string& form : forms)
@@ -65,7 +57,7 @@ void expectBothFormsAreRead(const Map& map)
     EXPECT_EQ(read->getPointsBufferRef_z(), map.getPointsBufferRef_z());
     EXPECT_EQ(read->likelihoodOptions.decimation, 7U);
     EXPECT_STREQ(read->GetRuntimeClass()->className, map.GetRuntimeClass()->className);
-    EXPECT_EQ(bytesOf(*read), old_form);  // saved as MRPT at hand saves it
+    EXPECT_EQ(testing::serialize(*read), old_form);  // saved as MRPT at hand saves it
   }
 }
 

@@ -3,6 +3,7 @@
 
 // The cloud class with per-point time: its bytes, what it refuses, how columns go in and out.
 
+#include "test_files.h"
 #include <fastlio/compat/register_classes.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
@@ -19,6 +20,7 @@
 namespace
 {
 using fastlio::CloudColumns;
+using fastlio::testing::serialize;
 using mrpt::maps::CPointsMapXYZIRT;
 
 CloudColumns threePoints()
@@ -82,16 +84,6 @@ std::string expectedBytes(const CloudColumns& c, std::int8_t options_version)
   return bytes;
 }
 
-std::string bytesOf(const mrpt::serialization::CSerializable& object)
-{
-  mrpt::io::CMemoryStream stream;
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  archive.WriteObject(object);
-  return {
-      static_cast<const char*>(stream.getRawBufferData()),
-      static_cast<std::size_t>(stream.getTotalBytesCount())};
-}
-
 mrpt::serialization::CSerializable::Ptr objectFrom(const std::string& bytes)
 {
   fastlio::registerBridgeClasses();
@@ -121,8 +113,8 @@ CloudColumns readBack(const std::string& bytes)
 
 TEST(Xyzirt, BytesAreThoseOfTheFormat)
 {
-  EXPECT_EQ(bytesOf(*fastlio::makeXyzirt(threePoints())), expectedBytes(threePoints(), 0));
-  EXPECT_EQ(bytesOf(*fastlio::makeXyzirt(CloudColumns{})), expectedBytes(CloudColumns{}, 0));
+  EXPECT_EQ(serialize(*fastlio::makeXyzirt(threePoints())), expectedBytes(threePoints(), 0));
+  EXPECT_EQ(serialize(*fastlio::makeXyzirt(CloudColumns{})), expectedBytes(CloudColumns{}, 0));
 }
 
 TEST(Xyzirt, ReadsBothVersionsOfTheInsertionOptions)
@@ -139,9 +131,9 @@ TEST(Xyzirt, FieldsMayBeAbsent)
   CloudColumns columns = threePoints();
   columns.intensity.clear();
   columns.ring.clear();
-  expectEqual(readBack(bytesOf(*fastlio::makeXyzirt(columns))), columns);
+  expectEqual(readBack(serialize(*fastlio::makeXyzirt(columns))), columns);
   columns.time.clear();
-  expectEqual(readBack(bytesOf(*fastlio::makeXyzirt(columns))), columns);
+  expectEqual(readBack(serialize(*fastlio::makeXyzirt(columns))), columns);
 }
 
 TEST(Xyzirt, SurvivesInsideAnObservation)
@@ -150,14 +142,14 @@ TEST(Xyzirt, SurvivesInsideAnObservation)
   observation.sensorLabel = "lidar";
   observation.pointcloud = fastlio::makeXyzirt(threePoints());
   const auto read = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(
-      objectFrom(bytesOf(observation)));
+      objectFrom(serialize(observation)));
   ASSERT_TRUE(read && read->pointcloud);
   expectEqual(fastlio::readColumns(*read->pointcloud), threePoints());
 }
 
 TEST(Xyzirt, EveryTruncationThrows)
 {
-  const std::string bytes = bytesOf(*fastlio::makeXyzirt(threePoints()));
+  const std::string bytes = serialize(*fastlio::makeXyzirt(threePoints()));
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_ANY_THROW(objectFrom(bytes.substr(0, length))) << "length " << length;
 }
@@ -166,12 +158,12 @@ TEST(Xyzirt, EveryTruncationThrows)
 TEST(Xyzirt, HostileLengthsThrowWithoutAllocatingThem)
 {
   const std::size_t header = 1 + std::strlen("mrpt::maps::CPointsMapXYZIRT") + 1;
-  std::string bytes = bytesOf(*fastlio::makeXyzirt(threePoints()));
+  std::string bytes = serialize(*fastlio::makeXyzirt(threePoints()));
   const std::uint32_t hostile = 0xFFFFFFFFU;
   std::memcpy(bytes.data() + header, &hostile, sizeof hostile);
   EXPECT_THROW(objectFrom(bytes), std::exception);
 
-  bytes = bytesOf(*fastlio::makeXyzirt(threePoints()));
+  bytes = serialize(*fastlio::makeXyzirt(threePoints()));
   std::memcpy(bytes.data() + header + 4 + 3 * 3 * 4, &hostile, sizeof hostile);
   EXPECT_THROW(objectFrom(bytes), std::exception);
 }
