@@ -139,7 +139,7 @@ SimulationSettings settingsOf(const SimCommand& command)
 std::string scenarioList()
 {
   std::ostringstream text;
-  for (const auto& scenario : scenarioCatalog())
+  for (const auto& scenario : scenarioTable())
     text << "  " << scenario.name << std::string(12 - scenario.name.size(), ' ') << scenario.summary
          << '\n';
   return text.str();

@@ -122,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(AccuracyGates, CoverEveryScenario)
 {
-  for (const ScenarioInfo& scenario : scenarioCatalog())
+  for (const Scenario& scenario : scenarioTable())
     EXPECT_NE(gateOf(scenario.name), nullptr) << scenario.name << " has no gate in this file";
 }
 

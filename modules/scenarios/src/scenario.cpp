@@ -3,7 +3,7 @@
 
 #include <fastlio/math/angles.h>
 #include <fastlio/options/nearest_name.h>
-#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/scenario.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -97,100 +97,72 @@ Scene crowdAtRest()
   return scene;
 }
 
-std::vector<ScenarioRow> makeTable()
+std::vector<Scenario> makeTable()
 {
   return {
-      {{"campus", "hand-held walk of 140 m between buildings and trees, back to the start; VLP-16"},
-       always<campusScene>,
-       handHeld},
-      {{"office", "hand-held walk through rooms and a corridor, back to the start; VLP-16"},
-       always<officeScene>,
-       indoors},
-      {{"uav", "multirotor at 6 m/s around buildings, tilting and vibrating; Livox"},
-       always<uavScene>,
-       bySolidState},
-      {{"car", "car at 8.5 m/s around city blocks; 64 lines, IMU at 100 Hz"},
-       always<streetScene>,
+      {"campus", "hand-held walk of 140 m between buildings and trees, back to the start; VLP-16",
+       always<campusScene>, handHeld},
+      {"office", "hand-held walk through rooms and a corridor, back to the start; VLP-16",
+       always<officeScene>, indoors},
+      {"uav", "multirotor at 6 m/s around buildings, tilting and vibrating; Livox",
+       always<uavScene>, bySolidState},
+      {"car", "car at 8.5 m/s around city blocks; 64 lines, IMU at 100 Hz", always<streetScene>,
        onCarRoof},
-      {{"shake", "shaken by hand in a room, above 500 deg/s; 64 lines, IMU at 400 Hz"},
-       always<shakeScene>,
-       shaken,
-       20.0},
-      {{"spin", "turning at more than 1000 deg/s in a hall; VLP-16"},
-       always<spinScene>,
-       indoors,
+      {"shake", "shaken by hand in a room, above 500 deg/s; 64 lines, IMU at 400 Hz",
+       always<shakeScene>, shaken, 20.0},
+      {"spin", "turning at more than 1000 deg/s in a hall; VLP-16", always<spinScene>, indoors,
        25.0},
-      {{"stairs", "four flights of stairs up and down again, hand-held; VLP-16"},
-       always<stairsScene>,
+      {"stairs", "four flights of stairs up and down again, hand-held; VLP-16", always<stairsScene>,
        indoors},
-      {{"tunnel", "straight tunnel without any feature along its axis, hand-held; VLP-16"},
-       always<tunnelScene>,
+      {"tunnel", "straight tunnel without any feature along its axis, hand-held; VLP-16",
+       always<tunnelScene>, handHeld},
+      {"open_area", "seaport-like wide area with few things to see; VLP-16, IMU at 100 Hz",
+       always<openAreaScene>, atSeaport},
+      {"crowd", "the campus walk among people and vans in motion; VLP-16", always<crowdScene>,
        handHeld},
-      {{"open_area", "seaport-like wide area with few things to see; VLP-16, IMU at 100 Hz"},
-       always<openAreaScene>,
-       atSeaport},
-      {{"crowd", "the campus walk among people and vans in motion; VLP-16"},
-       always<crowdScene>,
-       handHeld},
-      {{"park", "hand-held walk over hills among trees, bushes and round buildings; VLP-16"},
-       always<parkScene>,
-       handHeld},
-      {{"rotunda", "hand-held walk around the drum of a round, cluttered hall; VLP-16"},
-       always<rotundaScene>,
-       indoors},
-      {{"ramp", "drive up four turns of a car park's round ramp and down again; VLP-16"},
-       always<rampScene>,
-       onScooter},
-      {{"town", "ride of 1.2 km through the streets of a town, some of them again; VLP-16"},
-       townScene,
-       onScooter},
-      {{"facades", "ride along a street whose facades repeat every 17.5 m, there and back; VLP-16"},
-       always<facadesScene>,
-       onScooter},
-      {{"corridors", "hand-held walk through six corridors that look alike on two floors; VLP-16"},
-       always<corridorsScene>,
-       indoors},
-      {{"rest", "stands still in the office; VLP-16"}, always<restScene>, indoors, 30.0},
-      {{"rest_crowd", "stands still on the campus among people and vans in motion; VLP-16"},
-       always<crowdAtRest>,
-       handHeld,
-       30.0},
+      {"park", "hand-held walk over hills among trees, bushes and round buildings; VLP-16",
+       always<parkScene>, handHeld},
+      {"rotunda", "hand-held walk around the drum of a round, cluttered hall; VLP-16",
+       always<rotundaScene>, indoors},
+      {"ramp", "drive up four turns of a car park's round ramp and down again; VLP-16",
+       always<rampScene>, onScooter},
+      {"town", "ride of 1.2 km through the streets of a town, some of them again; VLP-16",
+       townScene, onScooter},
+      {"facades", "ride along a street whose facades repeat every 17.5 m, there and back; VLP-16",
+       always<facadesScene>, onScooter},
+      {"corridors", "hand-held walk through six corridors that look alike on two floors; VLP-16",
+       always<corridorsScene>, indoors},
+      {"rest", "stands still in the office; VLP-16", always<restScene>, indoors, 30.0},
+      {"rest_crowd", "stands still on the campus among people and vans in motion; VLP-16",
+       always<crowdAtRest>, handHeld, 30.0},
   };
 }
 }  // namespace
 
-const std::vector<ScenarioRow>& scenarioTable()
+const std::vector<Scenario>& scenarioTable()
 {
-  static const std::vector<ScenarioRow> table = makeTable();
+  static const std::vector<Scenario> table = makeTable();
   return table;
 }
 
-const ScenarioRow& findScenario(std::string_view name)
+const Scenario& findScenario(std::string_view name)
 {
   std::vector<std::string_view> names;
   for (const auto& row : scenarioTable())
   {
-    if (row.info.name == name) return row;
-    names.push_back(row.info.name);
+    if (row.name == name) return row;
+    names.push_back(row.name);
   }
   throw std::invalid_argument(
       "There is no scenario '" + std::string(name) + "'. Did you mean '" +
       std::string(nearestName(name, names)) + "'?");
 }
 
-std::vector<ScenarioInfo> scenarioCatalog()
-{
-  std::vector<ScenarioInfo> catalog;
-  for (const auto& row : scenarioTable())
-    catalog.push_back(row.info);
-  return catalog;
-}
-
 SimulationSettings defaultSettings(std::string_view scenario)
 {
-  const ScenarioRow& row = findScenario(scenario);
+  const Scenario& row = findScenario(scenario);
   SimulationSettings settings;
-  settings.scenario = row.info.name;
+  settings.scenario = row.name;
   row.adapt(settings);
   return settings;
 }

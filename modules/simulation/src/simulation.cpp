@@ -6,7 +6,7 @@
 #include "packet_loss.h"
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/random_stream.h>
-#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/scenarios/session_changes.h>
 #include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/simulation.h>
@@ -21,12 +21,12 @@ namespace
 constexpr double kFinalRest = 1.0;                 // after the stop [s]
 constexpr std::int64_t kFirstShotNs = 13'700'000;  // LiDAR and IMU do not start at the same time
 
-bool walksOneLoop(const SimulationSettings& s, const ScenarioRow& row, const CarrierPath& path)
+bool walksOneLoop(const SimulationSettings& s, const Scenario& row, const CarrierPath& path)
 {
   return s.duration <= 0.0 && row.duration <= 0.0 && path.loop_time > 0.0;
 }
 
-MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, const Scene& scene)
+MotionTiming timingFor(const SimulationSettings& s, const Scenario& row, const Scene& scene)
 {
   MotionTiming timing;
   timing.blend = scene.blend;
@@ -37,8 +37,7 @@ MotionTiming timingFor(const SimulationSettings& s, const ScenarioRow& row, cons
   return timing;
 }
 
-SimulationSettings completed(
-    SimulationSettings s, const ScenarioRow& row, const MotionTiming& timing)
+SimulationSettings completed(SimulationSettings s, const Scenario& row, const MotionTiming& timing)
 {
   if (s.duration > 0.0) return s;
   s.duration = row.duration > 0.0 ? row.duration : timing.stopTime() + kFinalRest;
@@ -102,7 +101,7 @@ struct Simulation::Parts
   static Parts make(const SimulationSettings& settings)
   {
     requireValid(settings);
-    const ScenarioRow& row = findScenario(settings.scenario);
+    const Scenario& row = findScenario(settings.scenario);
     Scene scene = row.scene(settings.world);
     applySession(scene, settings.world);
     const MotionTiming timing = timingFor(settings, row, scene);

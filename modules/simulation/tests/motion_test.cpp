@@ -19,7 +19,7 @@ namespace
 std::vector<std::string_view> scenarioNames()
 {
   std::vector<std::string_view> names;
-  for (const auto& info : scenarioCatalog())
+  for (const auto& info : scenarioTable())
     names.push_back(info.name);
   return names;
 }

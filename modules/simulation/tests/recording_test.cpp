@@ -286,7 +286,7 @@ TEST(Recording, UnwritableDirectoriesAreNamed)
 
 TEST(Recording, EveryScenarioGenerates)
 {
-  for (const auto& info : scenarioCatalog())
+  for (const auto& info : scenarioTable())
   {
     const TemporaryFolder directory;
     const Simulation simulation(testing::shortSettings(info.name, 3.5, 20));

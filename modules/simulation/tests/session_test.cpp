@@ -4,7 +4,7 @@
 /** \file session_test.cpp The same world on other days. */
 
 #include "rides.h"
-#include <fastlio/scenarios/scenario_table.h>
+#include <fastlio/scenarios/scenario.h>
 #include <fastlio/scenarios/session_changes.h>
 #include <fastlio/simulation/recording.h>
 

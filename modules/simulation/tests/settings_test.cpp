@@ -34,7 +34,7 @@ std::string problemOf(Call call)
 
 TEST(Settings, EveryRowReadsBackWhatItPrints)
 {
-  for (const auto& info : scenarioCatalog())
+  for (const auto& info : scenarioTable())
   {
     const SimulationSettings settings = defaultSettings(info.name);
     SimulationSettings copy;
@@ -118,7 +118,7 @@ TEST(Settings, SettingsMadeInCodeAreChecked)
 
 TEST(MatchingParameters, AreValidForEveryScenario)
 {
-  for (const auto& info : scenarioCatalog())
+  for (const auto& info : scenarioTable())
     EXPECT_EQ(problemOf([&] { validate(matchingConfig(defaultSettings(info.name))); }), "");
   const SimulationSettings perfect = testing::withoutErrors(defaultSettings("office"));
   EXPECT_EQ(problemOf([&] { validate(matchingConfig(perfect)); }), "");
