@@ -70,7 +70,6 @@ void atSeaport(SimulationSettings& s)
 CarrierPath startOf(const CarrierPath& path)
 {
   CarrierPath still;
-  still.R_carrier_imu = path.R_carrier_imu;
   for (std::size_t i = 0; i < still.channels.size(); ++i)
     still.channels[i].offset = path.channels[i].value(0.0);
   return still;

@@ -140,7 +140,7 @@ Pose Motion::pose(double t) const
       c[CarrierPath::kYaw].value(u), c[CarrierPath::kPitch].value(u),
       c[CarrierPath::kRoll].value(u)};
   return {
-      rotation(attitude) * path_.R_carrier_imu,
+      rotation(attitude),
       {c[CarrierPath::kX].value(u), c[CarrierPath::kY].value(u), c[CarrierPath::kZ].value(u)}};
 }
 
@@ -154,10 +154,10 @@ Kinematics Motion::at(double t) const
   const Attitude attitude{yaw.value, pitch.value, roll.value};
   const Attitude rates{yaw.first, pitch.first, roll.first};
   Kinematics k;
-  k.T_world_imu = {rotation(attitude) * path_.R_carrier_imu, Vec3(x.value, y.value, z.value)};
+  k.T_world_imu = {rotation(attitude), Vec3(x.value, y.value, z.value)};
   k.velocity = {x.first, y.first, z.first};
   k.acceleration = {x.second, y.second, z.second};
-  k.angular_rate = path_.R_carrier_imu.transpose() * bodyRate(attitude, rates);
+  k.angular_rate = bodyRate(attitude, rates);
   return k;
 }
 

@@ -15,6 +15,7 @@ namespace fastlio
 namespace
 {
 constexpr double kSampleDistance = 0.05;  // of the polyline before smoothing [m]
+constexpr double kKnotTime = 0.4;         // between the spline's control points [s]
 
 using Points = std::vector<Vec3>;
 
@@ -84,13 +85,12 @@ std::vector<double> headings(const Points& p)
 
 void requireValid(const Route& route)
 {
-  const bool valid = route.corners.size() >= 2 && route.speed > 0.0 && route.knot_time > 0.0 &&
+  const bool valid = route.corners.size() >= 2 && route.speed > 0.0 &&
                      closedArcLengths(route.corners).back() > 0.0;
   if (valid) return;
   throw std::invalid_argument(
       "Route: " + std::to_string(route.corners.size()) + " corners, " +
-      std::to_string(route.speed) + " m/s, knots every " + std::to_string(route.knot_time) +
-      " s; needed are two different corners, a positive speed and a positive time.");
+      std::to_string(route.speed) + " m/s; needed are two different corners and a positive speed.");
 }
 
 UniformSpline coordinate(const Points& points, Eigen::Index axis, double spacing)
@@ -108,7 +108,7 @@ CarrierPath followRoute(const Route& route)
   const Points rounded = roundedRoute(route);
   const bool steady = route.acceleration <= 0.0;
   const std::vector<double> at = steady ? closedArcLengths(rounded) : timesAlong(rounded, route);
-  const double step = steady ? route.speed * route.knot_time : route.knot_time;
+  const double step = steady ? route.speed * kKnotTime : kKnotTime;
   const auto n = static_cast<std::size_t>(std::max(8.0, std::round(at.back() / step)));
   Points points = resample(rounded, at, n);
   const double spacing = (steady ? at.back() / route.speed : at.back()) / static_cast<double>(n);
@@ -120,7 +120,6 @@ CarrierPath followRoute(const Route& route)
   path.loop_time = spacing * static_cast<double>(n);
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     path.channels[static_cast<std::size_t>(axis)].spline = coordinate(points, axis, spacing);
-  if (!route.faces_ahead) return path;
   std::vector<double> yaw = headings(points);
   const double winding = yaw.back() - yaw.front();
   yaw.pop_back();

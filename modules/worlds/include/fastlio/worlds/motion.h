@@ -46,7 +46,6 @@ struct CarrierPath
   };
   std::array<MotionChannel, 6> channels;
   double loop_time = 0.0;  //!< motion time after which the path is back at its start; 0: never
-  Mat3 R_carrier_imu = Mat3::Identity();  //!< how the IMU is mounted
 };
 
 /** Motion time as a function of time: rest, smooth start, constant rate, optionally a smooth stop.

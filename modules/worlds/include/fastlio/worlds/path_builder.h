@@ -18,14 +18,12 @@ struct Route
   double speed = 1.0;         //!< along the path, the greatest one [m/s]
   double corner_cut = 1.0;    //!< the path is averaged over this length, which rounds corners [m]
   double acceleration = 0.0;  //!< greatest one along and across the path; 0: constant speed [m/s^2]
-  double knot_time = 0.4;     //!< motion time between the spline's control points [s]
-  bool faces_ahead = true;    //!< false: the yaw stays zero
   std::function<double(double x, double y)> ground;  //!< height [m]; none: 0
 };
 
 /** A path along the route, at constant speed or slower in bends, level, with the yaw along the
  * path.
- * \exception std::invalid_argument fewer than two corners, or a length, speed or time not positive
+ * \exception std::invalid_argument fewer than two corners, or a length or speed not positive
  */
 [[nodiscard]] CarrierPath followRoute(const Route& route);
 
