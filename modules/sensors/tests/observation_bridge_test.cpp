@@ -7,6 +7,7 @@
 #include "velodyne_packets.h"
 #include <fastlio/rawlog/decode_ahead_source.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/survey/input_plan.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -76,6 +77,30 @@ TEST_F(ObservationBridgeTest, CountsEverything)
   EXPECT_TRUE(contains(s.last_error, "no point cloud"));
   EXPECT_EQ(s.scans_no_stamp, 1U);
   EXPECT_EQ(s.points_converted, 6U);
+}
+
+TEST_F(ObservationBridgeTest, AWildTimeInEveryScanCostsThesePointsOnly)
+{
+  constexpr std::size_t kPoints = 400;
+  auto objects = recording(20);
+  for (const Object& object : objects)
+    if (auto cloud = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(object))
+    {
+      CloudColumns columns;
+      columns.x = columns.y = columns.z = std::vector<float>(kPoints, 1.0F);
+      for (std::size_t i = 0; i < kPoints; ++i)
+        columns.time.push_back(i == 7 ? 1e9 : 0.1 * static_cast<double>(i) / kPoints);
+      cloud->pointcloud = makeXyzirt(columns);
+    }
+  const SensorSelection selection = select(objects);
+  ObservationBridge bridge(selection, planInput(selection, {}, {}).bridge);
+  for (const Object& object : objects)
+    (void)bridge.convert(dynamic_cast<const mrpt::obs::CObservation&>(*object));
+  const BridgeStatistics& s = bridge.statistics();
+  EXPECT_EQ(s.scans_converted, 20U);
+  EXPECT_EQ(s.scans_without_point_times, 0U);
+  EXPECT_EQ(s.points_invalid, 20U);
+  EXPECT_EQ(s.points_converted, 20U * (kPoints - 1));
 }
 
 TEST_F(ObservationBridgeTest, APoseThatIsNotFiniteCostsItsScans)
