@@ -128,14 +128,15 @@ std::optional<LivoxPacket> livoxPacketOf(const UdpPacket& packet)
   return sane ? result : std::nullopt;
 }
 
-CapturedPoint spherical(const std::uint8_t* at)
+CapturedPoint spherical(
+    const std::uint8_t* range_at, const std::uint8_t* angles_at, std::uint8_t reflectivity)
 {
-  const double range = 1e-3 * littleAt<std::uint32_t>(at);
-  const double zenith = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 4);
-  const double azimuth = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(at + 6);
+  const double range = 1e-3 * littleAt<std::uint32_t>(range_at);
+  const double zenith = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(angles_at);
+  const double azimuth = 1e-2 * kRadPerDeg * littleAt<std::uint16_t>(angles_at + 2);
   return {
       range * std::sin(zenith) * std::cos(azimuth), range * std::sin(zenith) * std::sin(azimuth),
-      range * std::cos(zenith), static_cast<float>(at[8])};
+      range * std::cos(zenith), static_cast<float>(reflectivity)};
 }
 
 /** Without its line. */
@@ -145,7 +146,7 @@ CapturedPoint pointAt(const std::uint8_t* at, LivoxPoints kind)
   const auto cm = [at](std::size_t i) { return 1e-2 * littleAt<std::int16_t>(at + 2 * i); };
   if (kind == LivoxPoints::Cartesian) return {mm(0), mm(1), mm(2), static_cast<float>(at[12])};
   if (kind == LivoxPoints::Coarse) return {cm(0), cm(1), cm(2), static_cast<float>(at[6])};
-  return spherical(at);
+  return spherical(at, at + 4, at[8]);
 }
 
 class LivoxSensor : public PacketSensor
@@ -204,11 +205,7 @@ class LivoxSensor : public PacketSensor
     for (std::size_t k = 0; k < kReturns; ++k)
     {
       const std::uint8_t* at = group + kAngles + k * kReturn;
-      std::array<std::uint8_t, 9> point{};
-      std::copy_n(at, 4, point.begin());
-      std::copy_n(group, kAngles, point.begin() + 4);
-      point[8] = at[4];
-      add(spherical(point.data()), time_ns, line);
+      add(spherical(at, group, at[4]), time_ns, line);
     }
   }
 

@@ -81,47 +81,6 @@ TEST_F(Captures, TwoSendersAreTwoSensors)
   EXPECT_EQ(capture.count("velodyne_192.168.1.202"), 1U);
 }
 
-TEST_F(Captures, LivoxOfTheSecondGenerationGivesScansAndSamples)
-{
-  std::vector<SentPacket> packets;
-  for (int i = 0; i < 500; ++i)
-    packets.push_back({kStart, 56301, mid360Packet(kStart + i * 480'000, 96)});
-  std::string head = mid360Packet(kStart + 5'000'000, 2).substr(0, 36);
-  head[1] = 60;
-  head[10] = '\0';
-  packets.push_back({kStart, 56401, imuOf(head, {0.1F, 0.2F, 0.3F, 0, 0, 1})});
-  const Recorded capture = readRecording(fileOf(captureOf(packets)));
-  ASSERT_EQ(capture.count("livox_192.168.1.201"), 3U);  // 240 ms in scans of 100 ms
-  ASSERT_EQ(capture.count("livox_192.168.1.201_imu"), 1U);
-  const CloudColumns columns = columnsOf(*capture.observations[0]);
-  EXPECT_EQ(columns.x[1], 2.0F);
-  EXPECT_EQ(columns.y[1], -0.5F);
-  EXPECT_EQ(columns.z[1], 0.25F);
-  EXPECT_EQ(columns.intensity[1], 77.0F);
-  EXPECT_NEAR(columns.time[1], 5e-6, 1e-12);
-  EXPECT_NEAR(columns.time[96], 480e-6, 1e-12);
-  for (const auto& observation : capture.observations)
-    if (const auto* imu = dynamic_cast<const CObservationIMU*>(observation.get()))
-    {
-      EXPECT_NEAR(imu->get(mrpt::obs::IMU_WY), 0.2, 1e-6);
-      EXPECT_NEAR(imu->get(mrpt::obs::IMU_Z_ACC), 9.80665, 1e-6);
-      EXPECT_EQ(toNanoseconds(imu->timestamp), kStart + 5'000'000);
-    }
-}
-
-TEST_F(Captures, LivoxOfTheFirstGenerationGivesScans)
-{
-  std::vector<SentPacket> packets;
-  for (int i = 0; i < 300; ++i)
-    packets.push_back({kStart, 60001, aviaPacket(kStart + i * 400'000)});
-  const Recorded capture = readRecording(fileOf(captureOf(packets)));
-  ASSERT_EQ(capture.observations.size(), 2U);
-  const CloudColumns columns = columnsOf(*capture.observations[0]);
-  EXPECT_EQ(columns.size(), 250U * 96);
-  EXPECT_NEAR(columns.time[24], 1e-4, 1e-9);  // 240 kHz
-  EXPECT_EQ(columns.ring[7], 1U);
-}
-
 TEST_F(Captures, OusterFollowsItsMetadata)
 {
   std::vector<SentPacket> packets;
