@@ -3,6 +3,7 @@
 
 #include <fastlio/sensors/conversions.h>
 
+#include <Eigen/Core>
 #include <mrpt/math/CMatrixFixed.h>
 
 #include <algorithm>
@@ -43,27 +44,12 @@ mrpt::Clock::time_point toMrptTime(std::int64_t stamp_ns)
 
 Pose toPose(const mrpt::poses::CPose3D& T_a_b)
 {
-  const auto& rotation = T_a_b.getRotationMatrix();
-  Pose pose;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      pose.R(row, column) = rotation(row, column);
-  pose.p = Vec3(T_a_b.x(), T_a_b.y(), T_a_b.z());
-  return pose;
+  return {T_a_b.getRotationMatrix().asEigen(), {T_a_b.x(), T_a_b.y(), T_a_b.z()}};
 }
 
 mrpt::poses::CPose3D toMrptPose(const Pose& T_a_b)
 {
-  mrpt::math::CMatrixDouble33 rotation;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      rotation(row, column) = T_a_b.R(row, column);
-  mrpt::poses::CPose3D pose;
-  pose.setRotationMatrix(rotation);
-  pose.x(T_a_b.p.x());
-  pose.y(T_a_b.p.y());
-  pose.z(T_a_b.p.z());
-  return pose;
+  return {T_a_b.R, T_a_b.p};
 }
 
 }  // namespace fastlio
