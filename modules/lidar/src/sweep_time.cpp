@@ -76,8 +76,9 @@ StepCount countSteps(const PointColumns& points, std::size_t stride)
 }
 
 /** Of the first points the one that lies farthest back: lasers look a little ahead and behind. */
-double firstAzimuth(const PointColumns& points, int sense)
+double startAzimuthOf(const PointColumns& points, int sense)
 {
+  if (points.size() == 0) return 0.0;
   const std::size_t n = std::max<std::size_t>(1, points.size() / 500);
   const double first = azimuthOf(points, 0);
   double back = 0.0;
@@ -106,11 +107,6 @@ SweepShape shapeOf(const PointColumns& points)
   return shape;
 }
 
-double startAzimuthOf(const PointColumns& points, int sense)
-{
-  return points.size() == 0 ? 0.0 : firstAzimuth(points, sense);
-}
-
 std::string describe(const SweepShape& shape)
 {
   std::array<char, 160> text{};
@@ -122,24 +118,23 @@ std::string describe(const SweepShape& shape)
   return {text.data(), static_cast<std::size_t>(std::max(length, 0))};
 }
 
-void assignSweepTimes(
-    PointColumns& points, int sense, double start_azimuth, double period,
-    PointTimeReference reference)
+void assignSweepTimes(PointColumns& points, const SweepTiming& sweep)
 {
-  const double at_stamp = reference == PointTimeReference::End      ? 1.0
-                          : reference == PointTimeReference::Middle ? 0.5
-                                                                    : 0.0;
+  const double start = sweep.start_azimuth.value_or(startAzimuthOf(points, sweep.sense));
+  const double at_stamp = sweep.reference == PointTimeReference::End      ? 1.0
+                          : sweep.reference == PointTimeReference::Middle ? 0.5
+                                                                          : 0.0;
   // Points just before the seam may belong to its other side: lasers look a little ahead and
   // behind.
   constexpr double kSeam = 0.02;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    double fraction = fractionOfTurn(sense * (azimuthOf(points, i) - start_azimuth));
+    double fraction = fractionOfTurn(sweep.sense * (azimuthOf(points, i) - start));
     const double place = static_cast<double>(i) / static_cast<double>(points.size());
     if (fraction > 1.0 - kSeam && place < kSeam) fraction -= 1.0;
     if (fraction < kSeam && place > 1.0 - kSeam) fraction += 1.0;
     points.time_offset_ns[i] =
-        static_cast<std::int32_t>(toNanoseconds((fraction - at_stamp) * period));
+        static_cast<std::int32_t>(toNanoseconds((fraction - at_stamp) * sweep.period));
   }
 }
 

@@ -64,7 +64,7 @@ TEST_P(Revolution, TimesComeBack)
         std::pair{PointTimeReference::End, -100'000'000}})
   {
     PointColumns points = truth;
-    assignSweepTimes(points, shape.sense, shape.start_azimuth, 0.1, reference);
+    assignSweepTimes(points, {shape.sense, shape.start_azimuth, 0.1, reference});
     int wrong = 0;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (std::abs(points.time_offset_ns[i] - shift - truth.time_offset_ns[i]) > 1'200'000) ++wrong;

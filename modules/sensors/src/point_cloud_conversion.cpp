@@ -1,7 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/lidar/sweep_time.h>
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
 
@@ -81,12 +80,6 @@ void takeUsablePoints(CloudColumns& cloud, CloudConversion& result)
 
 namespace fastlio
 {
-void assignSweepTimes(PointColumns& points, const SweepTiming& sweep)
-{
-  const double start = sweep.start_azimuth.value_or(startAzimuthOf(points, sweep.sense));
-  assignSweepTimes(points, sweep.sense, start, sweep.period, sweep.reference);
-}
-
 CloudConversion toTimedPoints(CloudColumns cloud, std::int64_t stamp_ns, const CloudTiming& timing)
 {
   CloudConversion result;

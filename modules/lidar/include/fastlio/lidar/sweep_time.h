@@ -8,6 +8,7 @@
 #include <fastlio/lidar/point_time.h>
 #include <fastlio/lidar/scan.h>
 
+#include <optional>
 #include <string>
 
 namespace fastlio
@@ -34,20 +35,20 @@ struct SweepShape
 /** Looks at the order of the points: column by column, or line by line. */
 [[nodiscard]] SweepShape shapeOf(const PointColumns& points);
 
-/** Where a revolution begins whose points are in the order of their measurement [rad]; sense as in
- * SweepShape. Zero for an empty scan. */
-[[nodiscard]] double startAzimuthOf(const PointColumns& points, int sense);
-
 /** For people: "turns clockwise (97 % of the steps), starts at 179 deg, covers 100 %". */
 [[nodiscard]] std::string describe(const SweepShape& shape);
 
-/** Replaces the time of every point by its fraction of a revolution.
- * \param sense +1 counter-clockwise, -1 clockwise
- * \param start_azimuth where the revolution begins [rad]
- * \param period of a revolution [s]
- * \param reference what the scan's stamp is: Start (also Stamp and Auto), Middle or End */
-void assignSweepTimes(
-    PointColumns& points, int sense, double start_azimuth, double period,
-    PointTimeReference reference);
+/** A revolution, for points whose azimuth gives their time. */
+struct SweepTiming
+{
+  int sense = 1;                        //!< as SweepShape
+  std::optional<double> start_azimuth;  //!< [rad]; nothing: that of each scan's first points
+  double period = 0.1;                  //!< of a revolution [s]
+  /** What the stamps are: Start (also Stamp and Auto), Middle or End. */
+  PointTimeReference reference = PointTimeReference::Start;
+};
+
+/** Replaces the time of every point by its fraction of the revolution. */
+void assignSweepTimes(PointColumns& points, const SweepTiming& sweep);
 
 }  // namespace fastlio

@@ -6,6 +6,7 @@
 
 #include <fastlio/lidar/point_time.h>
 #include <fastlio/lidar/scan.h>
+#include <fastlio/lidar/sweep_time.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
 #include <cstddef>
@@ -22,15 +23,6 @@ enum class PointTimes
   Unusable    //!< many are more than kMaxTimeOffset away from the stamp: all points at the stamp
 };
 
-/** A revolution, for points whose azimuth gives their time. */
-struct SweepTiming
-{
-  int sense = 1;                        //!< +1: counter-clockwise seen from above; -1: clockwise
-  std::optional<double> start_azimuth;  //!< [rad]; nothing: that of each scan's first points
-  double period = 0.1;                  //!< of a revolution [s]
-  PointTimeReference reference = PointTimeReference::Start;  //!< what the stamps are
-};
-
 /** How the points of a LiDAR's clouds get their times. */
 struct CloudTiming
 {
@@ -45,9 +37,6 @@ struct CloudConversion
   PointTimes times = PointTimes::Absent;
   std::size_t dropped_invalid = 0;  //!< not finite, at the origin, or of an impossible time
 };
-
-/** Gives every point the time that its azimuth gives. */
-void assignSweepTimes(PointColumns& points, const SweepTiming& sweep);
 
 /** Points at (0, 0, 0) are what drivers write for "no return"; they are dropped like NaN. */
 [[nodiscard]] CloudConversion toTimedPoints(
