@@ -27,7 +27,14 @@ mrpt::maps::CPointsMap::Ptr makeXyzi(const PointColumns& points)
   return cloud;
 }
 
-std::int64_t shiftOf(const LidarSettings& lidar)
+/** Nanoseconds per unit. */
+double nanosecondsPer(CloudTimeUnit unit)
+{
+  return std::array<double, 4>{1e9, 1e6, 1e3, 1.0}.at(static_cast<std::size_t>(unit));
+}
+}  // namespace
+
+std::int64_t stampShiftOf(const LidarSettings& lidar)
 {
   const double sweep_ns = kNsPerSecond / lidar.rate;
   switch (lidar.time_reference)
@@ -42,31 +49,18 @@ std::int64_t shiftOf(const LidarSettings& lidar)
   }
   return 0;
 }
-}  // namespace
 
-CloudFormat::CloudFormat(const LidarSettings& lidar)
-    : cloud_(lidar.cloud),
-      absolute_(lidar.time_reference == CloudTimeReference::Absolute),
-      unit_ns_(
-          std::array<double, 4>{1e9, 1e6, 1e3, 1.0}.at(static_cast<std::size_t>(lidar.time_unit))),
-      shift_ns_(shiftOf(lidar))
+mrpt::maps::CPointsMap::Ptr encodeCloud(
+    const PointColumns& points, std::int64_t first_shot_ns, const LidarSettings& lidar)
 {
-}
-
-double CloudFormat::timeOf(std::int32_t offset_ns, std::int64_t first_shot_ns) const
-{
-  const std::int64_t time_ns = absolute_ ? first_shot_ns + offset_ns : offset_ns - shift_ns_;
-  return static_cast<double>(time_ns) / unit_ns_;
-}
-
-mrpt::maps::CPointsMap::Ptr CloudFormat::encode(
-    const PointColumns& points, std::int64_t first_shot_ns) const
-{
-  if (cloud_ == LidarCloud::Xyzi) return makeXyzi(points);
+  if (lidar.cloud == LidarCloud::Xyzi) return makeXyzi(points);
+  const bool absolute = lidar.time_reference == CloudTimeReference::Absolute;
+  const std::int64_t zero_ns = absolute ? -first_shot_ns : stampShiftOf(lidar);
   CloudColumns columns{points.x, points.y, points.z, points.intensity, points.ring, {}};
   for (const std::int32_t offset_ns : points.time_offset_ns)
-    columns.time.push_back(timeOf(offset_ns, first_shot_ns));
-  if (cloud_ == LidarCloud::Generic) return makeCloud(columns, {}, 0)->pointcloud;
+    columns.time.push_back(
+        static_cast<double>(offset_ns - zero_ns) / nanosecondsPer(lidar.time_unit));
+  if (lidar.cloud == LidarCloud::Generic) return makeCloud(columns, {}, 0)->pointcloud;
   return makeXyzirt(columns);
 }
 

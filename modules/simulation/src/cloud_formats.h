@@ -13,26 +13,13 @@
 
 namespace fastlio
 {
-/** Class, unit and zero of the times. */
-class CloudFormat
-{
- public:
-  explicit CloudFormat(const LidarSettings& lidar);
+/** From the first shot to the instant that the scan's stamp is about [ns]. */
+[[nodiscard]] std::int64_t stampShiftOf(const LidarSettings& lidar);
 
-  /** From the first shot to the instant that the scan's stamp is about [ns]. */
-  [[nodiscard]] std::int64_t stampShift() const { return shift_ns_; }
-
-  /** \param points with times from the first shot \param first_shot_ns its stamp */
-  [[nodiscard]] mrpt::maps::CPointsMap::Ptr encode(
-      const PointColumns& points, std::int64_t first_shot_ns) const;
-
- private:
-  [[nodiscard]] double timeOf(std::int32_t offset_ns, std::int64_t first_shot_ns) const;
-
-  LidarCloud cloud_;
-  bool absolute_;
-  double unit_ns_;  // nanoseconds per unit
-  std::int64_t shift_ns_;
-};
+/** In class, unit and zero of the times as the settings say.
+ * \param points with times from the first shot
+ * \param first_shot_ns its stamp */
+[[nodiscard]] mrpt::maps::CPointsMap::Ptr encodeCloud(
+    const PointColumns& points, std::int64_t first_shot_ns, const LidarSettings& lidar);
 
 }  // namespace fastlio

@@ -107,12 +107,13 @@ std::vector<std::size_t> arrivedPackets(const FiredSweep& fired)
 CObservationPointCloud::Ptr toPointCloud(
     const FiredSweep& fired, const SimulationSettings& settings)
 {
-  const CloudFormat format(settings.lidar);
   auto observation = CObservationPointCloud::Create();
   observation->sensorLabel = kLidarLabel;
-  observation->timestamp = toMrptTime(deliveredStamp(fired, settings) + format.stampShift());
+  observation->timestamp =
+      toMrptTime(deliveredStamp(fired, settings) + stampShiftOf(settings.lidar));
   observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
-  observation->pointcloud = format.encode(pointsOf(fired), deliveredStamp(fired, settings));
+  observation->pointcloud =
+      encodeCloud(pointsOf(fired), deliveredStamp(fired, settings), settings.lidar);
   return observation;
 }
 }  // namespace
