@@ -64,9 +64,9 @@ CSerializable::Ptr readObjectHere(ObjectStream& stream)
   }
 }
 
-CSerializable::Ptr readArchivedObject(const std::string& path, std::size_t largest)
+CSerializable::Ptr readArchivedObject(const std::string& path)
 {
-  ObjectStream stream(path, largest);
+  ObjectStream stream(path);
   return readObjectHere(stream);
 }
 

@@ -13,8 +13,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kHour = 3'600'000'000'000;  // after which Velodyne's clock begins again [ns]
-constexpr std::size_t kMostClocks = 64;            // senders; more are not stamped by their clocks
+constexpr std::size_t kMostClocks = 64;  // senders; more are not stamped by their clocks
 constexpr std::size_t kSampleNumbers = 6;
 constexpr std::string_view kBetween = " \t,;\r";
 
@@ -61,9 +60,8 @@ void LiveSensors::take(UdpPacket packet, ObservationQueue& out)
   }
   const bool known = clocks_.count(packet.source) > 0 || clocks_.size() < kMostClocks;
   if (known && isVelodynePacket(packet))
-    packet.stamp_ns = clocks_.try_emplace(packet.source, kHour)
-                          .first->second.stampOf(
-                              1000 * std::int64_t{velodyneTimeOf(packet.data)}, packet.stamp_ns);
+    packet.stamp_ns = clocks_[packet.source].stampOf(
+        1000 * std::int64_t{velodyneTimeOf(packet.data)}, packet.stamp_ns);
   streams_.take(packet, out);
 }
 

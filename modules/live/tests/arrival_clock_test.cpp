@@ -45,7 +45,7 @@ TEST(ArrivalClock, FollowsAClockThatDrifts)
 
 TEST(ArrivalClock, TheSensorsClockBeginsAgainEachHour)
 {
-  ArrivalClock clock(kHour);
+  ArrivalClock clock;
   for (std::int64_t t = 0; t < 3 * kSecond; t += kPeriod)
   {
     const std::int64_t stamp = clock.stampOf((kHour - kSecond + t) % kHour, kStart + t);
@@ -55,7 +55,7 @@ TEST(ArrivalClock, TheSensorsClockBeginsAgainEachHour)
 
 TEST(ArrivalClock, ASensorThatStartsAgainGetsANewOffset)
 {
-  ArrivalClock clock(kHour);
+  ArrivalClock clock;
   (void)clock.stampOf(1000 * kSecond, kStart);
   (void)clock.stampOf(1001 * kSecond, kStart + kSecond);
   EXPECT_EQ(clock.stampOf(kSecond / 2, kStart + 20 * kSecond), kStart + 20 * kSecond);

@@ -14,6 +14,10 @@ namespace
 // Lines of different LiDARs are different lines; no sensor has as many.
 constexpr std::uint16_t kRingsPerLidar = 256;
 
+// Scans of the first LiDAR wait so long beyond their end: drivers stamp scans at their start or at
+// their end.
+constexpr std::int64_t kWaitNs = 200'000'000;
+
 // Without scans of the first LiDAR the others must not pile up.
 constexpr std::size_t kMostWaiting = 200;
 
@@ -39,7 +43,7 @@ void ScanMerger::add(std::size_t lidar, LidarScan scan)
 
 std::optional<LidarScan> ScanMerger::next(std::int64_t now_ns)
 {
-  if (first_.empty() || spanOf(first_.front()).end_ns + wait_ns_ > now_ns) return std::nullopt;
+  if (first_.empty() || spanOf(first_.front()).end_ns + kWaitNs > now_ns) return std::nullopt;
   return flush();
 }
 

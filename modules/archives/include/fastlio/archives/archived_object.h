@@ -8,7 +8,6 @@
 
 #include <mrpt/serialization/CSerializable.h>
 
-#include <cstddef>
 #include <string>
 
 namespace fastlio
@@ -18,8 +17,7 @@ namespace fastlio
  * sentence goes on behind "the file" */
 [[nodiscard]] mrpt::serialization::CSerializable::Ptr readObjectHere(ObjectStream& stream);
 
-/** The first object of a file of MRPT, gzip or not, of up to \a largest bytes. */
-[[nodiscard]] mrpt::serialization::CSerializable::Ptr readArchivedObject(
-    const std::string& path, std::size_t largest = kLargestObject);
+/** The first object of a file of MRPT, gzip or not, of up to kLargestObject bytes. */
+[[nodiscard]] mrpt::serialization::CSerializable::Ptr readArchivedObject(const std::string& path);
 
 }  // namespace fastlio

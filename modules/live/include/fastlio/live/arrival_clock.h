@@ -9,15 +9,14 @@
 
 namespace fastlio
 {
-/** Packets come late by a varying time, and never early. So the least delay so far gives the offset
+/** Of a clock that begins again at zero each hour, as Velodyne's does.
+ *
+ * Packets come late by a varying time, and never early. So the least delay so far gives the offset
  * between both clocks, up to the time that a packet needs at least. Clocks drift apart by less than
  * 100 ppm: the least delay is allowed to grow by that. */
 class ArrivalClock
 {
  public:
-  /** \param wraps_after_ns the sensor's clock begins again at zero after so long; 0: never */
-  explicit ArrivalClock(std::int64_t wraps_after_ns = 0) : wraps_after_ns_(wraps_after_ns) {}
-
   /** When this machine's clock showed it. A sensor that starts again, or whose clock jumps by more
    * than a second, starts a new offset.
    * \param sensor_ns of the sensor's clock; times of a sensor grow from call to call
@@ -25,7 +24,6 @@ class ArrivalClock
   [[nodiscard]] std::int64_t stampOf(std::int64_t sensor_ns, std::int64_t arrival_ns);
 
  private:
-  std::int64_t wraps_after_ns_;
   std::int64_t wrapped_ns_ = 0;          // whole turns of the sensor's clock
   std::optional<std::int64_t> last_ns_;  // of the sensor's clock, without the turns
   std::int64_t offset_ns_ = 0;           // this machine's clock less the sensor's

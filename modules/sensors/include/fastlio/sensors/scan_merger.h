@@ -20,12 +20,6 @@ namespace fastlio
 class ScanMerger
 {
  public:
-  /** Scans of the first LiDAR wait so long beyond their end: drivers stamp scans at their start or
-   * at their end. */
-  static constexpr std::int64_t kDefaultWaitNs = 200'000'000;
-
-  explicit ScanMerger(std::int64_t wait_ns = kDefaultWaitNs) : wait_ns_(wait_ns) {}
-
   /** \param lidar 0 is the first */
   void add(std::size_t lidar, LidarScan scan);
 
@@ -50,7 +44,6 @@ class ScanMerger
 
   void join(LidarScan& first, const ScanSpan& window, Further& further);
 
-  std::int64_t wait_ns_;
   std::deque<LidarScan> first_;
   std::deque<Further> further_;  // what has not been taken yet
   std::size_t left_out_ = 0;
