@@ -123,9 +123,7 @@ std::optional<LivoxPacket> livoxPacketOf(const UdpPacket& packet)
 {
   auto result = firstGeneration(packet);
   if (!result) result = secondGeneration(packet);
-  // Clocks that have just begun are fine; a time that no clock gives is in no packet of a Livox.
-  const bool sane = result && result->stamp_ns >= 0 && result->stamp_ns < kLatestStamp;
-  return sane ? result : std::nullopt;
+  return result && isStamp(result->stamp_ns) ? result : std::nullopt;
 }
 
 CapturedPoint spherical(

@@ -6,7 +6,6 @@
 #include "packet_numbers.h"
 #include <fastlio/math/angles.h>
 #include <fastlio/math/gravity.h>
-#include <fastlio/math/time.h>
 #include <fastlio/packets/ouster_sensor.h>
 #include <fastlio/recordings/sensor_imu.h>
 #include <fastlio/sensors/conversions.h>
@@ -23,12 +22,6 @@ constexpr std::size_t kPacketHead = 32, kColumnHead = 12;
 Vec3 vectorAt(const std::uint8_t* bytes)
 {
   return {littleAt<float>(bytes), littleAt<float>(bytes + 4), littleAt<float>(bytes + 8)};
-}
-
-/** Clocks that have just begun are fine; others are damage. */
-bool isSane(std::int64_t stamp_ns)
-{
-  return stamp_ns >= 0 && stamp_ns < kLatestStamp;
 }
 }  // namespace
 
@@ -76,7 +69,7 @@ void OusterSensor::addSample(
     ObservationQueue& out) const
 {
   const auto stamp_ns = static_cast<std::int64_t>(littleAt<std::uint64_t>(stamp));
-  if (!isSane(stamp_ns)) return;
+  if (!isStamp(stamp_ns)) return;
   auto imu = makeImu(label_ + "_imu", stamp_ns, rate, acceleration);
   imu->setSensorPose(toMrptPose(metadata_.T_sensor_imu));
   out.push_back(imu);
@@ -97,7 +90,8 @@ OusterSensor::Column OusterSensor::columnAt(const std::uint8_t* packet, std::siz
   column.valid = metadata_.isLegacy()
                      ? littleAt<std::uint32_t>(column.pixels + pixels) == kLegacyValid
                      : (littleAt<std::uint16_t>(at + kStatus) & 1U) != 0;
-  column.valid = column.valid && column.id < metadata_.columns_per_frame && isSane(column.stamp_ns);
+  column.valid =
+      column.valid && column.id < metadata_.columns_per_frame && isStamp(column.stamp_ns);
   return column;
 }
 

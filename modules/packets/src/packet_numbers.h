@@ -4,6 +4,8 @@
 /** \file packet_numbers.h Numbers at a place in a packet, whose size was checked before. */
 #pragma once
 
+#include <fastlio/math/time.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -36,6 +38,12 @@ template <typename T>
 [[nodiscard]] inline std::uint16_t big16At(const std::uint8_t* bytes)
 {
   return static_cast<std::uint16_t>(bigAt(bytes, 2));
+}
+
+/** Clocks that have just begun are fine; others are damage. */
+[[nodiscard]] inline bool isStamp(std::int64_t stamp_ns)
+{
+  return stamp_ns >= 0 && stamp_ns < kLatestStamp;
 }
 
 /** Month, day, hour, minute, second as one byte each. \return seconds since 1970 */

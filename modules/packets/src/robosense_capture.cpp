@@ -118,7 +118,7 @@ class RoboSenseSensor : public PacketSensor
     const std::uint8_t* stamp = packet.data + kStampAt;
     const std::int64_t stamp_ns = layout_->stamp_is_date ? fromDate(stamp) : fromSeconds(stamp);
     if (kRoboSenseHead + layout_->blocks * layout_->blockBytes() > packet.size) return;
-    if (stamp_ns < 0 || stamp_ns >= kLatestStamp) return;
+    if (!isStamp(stamp_ns)) return;
     findTurns(packet);
     for (std::size_t b = 0; b < layout_->blocks; ++b)
       takeBlock(packet, b, stamp_ns, out);
@@ -188,7 +188,7 @@ class RoboSenseSensor : public PacketSensor
     constexpr std::size_t kNumber = 4, kStamp = 10, kBlocks = 32, kBlockBytes = 47, kPoints = 5;
     constexpr double kAngle = 1e-2 * kRadPerDeg, kZero = 32'768, kRange = 5e-3;
     const std::int64_t stamp_ns = fromSeconds(packet.data + kStamp);
-    if (stamp_ns < 0 || stamp_ns >= kLatestStamp) return;
+    if (!isStamp(stamp_ns)) return;
     const int number = big16At(packet.data + kNumber);  // counts from 1 in each scan
     scan_.beginBlock(stamp_ns, number < number_, out);
     number_ = number;
@@ -217,7 +217,7 @@ class RoboSenseSensor : public PacketSensor
     constexpr double kFull = 32'768, kRateScale = 250;
     const std::int64_t stamp_ns = fromSeconds(packet.data + kStamp);
     const unsigned scale = packet.data[kScales], rate_scale = packet.data[kScales + 1];
-    if (stamp_ns < 0 || stamp_ns >= kLatestStamp || scale > 3 || rate_scale > 3) return;
+    if (!isStamp(stamp_ns) || scale > 3 || rate_scale > 3) return;
     const auto vectorAt = [&](std::size_t at, double unit)
     {
       const auto value = [&](std::size_t i)
