@@ -7,8 +7,8 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
-#include <fastlio/formats/recording_formats.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/rawlog/recording_formats.h>
 
 #include <algorithm>
 #include <array>

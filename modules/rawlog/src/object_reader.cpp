@@ -6,7 +6,7 @@
 #include <fastlio/archives/rotating_scan_stream.h>
 #include <fastlio/archives/size_check.h>
 #include <fastlio/compat/mrpt_messages.h>
-#include <fastlio/formats/recording_formats.h>
+#include <fastlio/rawlog/recording_formats.h>
 
 #include <mrpt/obs/CAction.h>
 #include <mrpt/obs/CActionCollection.h>
