@@ -10,6 +10,7 @@
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/realistic.h>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,6 +102,13 @@ std::vector<StrangeInput> strangeImus()
         if (kept.stamp_ns == 0) kept = s;
         s.gyro = kept.gyro, s.accel = kept.accel;
       });
+  imu("two IMUs in turn, one turned by 90 deg", kForever,
+      [n = 0](ImuSample& s) mutable
+      {
+        if (++n % 2 == 0) return;
+        s.gyro = Vec3(-s.gyro.y(), s.gyro.x(), s.gyro.z());
+        s.accel = Vec3(-s.accel.y(), s.accel.x(), s.accel.z());
+      });
   return all;
 }
 
@@ -140,6 +148,14 @@ std::vector<StrangeInput> strangeScans()
         return true;
       });
   scan(
+      "points in a plane", kForever,
+      [](LidarScan& s)
+      {
+        for (float& z : s.points.z)
+          z = -1.0F;
+        return true;
+      });
+  scan(
       "mirrored points", kForever,
       [](LidarScan& s)
       {
@@ -174,6 +190,20 @@ AlteredInputs from(const StrangeInput& strange, std::int64_t begin_ns)
   return inputs;
 }
 
+/** The least variance of a pose along any direction, in units of the largest: of all scans. */
+double leastVariance(const SimulatedRun& run)
+{
+  double least = 1.0;
+  for (const JudgedScan& scan : run.scans)
+  {
+    using Pose6 = Eigen::Matrix<double, 6, 6>;
+    const Pose6 P = scan.result.filter.P.topLeftCorner<6, 6>();
+    const auto variances = Eigen::SelfAdjointEigenSolver<Pose6>(P).eigenvalues().eval();
+    least = std::min(least, variances[0] / variances[5]);
+  }
+  return least;
+}
+
 /** Sensors as exact as their options, or as imperfect as their datasheets. */
 class StrangeInputs : public ::testing::TestWithParam<bool>
 {
@@ -201,6 +231,7 @@ TEST_P(StrangeInputs, EndRightOrAreReported)
     AlteredInputs inputs = from(all[i], settings.start_ns + toNanoseconds(10.0));
     inputs.cast = &scans;
     const SimulatedRun run = runOdometryWith(inputs, simulation, options);
+    EXPECT_GE(leastVariance(run), -1e-12) << all[i].name;
     const bool ok = endsOk(run);
     std::printf(
         "%-28s %s, error at the end %.3f m, standard deviation %.3f m\n", all[i].name.c_str(),

@@ -5,6 +5,9 @@
 
 #include "estimator.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
 
 namespace fastlio
@@ -37,6 +40,20 @@ LinearizedUpdate linearized(
   update.gain = match.update.gain;
   update.covariance = match.update.posterior.P;
   return update;
+}
+
+/** The error of the map comes without what the filter has counted of it as noise. Where scans
+ * contradict the filter, that may be more than the filter holds: then nothing is taken off. */
+StateMatrix withoutNegativePart(StateMatrix systematic, const StateMatrix& P)
+{
+  using Navigation = Eigen::Matrix<double, kNavigationDim, kNavigationDim>;
+  auto block = systematic.topLeftCorner<kNavigationDim, kNavigationDim>();
+  const Navigation sum = block + P.topLeftCorner<kNavigationDim, kNavigationDim>();
+  if (Eigen::LDLT<Navigation>(sum).isPositive()) return systematic;
+  const Eigen::SelfAdjointEigenSolver<Navigation> solver(Navigation{block});
+  block = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).asDiagonal() *
+          solver.eigenvectors().transpose();
+  return systematic;
 }
 
 CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamErrors& beams)
@@ -140,6 +157,7 @@ void Estimator::report(ScanResult& result) const
   StateMatrix systematic = calibration.innovation_scale * map_.error().addition() + by_calibration;
   const Matrix6 unambiguous = systematic.topLeftCorner<6, 6>();
   ambiguity_.addTo(state_.filter.x, result.filter.P, systematic);
+  systematic = withoutNegativePart(systematic, result.filter.P);
   result.filter.P += systematic;
   result.map_covariance = systematic.topLeftCorner<6, 6>();
   result.ambiguity_covariance = result.map_covariance - unambiguous;
@@ -185,7 +203,7 @@ StateMatrix Estimator::systematicCovariance(const Prediction& prediction) const
       calibration.innovation_scale * map_.error().additionAfter(prediction.transition) +
       map_.calibrationError().additionAfter(prediction.transition, calibration.second_moment);
   ambiguity_.addTo(prediction.state.x, prediction.state.P, systematic);
-  return systematic;
+  return withoutNegativePart(systematic, prediction.state.P);
 }
 
 }  // namespace fastlio
