@@ -186,13 +186,23 @@ TEST(OutageOfTheLidar, OfFiveSecondsIsFoundAgainWhereTheMapIsSeen)
 
 // Meanwhile the platform has entered another room: what the scans see is not in the map. The
 // inertial data have the pose to 0.2 m; a new start, in motion and from nothing, ended 40 m off.
-TEST(OutageOfTheLidar, OfThreeSecondsMayEndInARoomThatIsNew)
+TEST(OutageOfTheLidar, OfFiveSecondsMayEndInARoomThatIsNew)
 {
-  const SimulatedRun run = runWithOutage(castWalk("office"), {10.0, 3.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(castWalk("office"), {10.0, 5.0}, Missing::Scans);
   EXPECT_EQ(confidentlyWrong(run), 0);
+  EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 2U);
   EXPECT_EQ(run.scans.back().result.status, ScanStatus::Tracking);
   EXPECT_LT(positionError(run, run.scans.back()), 0.5);
   EXPECT_FALSE(endsOk(run));
+}
+
+// Through the door a part of the old room is in view. The prediction was right to centimetres, but
+// wide gates pulled it away.
+TEST(OutageOfTheLidar, OfThreeSecondsIsFoundAgainWhereLittleOfTheMapIsSeen)
+{
+  const SimulatedRun run = runWithOutage(castWalk("office"), {10.0, 3.0}, Missing::Scans);
+  EXPECT_EQ(countOf(run, ScanStatus::FirstScan), 1U);
+  EXPECT_LT(positionError(run, run.scans.back()), 0.03);
 }
 
 // A stairwell looks the same on every floor, and the floor where the platform is has not been seen
@@ -215,9 +225,8 @@ TEST(OutageOfTheLidar, APlaceThatLooksTheSameIsInTheCovariance)
 {
   SimulationSettings settings = walk("stairs");
   settings.lidar.stride = 4;
-  settings.duration = 20.0;
   const CastWalk stairs(realistic(settings));
-  const SimulatedRun run = runWithOutage(stairs, {10.0, 5.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(stairs, {10.0, 6.0}, Missing::Scans);
   EXPECT_GT(positionError(run, run.scans.back()), 1.0) << "the right floor was found";
   EXPECT_FALSE(endsOk(run));
   EXPECT_EQ(confidentlyWrong(run), 0);

@@ -8,6 +8,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <cmath>
 #include <utility>
 
 namespace fastlio
@@ -29,10 +30,22 @@ constexpr double kFewestInliers = 0.05;
 // much of them matches, it is the same place.
 constexpr double kEnoughInliers = 0.5;
 constexpr double kShearedInnovation = 20.0;
-// The velocity of the prediction may be off by metres per second: from wide to narrow.
+constexpr double kMostSigmas = 4.0;  // of the measured velocity, from the predicted one
+// The velocity of the prediction may be off by metres per second: from wide to narrow. A start that
+// is wider than three standard deviations would only be pulled away.
 constexpr double kStartStds[] = {0.3, 0.1, 0.05};  // [m]
-constexpr double kTurnStd = 0.01;                  // the gyro knows how the scans are turned [rad]
+constexpr double kWidestStart = 3.0;
+constexpr double kTurnStd = 0.01;  // the gyro knows how the scans are turned [rad]
 constexpr int kIterations = 5;
+
+/** Scans that match at a wrong place contradict the prediction. */
+bool isPossible(const VelocityError& error, const FilterState& predicted)
+{
+  Eigen::Matrix3d S = predicted.P.block<3, 3>(kVelocity, kVelocity);
+  S += error.covariance;
+  const Eigen::Vector3d mean = error.mean;
+  return mean.dot(S.llt().solve(mean)) < kMostSigmas * kMostSigmas;
+}
 
 bool matchesWell(const MatchResult& match, std::size_t points)
 {
@@ -87,7 +100,8 @@ FilterState OutageSearch::withVelocity(
     insert(scan, predicted.x);
   else
     measure(scan, predicted, seconds, matcher);
-  known_ = measured_ >= kFewestMeasurements && seconds >= kMeasuringTime;
+  known_ = measured_ >= kFewestMeasurements && seconds >= kMeasuringTime &&
+           isPossible(error_, predicted);
   return known_ ? correctedByVelocity(predicted, error_) : predicted;
 }
 
@@ -99,8 +113,12 @@ void OutageSearch::measure(
   Pose at = predicted.x.pose();
   at.p += seconds * error_.mean;
   MatchResult match;
+  const Mat3 velocity =
+      measured_ > 0 ? error_.covariance : Mat3(predicted.P.block<3, 3>(kVelocity, kVelocity));
+  const double expected = kMatchStd + seconds * std::sqrt(velocity.diagonal().maxCoeff());
   for (const double std : kStartStds)
   {
+    if (std > kWidestStart * expected) continue;
     match = matcher.match(scan, startAt(predicted, at, {std, kTurnStd}), scans_.matched(), options);
     if (!match.update.updated) return;
     at = match.update.posterior.x.pose();

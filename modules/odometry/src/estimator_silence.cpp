@@ -77,7 +77,7 @@ MapSearchResult Estimator::searchAfterOutage(const Work& work, std::int64_t end_
     const FilterState from = beginNewMap(scan, state);
     if (map_.empty()) result = search.postponed(from);
   }
-  tracking.lost = over && !result.found && !map_.empty();
+  tracking.lost = over && !result.found && tiltStd(state) >= kKnownTilt;
   tracking.searching = !result.found && !map_.empty();
   result.after_outage = true;
   if (over) tracking.outage.reset();
