@@ -111,4 +111,13 @@ TEST(SilentSensors, TheMapIsFoundAgainAfterALoss)
   EXPECT_FALSE(saysClockStep(runWithLoss(realisticOffice(), 9.0, 0.45)));
 }
 
+// A run that had started anew in motion did not look for planes as far as its prediction was
+// uncertain, for good: the ground left the gate, and the run rose by 103 m.
+TEST(SilentSensors, ARunThatStartsAnewKeepsTheGround)
+{
+  const SimulatedRun run = runWithStep(realisticOffice(), 15.5, 0.45);
+  EXPECT_EQ(confidentlyWrong(run), 0);
+  EXPECT_LT(positionError(run, run.scans.back()), 2.0);
+}
+
 }  // namespace fastlio::testing

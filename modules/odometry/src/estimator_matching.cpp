@@ -101,7 +101,8 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
-    const bool starting = tracking.run.motion_window.has_value(), open = hasOpenDirection(match);
+    const std::optional<MotionWindow>& window = tracking.run.motion_window;
+    const bool starting = window && end_ns <= window->end_ns, open = hasOpenDirection(match);
     const bool uncertain = !starting && needsPullIn(predicted, open);
     if (uncertain)
       match = pullIn(work, end_ns);
