@@ -12,11 +12,13 @@ namespace fastlio
 {
 namespace
 {
-/** How long both sensors were silent between a state and a scan; 0: they were not. */
+/** How long both sensors were silent between a state and a scan; 0: they were not. A clock that is
+ * set takes the same time from both, while a LiDAR may rest between two scans. */
 std::int64_t silenceBefore(std::int64_t begin_ns, std::int64_t from_ns, const ImuBuffer& imu)
 {
   if (rotationStdInGaps(imu.inflations(), from_ns, begin_ns) == 0.0) return 0;
-  return std::min(begin_ns - from_ns, imu.longestGap(from_ns, begin_ns));
+  const std::int64_t lidar_ns = begin_ns - from_ns, imu_ns = imu.longestGap(from_ns, begin_ns);
+  return 2 * lidar_ns > imu_ns ? std::min(lidar_ns, imu_ns) : 0;
 }
 }  // namespace
 
