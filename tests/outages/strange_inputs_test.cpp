@@ -72,6 +72,13 @@ bool reversedTimes(LidarScan& scan)
   return true;
 }
 
+bool pointsInAPlane(LidarScan& scan)
+{
+  for (float& z : scan.points.z)
+    z = -1.0F;
+  return true;
+}
+
 constexpr double kForever = 1e3;  // [s]
 
 std::vector<StrangeInput> strangeImus()
@@ -147,14 +154,7 @@ std::vector<StrangeInput> strangeScans()
         s.points = kept;
         return true;
       });
-  scan(
-      "points in a plane", kForever,
-      [](LidarScan& s)
-      {
-        for (float& z : s.points.z)
-          z = -1.0F;
-        return true;
-      });
+  scan("points in a plane", kForever, pointsInAPlane);
   scan(
       "mirrored points", kForever,
       [](LidarScan& s)
