@@ -26,8 +26,8 @@ using mrpt::obs::CObservation;
 
 // The meaning of point times shows from several scans that have points.
 constexpr std::size_t kFewestScans = 5;
-// A LiDAR may begin with empty scans (its motor starts, a cover is on it). A minute of them at 10 Hz
-// is waited for, so that a LiDAR that never has points is told in time.
+// A LiDAR may begin with empty scans (its motor starts, a cover is on it). A minute of them at 10
+// Hz is waited for, so that a LiDAR that never has points is told in time.
 constexpr std::size_t kMostEmptyScans = 600;
 
 // The facts of one observation about its sensor.
