@@ -8,7 +8,6 @@
 
 #include "repeats.h"
 #include "walks.h"
-#include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/realistic.h>
 
@@ -19,7 +18,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>

@@ -147,8 +147,8 @@ void RunDiagnostics::considerClockStep(const ScanResult& result)
       result.stamp_ns,
       mrpt::format(
           "the clock that stamps both sensors was set ahead by %.2f s before this scan: no motion "
-          "is "
-          "counted for that time. Keep clocks from stepping during a recording (NTP and PTP may)",
+          "is counted for that time. Keep clocks from stepping during a recording (NTP and PTP "
+          "may)",
           result.statistics.clock_step));
 }
 

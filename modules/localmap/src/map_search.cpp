@@ -35,7 +35,7 @@ constexpr double kWrongPoseInnovation = 10.0;
 /** Standard deviation of the attitude about gravity [rad]. */
 double headingStd(const FilterState& s)
 {
-  const Vec3 down = s.x.R.transpose() * s.x.g.normalized();
+  const Vec3 down = s.x.down();
   const Mat3 P = s.P.block<3, 3>(kAttitude, kAttitude);
   return std::sqrt(std::max(0.0, down.dot(P * down)));
 }

@@ -4,6 +4,7 @@
 #include <fastlio/localmap/outage_search.h>
 #include <fastlio/matching/match_evidence.h>
 #include <fastlio/matching/pose_search.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/time.h>
 
 #include <Eigen/Cholesky>
@@ -41,10 +42,8 @@ constexpr int kIterations = 5;
 /** Scans that match at a wrong place contradict the prediction. */
 bool isPossible(const VelocityError& error, const FilterState& predicted)
 {
-  Eigen::Matrix3d S = predicted.P.block<3, 3>(kVelocity, kVelocity);
-  S += error.covariance;
-  const Eigen::Vector3d mean = error.mean;
-  return mean.dot(S.llt().solve(mean)) < kMostSigmas * kMostSigmas;
+  const Mat3 S = predicted.P.block<3, 3>(kVelocity, kVelocity) + error.covariance;
+  return squaredMahalanobis(error.mean, S) < kMostSigmas * kMostSigmas;
 }
 
 bool matchesWell(const MatchResult& match, std::size_t points)

@@ -50,7 +50,7 @@ void PlaceAmbiguity::addOpenDirection(const Vec3& axis, const Mat3& position)
 
 void PlaceAmbiguity::addTo(const NavState& x, const StateMatrix& P, StateMatrix& systematic) const
 {
-  const Vec3 down = x.R.transpose() * x.g.normalized();
+  const Vec3 down = x.down();
   systematic.block<3, 3>(kAttitude, kAttitude) += heading_ * down * down.transpose();
   Mat3 position = systematic.block<3, 3>(kPosition, kPosition) + position_;
   if (!lost_.isZero(0.0))

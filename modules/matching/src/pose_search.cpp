@@ -3,8 +3,7 @@
 
 #include <fastlio/matching/match_evidence.h>
 #include <fastlio/matching/pose_search.h>
-
-#include <Eigen/Cholesky>
+#include <fastlio/math/linear_algebra.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +27,11 @@ constexpr int kSampleIterations = 4, kScanIterations = 5;
 constexpr std::size_t kRefined = 8;
 constexpr double kSamePlace = 0.3;     // [m]
 constexpr double kSameAttitude = 0.1;  // [rad]
+// A start is as uncertain in attitude as the prediction, between what a search finds and what a
+// match pulls in.
+constexpr double kLeastAttitudeStd = 0.01, kWideAttitudeStd = 0.1;  // [rad]
 // The whole scan pulls a candidate in from wide to narrow: the gates of a wide one let in planes
 // that do not belong to its points.
-constexpr double kLeastAttitudeStd = 0.01, kWideAttitudeStd = 0.1;  // [rad]
 constexpr StartWidth kPullIn{0.3, kWideAttitudeStd}, kNear{0.1, 0.03}, kFound{0.05, 0.01},
     kExact{0.02, 0.003};
 // Gates this narrow hide residuals, and so does a wrong place: there, a rival may be as good as
@@ -135,9 +136,8 @@ bool isExcluded(const PoseCandidate& place, const FilterState& predicted)
   const Mat3 P = predicted.P.block<3, 3>(kPosition, kPosition);
   if (!P.allFinite()) return false;
   const Vec3 offset = place.T_world_imu.p - predicted.x.p;
-  const Eigen::Matrix3d S = P + kPlaceStd * kPlaceStd * Mat3::Identity();
-  const Vec3 weighted = S.llt().solve(Eigen::Vector3d(offset)).eval();
-  return offset.dot(weighted) > kSearchSigmas * kSearchSigmas;
+  const Mat3 S = P + kPlaceStd * kPlaceStd * Mat3::Identity();
+  return squaredMahalanobis(offset, S) > kSearchSigmas * kSearchSigmas;
 }
 
 /** The best place that the prediction allows, and whether that is the one.

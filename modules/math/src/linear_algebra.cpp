@@ -47,6 +47,13 @@ Vector6 solveSymmetric(const Matrix6& m, const Vector6& b)
   return m.ldlt().solve(b);
 }
 
+double squaredMahalanobis(const Vec3& offset, const Mat3& covariance)
+{
+  const Eigen::Matrix3d S = covariance;
+  const Vec3 weighted = S.llt().solve(Eigen::Vector3d(offset)).eval();
+  return offset.dot(weighted);
+}
+
 Matrix6 withPositionTurned(const Mat3& R, const Matrix6& covariance)
 {
   Matrix6 J = Matrix6::Identity();

@@ -55,6 +55,13 @@ TEST(LinearAlgebra, ThePositivePartLeavesOutWhatIsNegative)
   EXPECT_LT((positive * negative).norm(), 1e-9);
 }
 
+TEST(LinearAlgebra, DistancesCountInStandardDeviations)
+{
+  const Mat3 turn = expSO3({0.3, -0.2, 0.9});
+  const Mat3 covariance = turn * Vec3(0.04, 0.25, 9.0).asDiagonal() * turn.transpose();
+  EXPECT_NEAR(squaredMahalanobis(turn * Vec3(0.4, 0.5, 0.0), covariance), 5.0, 1e-12);
+}
+
 TEST(LinearAlgebra, SolvesSymmetricSystems)
 {
   const Matrix6 m = symmetricMatrix();

@@ -26,7 +26,7 @@ constexpr double kKnownTilt = 0.03;
 
 double tiltStd(const FilterState& state)
 {
-  const Vec3 down = state.x.R.transpose() * state.x.g.normalized();
+  const Vec3 down = state.x.down();
   const Mat3 P = state.P.block<3, 3>(kAttitude, kAttitude);
   return std::sqrt(std::max(0.0, P.trace() - down.dot(P * down)));
 }

@@ -23,19 +23,18 @@ std::int64_t silenceBefore(std::int64_t begin_ns, std::int64_t from_ns, const Im
 }  // namespace
 
 Prediction ScanPredictor::fromTo(
-    const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu) const
+    const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu)
 {
-  std::vector<ImuSample> inputs;
-  imu.inputsBetween(begin_ns, end_ns, imu_.hold, inputs);
+  imu.inputsBetween(begin_ns, end_ns, imu_.hold, aside_);
   return propagateThrough(
-      from, inputs, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
+      from, aside_, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
       [](std::int64_t, const Prediction&) {});
 }
 
 /** All the motion that bridges a silence has not been if the clock was set: that is one more error
  * of unknown size. */
 FilterState ScanPredictor::admitClockStep(
-    const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu) const
+    const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu)
 {
   FilterState admitted = from.filter;
   if (silent_ns == 0) return admitted;
@@ -49,7 +48,7 @@ FilterState ScanPredictor::admitClockStep(
 
 ScanPrediction ScanPredictor::afterClockStep(
     const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
-    const ScanPrediction& with_silence) const
+    const ScanPrediction& with_silence)
 {
   ScanPrediction stepped = with_silence;
   const Prediction p = fromTo(from.filter, from.stamp_ns + with_silence.silent_ns, end_ns, imu);
@@ -98,10 +97,7 @@ std::optional<ImuRateState> ScanPredictor::predictNewest(
 {
   const std::int64_t stamp_ns = imu.newestStamp();
   if (stamp_ns <= from.stamp_ns) return std::nullopt;
-  imu.inputsBetween(from.stamp_ns, stamp_ns, imu_.hold, inputs_);
-  const Prediction p = propagateThrough(
-      from.filter, inputs_, stamp_ns, noise_.atLeast(imu_.noise), imu.inflations(),
-      [](std::int64_t, const Prediction&) {});
+  const Prediction p = fromTo(from.filter, from.stamp_ns, stamp_ns, imu);
   if (!isFinite(p.state.x) || !p.state.P.allFinite()) return std::nullopt;
   return imuRateState(stamp_ns, p.state, systematic(p), imu);
 }

@@ -62,7 +62,7 @@ class ScanPredictor
   /** The same if no time has passed in the silence. \param with_silence what predict() gave */
   [[nodiscard]] ScanPrediction afterClockStep(
       const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
-      const ScanPrediction& with_silence) const;
+      const ScanPrediction& with_silence);
 
   /** To the newest inertial sample; nothing when the state is newer. */
   [[nodiscard]] std::optional<ImuRateState> predictNewest(
@@ -76,15 +76,15 @@ class ScanPredictor
 
  private:
   [[nodiscard]] Prediction fromTo(
-      const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns,
-      const ImuBuffer& imu) const;
+      const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu);
   [[nodiscard]] FilterState admitClockStep(
-      const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu) const;
+      const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu);
 
   ImuOptions imu_;
   bool imu_rate_wanted_;
   NoiseMeasurement noise_;
   std::vector<ImuSample> inputs_;
+  std::vector<ImuSample> aside_;  // of fromTo()
   std::vector<ImuRateState> imu_rate_;
 };
 

@@ -51,6 +51,8 @@ struct NavState
   double time_offset = 0.0;        //!< tau, added to the stamps of the LiDAR [s]
 
   [[nodiscard]] Pose pose() const { return {R, p}; }
+  /** Direction of gravity in the IMU frame. */
+  [[nodiscard]] Vec3 down() const { return R.transpose() * g.normalized(); }
 };
 
 /** x [+] dx: rotations R Exp(dtheta), plain sums for the rest. */

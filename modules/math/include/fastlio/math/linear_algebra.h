@@ -37,6 +37,9 @@ struct Eigensystem6
 /** x with m x = b for a symmetric positive semi-definite m. */
 [[nodiscard]] Vector6 solveSymmetric(const Matrix6& m, const Vector6& b);
 
+/** offset^T covariance^-1 offset. */
+[[nodiscard]] double squaredMahalanobis(const Vec3& offset, const Mat3& covariance);
+
 /** The covariance of a pose (attitude in its own frame, position in the world) in a world that R
  * turns: the attitude does not see that, the position turns. */
 [[nodiscard]] Matrix6 withPositionTurned(const Mat3& R, const Matrix6& covariance);
