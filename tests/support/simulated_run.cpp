@@ -85,21 +85,16 @@ SimulatedRun runOdometryWith(
 }
 
 SimulatedRun runOdometryFrom(
-    double begin, const Simulation& simulation, const OdometryOptions& parameters)
+    double begin, const Simulation& simulation, const OdometryOptions& parameters,
+    const AlteredInputs& altered)
 {
-  SimulatedRun run;
-  run.gravity = {0.0, 0.0, -simulation.settings().gravity};
   const std::int64_t begin_ns = simulation.settings().start_ns + toNanoseconds(begin);
-  Odometry odometry(parameters);
-  for (const ImuSample& sample : simulation.imu().samples)
-    if (sample.stamp_ns >= begin_ns) odometry.addImu(sample);
-  for (std::size_t i = 0; i < simulation.scanCount(); ++i)
-  {
-    LidarScan scan = simulation.scan(i);
-    if (spanOf(scan).begin_ns < begin_ns) continue;
-    odometry.addScan(std::move(scan));
-    drain(odometry, simulation, {}, run);
-  }
+  AlteredInputs inputs = altered;
+  inputs.imu = [&](ImuSample& sample)
+  { return sample.stamp_ns >= begin_ns && altered.imu(sample); };
+  inputs.scan = [&](LidarScan& scan)
+  { return spanOf(scan).begin_ns >= begin_ns && altered.scan(scan); };
+  SimulatedRun run = runOdometryWith(inputs, simulation, parameters);
   for (const JudgedScan& scan : run.scans)
   {
     if (scan.result.status != ScanStatus::Tracking) continue;

@@ -64,7 +64,8 @@ struct AlteredInputs
  * be in motion. The filter's world is fixed by the true pose at the end of the first scan with a
  * pose, which is where a start in motion fixes it. */
 [[nodiscard]] SimulatedRun runOdometryFrom(
-    double begin, const Simulation& simulation, const OdometryOptions& parameters);
+    double begin, const Simulation& simulation, const OdometryOptions& parameters,
+    const AlteredInputs& altered = {});
 
 /** The same with the parameters that match the simulated sensors, on one thread. */
 [[nodiscard]] SimulatedRun runOdometry(const SimulationSettings& settings);

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <cstdint>
 
 namespace fastlio
 {
@@ -21,6 +22,9 @@ constexpr double kFirstMapAttitudeStd = 0.01;  // [rad]
 // ... and the poses of the scans that join it in the window.
 constexpr double kWindowMapPositionStd = 0.02;    // [m]
 constexpr double kWindowMapAttitudeStd = 0.0015;  // [rad]
+// Where a drone sees little at 7 m/s, velocity and gravity are wrong by more than their covariance
+// says for another second.
+constexpr std::int64_t kSettlingTime_ns = 2'000'000'000;
 
 /** Where the world is fixed: pose exact, velocity and biases as wide as configured, gravity known
  * by its magnitude only. */
@@ -131,6 +135,7 @@ MotionWindow motionWindowUntil(std::int64_t end_ns, int target_points)
 {
   MotionWindow window;
   window.end_ns = end_ns;
+  window.settled_ns = end_ns + kSettlingTime_ns;
   window.target_points = target_points;
   window.covariance_after_first_scan = poseVariances(kFirstMapAttitudeStd, kFirstMapPositionStd);
   window.insertion_covariance =

@@ -63,9 +63,9 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   if (predicted.silent_ns > 0) explainSilence(scan, span.end_ns, imu, predicted);
   map_.propagateError(predicted.transition);
   const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted.state.x);  // eq. 9-10
-  Work work{scan, deskewed, predicted, state_.filter.x, {}, false, Matrix6::Zero()};
+  Work work{scan, span.end_ns, deskewed, predicted, state_.filter.x};
   const bool enters = std::holds_alternative<EnteringMap>(mode_);
-  const MapSearchResult matched = matchWithMap(work, span.end_ns);  // eq. 12-20
+  const MapSearchResult matched = matchWithMap(work);  // eq. 12-20
   const MatchResult& match = matched.match;
 
   work.outcome.search = matched.poses;
@@ -116,10 +116,9 @@ ScanPrediction Estimator::predict(const ScanSpan& span, const ImuBuffer& imu)
 void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
 {
   const Stopwatch watch;
-  const std::optional<MotionWindow>& window = run().motion_window;
   std::size_t at_least = 0;
-  if (window && end_ns <= window->end_ns)
-    at_least = static_cast<std::size_t>(window->target_points);
+  if (run().startsWith(end_ns))
+    at_least = static_cast<std::size_t>(run().motion_window->target_points);
   const auto* tracking = std::get_if<Tracking>(&mode_);
   const auto measuresVelocity = [&](const Tracking& mode)
   {
@@ -234,8 +233,7 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   { transformToWorld(points, T_world_scan, first, last, registered_.points); };
   workers_->forEachChunk(points.size(), transform);
   InsertionError error{filter.P, Matrix6::Zero()};
-  if (run.motion_window && state_.stamp_ns <= run.motion_window->end_ns)
-    error.distortion = run.motion_window->insertion_covariance;
+  if (run.startsWith(state_.stamp_ns)) error.distortion = run.motion_window->insertion_covariance;
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
       scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);

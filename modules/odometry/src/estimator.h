@@ -113,10 +113,11 @@ class Estimator
   struct Work
   {
     const LidarScan& scan;
+    std::int64_t end_ns;  //!< its last instant
     const DeskewedScan& deskewed;
     const ScanPrediction& predicted;
     NavState before;  //!< the state that the prediction began with
-    ScanOutcome outcome;
+    ScanOutcome outcome = {};
     bool searched = false;                //!< the place was, not only near the prediction
     Matrix6 explained = Matrix6::Zero();  //!< of the correction, by the extrinsic's prior
   };
@@ -127,16 +128,14 @@ class Estimator
       const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted);
   void downsample(const LidarScan& scan, std::int64_t end_ns);
   const DeskewedScan& deskew(const LidarScan& scan, std::int64_t end_ns, const NavState& motion);
-  [[nodiscard]] MapSearchResult matchWithMap(const Work& work, std::int64_t end_ns);
-  [[nodiscard]] MapSearchResult trackOrSearch(const Work& work, std::int64_t end_ns);
+  [[nodiscard]] MapSearchResult matchWithMap(const Work& work);
+  [[nodiscard]] MapSearchResult trackOrSearch(const Work& work);
   [[nodiscard]] MatchResult matchPrediction(const Work& work);
-  [[nodiscard]] MatchResult alongOpenDirections(
-      MatchResult match, const Work& work, std::int64_t end_ns);
+  [[nodiscard]] MatchResult alongOpenDirections(MatchResult match, const Work& work);
   /** \param start the prediction, more uncertain than the filter has it */
   [[nodiscard]] MatchResult pullIn(
-      const Work& work, std::int64_t end_ns,
-      const std::optional<FilterState>& start = std::nullopt);
-  [[nodiscard]] MapSearchResult searchAfterOutage(const Work& work, std::int64_t end_ns);
+      const Work& work, const std::optional<FilterState>& start = std::nullopt);
+  [[nodiscard]] MapSearchResult searchAfterOutage(const Work& work);
   [[nodiscard]] FilterState beginNewMap(const DeskewedScan& scan, const FilterState& predicted);
   void compareMotion(
       const MapSearchResult& matched, const Work& work, const ImuBuffer& imu,

@@ -58,7 +58,7 @@ bool hasOpenDirection(const MatchResult& match)
 }
 }  // namespace
 
-MapSearchResult Estimator::matchWithMap(const Work& work, std::int64_t end_ns)
+MapSearchResult Estimator::matchWithMap(const Work& work)
 {
   const Stopwatch watch;
   const DeskewedScan& scan = work.deskewed;
@@ -78,15 +78,15 @@ MapSearchResult Estimator::matchWithMap(const Work& work, std::int64_t end_ns)
   if (const auto* relocalizing = std::get_if<Relocalizing>(&mode_))
   {
     const FilterState from =
-        end_ns > relocalizing->give_up_ns ? beginNewMap(scan, predicted) : predicted;
+        work.end_ns > relocalizing->give_up_ns ? beginNewMap(scan, predicted) : predicted;
     return timed(MapSearch(options_, matcher_, scan, map_).aroundCarriedPose(from));
   }
-  return timed(trackOrSearch(work, end_ns));
+  return timed(trackOrSearch(work));
 }
 
 /** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
  * wrong pose would agree with it ever after, so a match that does not convince is no match. */
-MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
+MapSearchResult Estimator::trackOrSearch(const Work& work)
 {
   auto& tracking = std::get<Tracking>(mode_);
   const DeskewedScan& scan = work.deskewed;
@@ -96,32 +96,31 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
   if (map_is_informative && seen_again && needsPoseSearch(predicted, work.predicted.unseen_s))
   {
     tracking.searching = true;
-    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, end_ns);
+    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
   }
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
-    const std::optional<MotionWindow>& window = tracking.run.motion_window;
-    const bool starting = window && end_ns <= window->end_ns, open = hasOpenDirection(match);
+    const bool starting = tracking.run.startsWith(work.end_ns), open = hasOpenDirection(match);
     const bool uncertain = !starting && needsPullIn(predicted, open);
     if (uncertain)
-      match = pullIn(work, end_ns);
+      match = pullIn(work);
     else if (open && !starting)
-      match = alongOpenDirections(std::move(match), work, end_ns);
+      match = alongOpenDirections(std::move(match), work);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
     const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
     const bool good = !match.update.updated || (found && isConvincing(match, scan, map_));
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
-    if (uncertain) deskew(work.scan, end_ns, predicted.x);
+    if (uncertain) deskew(work.scan, work.end_ns, predicted.x);
     if (seen_again && velocityStd(predicted) > kShearingVelocity)
-      tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, end_ns);
+      tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
   }
-  if (tracking.outage) return searchAfterOutage(work, end_ns);
+  if (tracking.outage) return searchAfterOutage(work);
   const MapSearch map_search(options_, matcher_, scan, map_);
   MapSearchResult search = map_search.aroundPrediction(predicted);
   if (search.found)  // once more, deskewed with the motion that it found
   {
-    deskew(work.scan, end_ns, search.match.update.posterior.x);
+    deskew(work.scan, work.end_ns, search.match.update.posterior.x);
     search = map_search.aroundPrediction(predicted);
   }
   tracking.searching = !search.found;
@@ -133,17 +132,18 @@ MapSearchResult Estimator::trackOrSearch(const Work& work, std::int64_t end_ns)
  * ground first, and the pose would follow the sensor for ever. */
 MatchResult Estimator::matchPrediction(const Work& work)
 {
-  const std::optional<MotionWindow>& window = run().motion_window;
-  const bool pull_in = window && window->pull_in;
+  const FilterRun& run = this->run();
+  const bool pull_in = run.motion_window && run.motion_window->pull_in;
   MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
   // Only these scans can tell the velocity of a start in motion: no direction is left out lightly.
-  if (window)
+  const bool settles = run.settlesWith(work.end_ns);
+  if (settles)
   {
     how.measurement.min_signal_to_noise *= kStartSignalToNoise;
     how.at_start = true;
   }
   how.deskew_std = deskewStd(work.deskewed, work.predicted);
-  how.gate_factor = window ? 1.0 : calibration_.expectedInnovation();
+  how.gate_factor = settles ? 1.0 : calibration_.expectedInnovation();
   const auto match = [&]
   { return matcher_.match(work.deskewed, work.predicted.state, map_.matched(), how); };
   MatchResult result = match();
@@ -163,7 +163,7 @@ MatchResult Estimator::matchPrediction(const Work& work)
 /** Where scans leave a direction open, the position drifts along it: planes that show it again then
  * lie outside the gate of the filter's own covariance, would not match ever after, and the
  * direction would stay open. They are looked for as far as the whole covariance reaches. */
-MatchResult Estimator::alongOpenDirections(MatchResult match, const Work& work, std::int64_t end_ns)
+MatchResult Estimator::alongOpenDirections(MatchResult match, const Work& work)
 {
   FilterState start = work.predicted.state;
   const Mat3 systematic =  // the errors of the map have been propagated already
@@ -171,22 +171,21 @@ MatchResult Estimator::alongOpenDirections(MatchResult match, const Work& work, 
   const double lost = std::sqrt(std::max(0.0, systematic.trace()));
   if (!(lost > kLeastLost && lost < kMostLost)) return match;
   start.P.block<3, 3>(kPosition, kPosition) += systematic;
-  MatchResult again = pullIn(work, end_ns, start);
+  MatchResult again = pullIn(work, start);
   const double more =
       static_cast<double>(again.update.last.count) - static_cast<double>(match.update.last.count);
   const auto points = static_cast<double>(work.deskewed.surfaces.size());
   const bool found = again.constraints.unconstrained < match.constraints.unconstrained &&
                      more > kPlaneFoundAgain * points && matchesAsFound(again, work.deskewed, map_);
   if (found) return again;
-  deskew(work.scan, end_ns, work.predicted.state.x);
+  deskew(work.scan, work.end_ns, work.predicted.state.x);
   return matchPrediction(work);  // the matcher keeps the matches of the latest one only
 }
 
 /** Where the prediction is uncertain, so is the motion that the points were deskewed with. They are
  * deskewed again with the motion that a first match finds: otherwise a wrong velocity shears the
  * scan, the sheared scan confirms the velocity, and the map drifts along with both. */
-MatchResult Estimator::pullIn(
-    const Work& work, std::int64_t end_ns, const std::optional<FilterState>& start)
+MatchResult Estimator::pullIn(const Work& work, const std::optional<FilterState>& start)
 {
   MatchOptions first = pullInMatching(options_), second = ordinaryMatching(options_);
   first.start = start;
@@ -196,7 +195,7 @@ MatchResult Estimator::pullIn(
   MatchResult near = matcher_.match(work.deskewed, predicted, map_.matched(), first);
   if (!near.update.updated) return near;
   second.start = near.update.posterior;
-  deskew(work.scan, end_ns, second.start->x);
+  deskew(work.scan, work.end_ns, second.start->x);
   return matcher_.match(work.deskewed, predicted, map_.matched(), second);
 }
 
@@ -210,7 +209,7 @@ void Estimator::compareMotion(
   const MatchResult& match = matched.match;
   const std::int64_t since_ns = state_.stamp_ns - toNanoseconds(work.predicted.blind_s);
   const bool inflated = inflatedRatio(imu.inflations(), since_ns, state_.stamp_ns) > 0.0;
-  if (matched.poses || run().motion_window || inflated)
+  if (matched.poses || run().settlesWith(state_.stamp_ns) || inflated)
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
     agreement_.add(

@@ -46,8 +46,7 @@ void Estimator::explainSilence(
   const auto score = [&](const ScanPrediction& explanation)
   {
     const DeskewedScan& deskewed = deskew(scan, end_ns, explanation.state.x);
-    const Work work{scan, deskewed, explanation, state_.filter.x, {}, false, Matrix6::Zero()};
-    const MatchResult match = pullIn(work, end_ns);
+    const MatchResult match = pullIn({scan, end_ns, deskewed, explanation, state_.filter.x});
     if (!match.update.updated || !isConvincing(match, deskewed, map_)) return 0.0;
     return inlierRatio(match.update.last.count, deskewed.surfaces.size()) /
            map_.usualInlierRatio() / std::max(1.0, normalizedInnovation(match.update));
@@ -60,18 +59,18 @@ void Estimator::explainSilence(
 
 /** The inertial data were well, so nothing is re-initialised: where the map does not show the
  * place, a new one begins at the predicted pose. */
-MapSearchResult Estimator::searchAfterOutage(const Work& work, std::int64_t end_ns)
+MapSearchResult Estimator::searchAfterOutage(const Work& work)
 {
   auto& tracking = std::get<Tracking>(mode_);
   OutageSearch& outage = *tracking.outage;
   const DeskewedScan& scan = work.deskewed;
   const bool knew = outage.knowsVelocity();
-  const FilterState state = outage.withVelocity(scan, work.predicted.state, end_ns, matcher_);
-  if (outage.knowsVelocity() && !knew) deskew(work.scan, end_ns, state.x);
+  const FilterState state = outage.withVelocity(scan, work.predicted.state, work.end_ns, matcher_);
+  if (outage.knowsVelocity() && !knew) deskew(work.scan, work.end_ns, state.x);
   const MapSearch search(options_, matcher_, scan, map_);
-  MapSearchResult result =
-      outage.measuresVelocity(end_ns) ? search.postponed(state) : search.aroundPrediction(state);
-  const bool over = result.found || outage.isOver(end_ns);
+  MapSearchResult result = outage.measuresVelocity(work.end_ns) ? search.postponed(state)
+                                                                : search.aroundPrediction(state);
+  const bool over = result.found || outage.isOver(work.end_ns);
   if (over && !result.found && outage.knowsVelocity() && tiltStd(state) < kKnownTilt)
   {
     const FilterState from = beginNewMap(scan, state);

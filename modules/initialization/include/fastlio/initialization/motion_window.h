@@ -17,6 +17,8 @@ namespace fastlio
 struct MotionWindow
 {
   std::int64_t end_ns = 0;  //!< end of the last of these scans
+  /** Until then, scans correct what the start did not know well enough: velocity and biases. */
+  std::int64_t settled_ns = 0;
   /** Of the downsampling, when more than downsampling.target_points: few points make no planes. */
   int target_points = 0;
   bool trial = false;  //!< a pass that computes the start: it may begin far off, every match counts
