@@ -3,7 +3,6 @@
 
 #include "initialization.h"
 
-#include "motion_initializer.h"
 #include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
@@ -180,6 +179,13 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
             duration));
   MotionStart start = startInMotion(scans, count, imu, parameters_);
   if (start.state) return startedInMotion(start, oldest.span.latestStart());
+  return refuse(start, scans, count);
+}
+
+/** The next scans would be refused for the same reason. */
+StartDecision StartFinder::refuse(
+    const MotionStart& start, const ScanQueue& scans, std::size_t count)
+{
   refused_until_ns_ = scans[count / kRefusedParts].span.end_ns;
   refusal_ = start.message;
   return waitOrDrop(true, refusal_);
@@ -196,20 +202,24 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
   return moving;
 }
 
-/** To the inertial sensor, steady motion looks like rest: the scans distinguish them. */
+/** To the inertial sensor, steady motion looks like rest: the scans distinguish them. Where they
+ * see motion that is no start, neither is rest. */
 StartDecision StartFinder::confirmRest(
-    StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const
+    StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
-  const std::int64_t begin_ns = scans.front().span.latestStart();
+  const ScanSpan span = scans.front().span;
+  const std::int64_t begin_ns = span.latestStart();
   if (at_rest.stamp_ns != begin_ns || !inertialGap(scans, imu).empty()) return at_rest;
+  if (span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
   const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
   if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");
-  if (count == 0) return at_rest;
+  if (count == 0 || scansShowRest(scans, count, imu, parameters_)) return at_rest;
   const MotionStart start = startInMotion(scans, count, imu, parameters_);
-  if (!start.state) return at_rest;
-  const double speed = start.state->x.v.norm();
-  const bool moves = speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
-  return moves ? startedInMotion(start, begin_ns) : at_rest;
+  const bool moves = start.speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
+  if (!moves) return at_rest;
+  if (start.state) return startedInMotion(start, begin_ns);
+  imu.forgetBefore(span.begin_ns - toNanoseconds(parameters_.initialization.duration));
+  return refuse(start, scans, count);
 }
 
 }  // namespace fastlio

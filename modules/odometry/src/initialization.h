@@ -4,6 +4,7 @@
 /** \file initialization.h When and with what state the filter starts. */
 #pragma once
 
+#include "motion_initializer.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/initialization/motion_window.h>
 #include <fastlio/initialization/static_initializer.h>
@@ -45,7 +46,9 @@ class StartFinder
   [[nodiscard]] StartDecision decideAutomatically(
       const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision confirmRest(
-      StartDecision at_rest, const ScanQueue& scans, const ImuBuffer& imu, bool at_end) const;
+      StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end);
+  [[nodiscard]] StartDecision refuse(
+      const MotionStart& start, const ScanQueue& scans, std::size_t count);
 
   OdometryOptions parameters_;
   std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below

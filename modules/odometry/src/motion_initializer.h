@@ -32,6 +32,7 @@ struct MotionStart
 {
   std::optional<FilterState> state;  //!< at the first scan's begin; velocity etc. with wide prior
   MotionWindow motion_window;        //!< the scans of the window
+  double speed = 0.0;                //!< that the scans show, also without a state; 0: none [m/s]
   double velocity_std = 0.0;         //!< of the velocity's least known direction, at the end [m/s]
   std::string message;
 };
@@ -40,6 +41,12 @@ struct MotionStart
  * samples cover; 0 while it is not complete. */
 [[nodiscard]] std::size_t motionWindow(
     const ScanQueue& scans, const ImuBuffer& imu, double duration);
+
+/** Do the first \a count scans agree that the platform rests? A single pass tells, where a start
+ * in motion takes several. False: it moves, or they do not tell. \param imu covers them */
+[[nodiscard]] bool scansShowRest(
+    const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
+    const OdometryOptions& parameters);
 
 /** The start from the first \a count scans. \param imu covers them */
 [[nodiscard]] MotionStart startInMotion(
