@@ -5,7 +5,6 @@
 
 #include <fastlio/config/presets.h>
 #include <fastlio/math/angles.h>
-#include <fastlio/math/time.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
@@ -27,7 +26,6 @@ using mrpt::format;
 // In motion a sensor vibrates: the defaults are as far above the data sheets of their sensors.
 constexpr double kNoiseInMotion = 2.5;
 constexpr double kStandardGravity = 9.80665;
-constexpr double kWindows = 0.9;  // of a rest: its length is known to the length of a window
 constexpr double kLeastTimeOffset = 0.005;  // the odometry finds smaller ones by itself [s]
 constexpr double kDegreesPerRadian = 30.0;  // a ratio of the rates beyond it: the gyro is in deg/s
 constexpr double kTurned =
@@ -68,7 +66,6 @@ class Proposal
     takePointTimes();
     takeNoise();
     takeTimeOffset();
-    takeStart();
     takePresetValues();
     return header() + body();
   }
@@ -163,17 +160,6 @@ class Proposal
     if (std::abs(offset) < std::max(kLeastTimeOffset, 3.0 * motion->time_offset_std)) return;
     set("lidar.time_offset", config_.odometry.lidar.time_offset, std::stod(format("%.4f", offset)),
         format("+- %.4f s, from the turns that both sensors see", motion->time_offset_std));
-  }
-
-  void takeStart()
-  {
-    const SurveyedSensor& scans = survey_.sensors[survey_.lidars.front().index];
-    const double before =
-        toSeconds(survey_.imu.rest_begin_ns - scans.stamps.first_ns);  // of the longest rest
-    const double needed = kWindows * config_.odometry.initialization.duration;
-    if (survey_.imu.rests && before < 1.0 && survey_.imu.rest_seconds >= needed) return;
-    set("initialization.mode", config_.odometry.initialization.mode, InitializationMode::Auto,
-        survey_.imu.rests ? "the platform does not rest at the start" : "the platform never rests");
   }
 
   void takePresetValues()

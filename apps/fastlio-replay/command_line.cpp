@@ -89,8 +89,7 @@ void addInputOptions(
       ->type_name("REGEX");
   app.add_option(
          "--skip-first-n", arguments.skip_first_n,
-         "Leave out everything before the LiDAR scan with this number (from 0); the platform must "
-         "rest there")
+         "Leave out everything before the LiDAR scan with this number (from 0)")
       ->check(wholeNumber())
       ->type_name("N");
   app.add_option(

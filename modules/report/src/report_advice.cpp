@@ -18,8 +18,8 @@ const std::vector<AdviceRow>& adviceRows()
       {HealthCause::None, {"Nothing is wrong.", ""}},
       {HealthCause::Starting,
        {"The odometry has no pose yet.",
-        "Let the platform rest for two seconds at the start, or set initialization.mode: motion. "
-        "Check with fastlio-info that both sensors recorded at the same time."}},
+        "Let the platform rest for two seconds at the start, or move slowly where there is much to "
+        "see. Check with fastlio-info that both sensors recorded at the same time."}},
       {HealthCause::Lost,
        {"The scans have not corrected the pose for too long, or the filter took a step that is "
         "no number. The pose cannot be trusted.",

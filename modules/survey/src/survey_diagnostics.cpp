@@ -69,17 +69,20 @@ void reportImu(
   const SurveyedSensor& sensor = survey.sensors[*survey.imu_index];
   if (sensor.stamps.rate() < kSlowImu)
     warn(survey, mrpt::format("The IMU is slow: %.1f Hz.", sensor.stamps.rate()));
+  const bool must_rest = odometry.initialization.mode == InitializationMode::Rest;
   if (!imu.rests)
   {
-    warn(
-        survey,
-        "The platform is never at rest for a second: start in motion (initialization.mode: motion "
-        "or auto).");
+    if (must_rest)
+      warn(
+          survey,
+          "The platform is never at rest for a second: start in motion (initialization.mode: auto).");
+    else
+      survey.notes.push_back(
+          "The platform is never at rest for a second: the odometry starts in motion.");
     return;
   }
   const double before = toSeconds(imu.rest_begin_ns - sensor.stamps.first_ns);
-  if (before > odometry.initialization.duration &&
-      odometry.initialization.mode == InitializationMode::Rest)
+  if (before > odometry.initialization.duration && must_rest)
     survey.notes.push_back(mrpt::format(
         "The longest rest (%.1f s) begins %.1f s after the start; initialization.mode: auto does "
         "not wait for it.",

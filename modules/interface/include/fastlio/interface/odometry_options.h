@@ -24,7 +24,7 @@ enum class InitializationMode
 /** Group `initialization`. */
 struct InitializationOptions
 {
-  InitializationMode mode = InitializationMode::Rest;
+  InitializationMode mode = InitializationMode::Auto;
   double duration = 2.0;                       //!< resting time that is averaged [s]
   double max_gyro_std = 0.10471975511965978;   //!< above: no rest [rad/s]; 6 deg/s
   double max_accel_std = 1.0;                  //!< above: the platform does not rest [m/s^2]
