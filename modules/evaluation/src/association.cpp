@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/evaluation/association.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 
@@ -68,11 +69,54 @@ void count(AssociationCounts& counts, Match match)
   }
 }
 
-double coverageOf(const std::vector<StampedPose>& used, const std::vector<StampedPose>& reference)
+/** From each pose to the next one. */
+std::vector<std::int64_t> stepsOf(const std::vector<StampedPose>& poses)
+{
+  std::vector<std::int64_t> steps;
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    steps.push_back(poses[i].stamp_ns - poses[i - 1].stamp_ns);
+  return steps;
+}
+
+/** A hole stands out from the other steps, which may be those of scans or of keyframes. */
+bool isHole(std::int64_t step_ns, std::int64_t median_ns)
+{
+  constexpr std::int64_t kShortestHoleNs = kSecondNs;
+  constexpr std::int64_t kStepsOfAHole = 10;
+  return step_ns > kShortestHoleNs && step_ns / kStepsOfAHole > median_ns;
+}
+
+/** Time in holes of the estimate between its used poses. Where the estimate has poses that the
+ * reference lacks, the hole is the reference's. */
+struct Holes
+{
+  std::int64_t sum_ns = 0;
+  std::int64_t longest_ns = 0;
+};
+
+Holes holesOf(const std::vector<StampedPose>& estimate, const std::vector<bool>& is_used)
+{
+  Holes holes;
+  const std::vector<std::int64_t> steps = stepsOf(estimate);
+  const std::int64_t median_ns = median(steps);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+  {
+    if (!is_used[i] || !is_used[i + 1] || !isHole(steps[i], median_ns)) continue;
+    holes.sum_ns += steps[i];
+    holes.longest_ns = std::max(holes.longest_ns, steps[i]);
+  }
+  return holes;
+}
+
+void measureCoverage(
+    AssociationCounts& counts, const std::vector<StampedPose>& used,
+    const std::vector<StampedPose>& reference, const Holes& holes)
 {
   const auto span = [](const std::vector<StampedPose>& poses)
-  { return static_cast<double>(poses.back().stamp_ns - poses.front().stamp_ns); };
-  return used.size() < 2 ? 0.0 : span(used) / span(reference);
+  { return poses.back().stamp_ns - poses.front().stamp_ns; };
+  counts.longest_hole = toSeconds(holes.longest_ns);
+  counts.coverage =
+      static_cast<double>(span(used) - holes.sum_ns) / static_cast<double>(span(reference));
 }
 
 std::string rangeOf(const Trajectory& t, std::int64_t offset_ns)
@@ -121,18 +165,21 @@ AssociatedTrajectories associate(
   requireValid(estimate);
   requireValid(reference);
   AssociatedTrajectories result;
+  std::vector<bool> is_used(estimate.poses.size(), false);
   for (std::size_t i = 0; i < estimate.poses.size(); ++i)
   {
     const std::int64_t stamp_ns = estimate.poses[i].stamp_ns + toNs(options.time_offset);
     const Sample sample = sampleAt(reference.poses, stamp_ns, toNs(options.max_gap));
     count(result.counts, sample.match);
-    if (sample.match != Match::Used) continue;
+    is_used[i] = sample.match == Match::Used;
+    if (!is_used[i]) continue;
     result.estimate.push_back({stamp_ns, estimate.poses[i].T_world_body});
     result.reference.push_back({stamp_ns, sample.pose});
     if (estimate.hasCovariances()) result.covariances.push_back(estimate.covariances[i]);
   }
   requireOverlap(result.counts, estimate, reference, options);
-  result.counts.coverage = coverageOf(result.reference, reference.poses);
+  measureCoverage(
+      result.counts, result.reference, reference.poses, holesOf(estimate.poses, is_used));
   return result;
 }
 

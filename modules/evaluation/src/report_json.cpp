@@ -27,9 +27,14 @@ Json statisticsJson(const ErrorStatistics& s, double factor)
 
 Json associationJson(const AssociationCounts& c)
 {
-  return {{"estimated", c.estimated},     {"used", c.used},
-          {"before_reference", c.before}, {"after_reference", c.after},
-          {"in_gaps", c.in_gap},          {"coverage_percent", toPercent(c.coverage)}};
+  return {
+      {"estimated", c.estimated},
+      {"used", c.used},
+      {"before_reference", c.before},
+      {"after_reference", c.after},
+      {"in_gaps", c.in_gap},
+      {"coverage_percent", toPercent(c.coverage)},
+      {"longest_hole_s", c.longest_hole}};
 }
 
 Json alignmentJson(const EvaluationReport& r)

@@ -34,6 +34,11 @@ std::string describeAlignment(const EvaluationReport& r)
   return text;
 }
 
+std::string holeText(const AssociationCounts& c)
+{
+  return c.longest_hole > 0.0 ? format("; longest hole %.2f s", c.longest_hole) : "";
+}
+
 std::string header(const EvaluationReport& r)
 {
   const AssociationCounts& c = r.association;
@@ -43,8 +48,8 @@ std::string header(const EvaluationReport& r)
              "poses       %zu of %zu used; %zu before, %zu after, %zu in gaps of the reference\n",
              c.used, c.estimated, c.before, c.after, c.in_gap) +
          format(
-             "run         %.2f s, %.2f m; %.1f %% of the reference's time\n", r.duration,
-             r.drift.path_length, toPercent(c.coverage)) +
+             "run         %.2f s, %.2f m; %.1f %% of the reference's time%s\n", r.duration,
+             r.drift.path_length, toPercent(c.coverage), holeText(c).c_str()) +
          "alignment   " + describeAlignment(r) + "\n";
 }
 

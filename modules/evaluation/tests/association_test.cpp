@@ -74,6 +74,34 @@ TEST(Association, DoesNotBridgeGaps)
   EXPECT_EQ(loose.used, 100U);
 }
 
+TEST(Association, CoverageLeavesOutHolesOfTheEstimate)
+{
+  const Trajectory reference = testing::curve(101);  // 10 s
+  Trajectory estimate = reference;
+  estimate.poses.erase(estimate.poses.begin() + 31, estimate.poses.begin() + 70);  // 4 s
+  const AssociationCounts counts = associate(estimate, reference, {}).counts;
+  EXPECT_NEAR(counts.coverage, 0.6, 1e-12);
+  EXPECT_NEAR(counts.longest_hole, 4.0, 1e-12);
+}
+
+TEST(Association, StepsOfKeyframesAndGapsOfTheReferenceAreNoHoles)
+{
+  const Trajectory reference = testing::curve(101);
+  Trajectory keyframes = reference;
+  keyframes.poses.clear();
+  for (const std::size_t i : {0U, 10U, 25U, 60U, 80U, 100U})
+    keyframes.poses.push_back(reference.poses[i]);
+  const AssociationCounts counts = associate(keyframes, reference, {}).counts;
+  EXPECT_DOUBLE_EQ(counts.coverage, 1.0);
+  EXPECT_EQ(counts.longest_hole, 0.0);
+
+  Trajectory with_gap = reference;
+  with_gap.poses.erase(with_gap.poses.begin() + 31, with_gap.poses.begin() + 70);
+  const AssociationCounts in_gap = associate(reference, with_gap, {}).counts;
+  EXPECT_DOUBLE_EQ(in_gap.coverage, 1.0);
+  EXPECT_EQ(in_gap.longest_hole, 0.0);
+}
+
 TEST(Association, CovariancesStayWithTheirPoses)
 {
   Trajectory estimate = testing::curve(20);

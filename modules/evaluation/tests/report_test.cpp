@@ -117,6 +117,21 @@ TEST(Report, JsonHoldsTheFigures)
   EXPECT_FALSE(json["gates"][0]["passed"].get<bool>());
 }
 
+TEST(Report, TableAndJsonNameAHoleOfTheEstimate)
+{
+  Trajectory estimate = testing::line();
+  estimate.poses.erase(estimate.poses.begin() + 21, estimate.poses.begin() + 60);
+  EvaluationOptions options;
+  options.alignment = Alignment::First;
+  const EvaluationReport report = evaluate(estimate, testing::line(), options);
+  EXPECT_NE(
+      toTable(report).find("60.0 % of the reference's time; longest hole 4.00 s"),
+      std::string::npos);
+  const auto json = nlohmann::json::parse(toJson(report));
+  EXPECT_NEAR(json["association"]["longest_hole_s"].get<double>(), 4.0, 1e-9);
+  EXPECT_EQ(toTable(scaleErrorReport()).find("hole"), std::string::npos);
+}
+
 TEST(Report, AbsentMeasuresAreNull)
 {
   Trajectory two = testing::line(2);

@@ -24,7 +24,10 @@ struct AssociationCounts
   std::size_t before = 0;     //!< older than the reference
   std::size_t after = 0;      //!< newer than the reference
   std::size_t in_gap = 0;     //!< inside a gap of the reference
-  double coverage = 0.0;  //!< fraction of the reference's time span between the first and last used
+  /** Fraction of the reference's time span between the first and the last used, without holes of
+   * the estimate: steps above a second and ten times its median step. */
+  double coverage = 0.0;
+  double longest_hole = 0.0;  //!< of them [s]; 0: there is none
 };
 
 /** Both trajectories at common stamps. */
