@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/evaluation/alignment.h>
+#include <fastlio/math/angles.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
@@ -105,6 +107,27 @@ std::string toString(Alignment alignment)
       return "sim3";
   }
   throw std::invalid_argument("unknown alignment");
+}
+
+std::optional<double> uncertainTurn(
+    const AssociatedTrajectories& trajectories, Alignment alignment, double rmse)
+{
+  // Across the path this little, beside its length: nearly straight.
+  constexpr double kWidthOfAStraightPath = 0.1;
+  constexpr double kSmallTurn = 1.0 * kPi / 180.0;
+  if (alignment != Alignment::Se3 && alignment != Alignment::Sim3) return std::nullopt;
+  Vec3 mean = Vec3::Zero();
+  const auto n = static_cast<double>(trajectories.reference.size());
+  for (const StampedPose& pose : trajectories.reference)
+    mean += pose.T_world_body.p / n;
+  Mat3 moments = Mat3::Zero();
+  for (const StampedPose& pose : trajectories.reference)
+    moments += (pose.T_world_body.p - mean) * (pose.T_world_body.p - mean).transpose() / n;
+  const Vec3 variances = Eigen::SelfAdjointEigenSolver<Mat3>(moments).eigenvalues();
+  const double width = std::sqrt(std::max(0.0, variances[0] + variances[1]));
+  if (width > kWidthOfAStraightPath * std::sqrt(variances[2])) return std::nullopt;
+  const double turn = std::atan2(rmse, width);
+  return turn > kSmallTurn ? std::optional(turn) : std::nullopt;
 }
 
 Pose Similarity::operator*(const Pose& T_est_body) const

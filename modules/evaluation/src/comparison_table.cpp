@@ -62,6 +62,13 @@ std::string toTable(const std::vector<NamedReport>& reports)
           cell("m/s") + cell("%") + cell("(6)") + "\n";
   for (const NamedReport& named : reports)
     text += paddedName(printable(named.name), width) + rowOf(named.report) + "\n";
+  const bool is_turned = std::any_of(
+      reports.begin(), reports.end(),
+      [](const NamedReport& named) { return named.report.uncertain_turn.has_value(); });
+  if (is_turned)
+    text +=
+        "\nThe path is nearly straight: its positions leave the turn about it open, which is in "
+        "the APE\nof the rotation. Use --align yaw or first.\n";
   return text;
 }
 

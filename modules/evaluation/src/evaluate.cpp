@@ -51,6 +51,7 @@ EvaluationReport evaluate(
       toSeconds(associated.reference.back().stamp_ns - associated.reference.front().stamp_ns);
   r.errors = absoluteErrors(r.aligned);
   r.ape = summarize(r.errors);
+  r.uncertain_turn = uncertainTurn(associated, options.alignment, r.ape.translation.rmse);
   r.rpe_second = summarize(relativeErrorsPerSecond(r.aligned, options.rpe_seconds));
   r.rpe_metre = summarize(relativeErrorsPerMetre(r.aligned, options.rpe_metres));
   r.segments = segmentErrors(r.aligned, options.segment_lengths);

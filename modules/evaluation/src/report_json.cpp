@@ -48,6 +48,7 @@ Json alignmentJson(const EvaluationReport& r)
   return {
       {"type", toString(r.options.alignment)},
       {"scale", r.alignment.scale},
+      {"uncertain_turn_deg", r.uncertain_turn ? Json(toDegrees(*r.uncertain_turn)) : Json(nullptr)},
       {"rotation_ref_est", matrix},
       {"translation_ref_est_m", vectorJson(r.alignment.T_ref_est.p)}};
 }

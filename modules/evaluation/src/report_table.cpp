@@ -39,6 +39,15 @@ std::string holeText(const AssociationCounts& c)
   return c.longest_hole > 0.0 ? format("; longest hole %.2f s", c.longest_hole) : "";
 }
 
+std::string turnText(const EvaluationReport& r)
+{
+  if (!r.uncertain_turn) return {};
+  return format(
+      "            The path is nearly straight: its positions leave a turn of up to %.0f deg\n"
+      "            about it open, which is in the APE of the rotation. Use --align yaw or first.\n",
+      toDegrees(*r.uncertain_turn));
+}
+
 std::string header(const EvaluationReport& r)
 {
   const AssociationCounts& c = r.association;
@@ -50,7 +59,7 @@ std::string header(const EvaluationReport& r)
          format(
              "run         %.2f s, %.2f m; %.1f %% of the reference's time%s\n", r.duration,
              r.drift.path_length, toPercent(c.coverage), holeText(c).c_str()) +
-         "alignment   " + describeAlignment(r) + "\n";
+         "alignment   " + describeAlignment(r) + "\n" + turnText(r);
 }
 
 std::string statisticsRow(

@@ -157,5 +157,32 @@ TEST(AlignmentTest, Names)
   EXPECT_EQ(toString(Alignment::Sim3), "sim3");
 }
 
+/** 100 m along x with a little beside it, and what an error of some centimetres does. */
+AssociatedTrajectories nearlyStraight(double width)
+{
+  std::mt19937 random(5);
+  Trajectory truth = testing::line();
+  for (StampedPose& pose : truth.poses)
+    pose.T_world_body.p.y() = width * std::sin(0.1 * pose.T_world_body.p.x());
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate.poses)
+    pose.T_world_body.p += testing::gaussian(random, 0.03);
+  return associated(estimate, truth);
+}
+
+TEST(AlignmentTest, ANearlyStraightPathLeavesATurnOpen)
+{
+  const auto straight = nearlyStraight(0.03);
+  const auto turn = uncertainTurn(straight, Alignment::Se3, 0.05);
+  ASSERT_TRUE(turn.has_value());
+  const double actual = rotationAngle(align(straight, Alignment::Se3).T_ref_est.R);
+  EXPECT_GT(actual, 0.02);  // although the attitudes are equal
+  EXPECT_GT(*turn, actual);
+  EXPECT_TRUE(uncertainTurn(straight, Alignment::Sim3, 0.05).has_value());
+  EXPECT_FALSE(uncertainTurn(straight, Alignment::Yaw, 0.05).has_value());
+  EXPECT_FALSE(uncertainTurn(straight, Alignment::First, 0.05).has_value());
+  EXPECT_FALSE(uncertainTurn(nearlyStraight(20.0), Alignment::Se3, 0.05).has_value());
+}
+
 }  // namespace
 }  // namespace fastlio

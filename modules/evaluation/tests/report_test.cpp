@@ -132,6 +132,24 @@ TEST(Report, TableAndJsonNameAHoleOfTheEstimate)
   EXPECT_EQ(toTable(scaleErrorReport()).find("hole"), std::string::npos);
 }
 
+TEST(Report, SaysThatANearlyStraightPathLeavesATurnOpen)
+{
+  std::mt19937 random(5);
+  const Trajectory truth = testing::line();
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate.poses)
+    pose.T_world_body.p += testing::gaussian(random, 0.03);
+  Trajectory reference = truth;
+  for (StampedPose& pose : reference.poses)
+    pose.T_world_body.p.z() = 0.03 * std::sin(pose.T_world_body.p.x());
+  const EvaluationReport report = evaluate(estimate, reference, {});
+  EXPECT_NE(toTable(report).find("nearly straight"), std::string::npos);
+  EXPECT_NE(toTable({{"a", report}, {"b", report}}).find("nearly straight"), std::string::npos);
+  const auto json = nlohmann::json::parse(toJson(report));
+  EXPECT_GT(json["alignment"]["uncertain_turn_deg"].get<double>(), 1.0);
+  EXPECT_EQ(toTable(scaleErrorReport()).find("straight"), std::string::npos);
+}
+
 TEST(Report, AbsentMeasuresAreNull)
 {
   Trajectory two = testing::line(2);

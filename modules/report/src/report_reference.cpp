@@ -42,14 +42,15 @@ EvaluationReport evaluated(const Trajectory& estimate, const Trajectory& referen
 {
   try
   {
-    return evaluate(estimate, reference, {});
+    EvaluationReport report = evaluate(estimate, reference, {});
+    if (!report.uncertain_turn) return report;
   }
-  catch (const std::invalid_argument&)
+  catch (const std::invalid_argument&)  // NOLINT(bugprone-empty-catch): by the first pose, then
   {
-    EvaluationOptions options;
-    options.alignment = Alignment::First;
-    return evaluate(estimate, reference, options);
   }
+  EvaluationOptions options;
+  options.alignment = Alignment::First;
+  return evaluate(estimate, reference, options);
 }
 }  // namespace
 

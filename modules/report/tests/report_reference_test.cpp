@@ -66,6 +66,17 @@ TEST(ReportReference, AStraightLineIsAlignedByItsStart)
   EXPECT_TRUE(says(html, "Alignment of APE: first")) << html;
 }
 
+TEST(ReportReference, ANearlyStraightPathIsAlignedByItsStart)
+{
+  const TemporaryFolder folder;
+  writeTruth(folder.file("a.gt.tum"), 40, 0.005);
+  std::vector<ScanResult> scans = walk(40);
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    scans[i].filter.x.p.z() += 0.02 * std::sin(0.2 * static_cast<double>(i));
+  const std::string html = reportOf(scans, {}, folder.file("a.gt.tum"));
+  EXPECT_TRUE(says(html, "Alignment of APE: first"));
+}
+
 TEST(ReportReference, ADamagedReferenceFailsNoRun)
 {
   const TemporaryFolder folder;

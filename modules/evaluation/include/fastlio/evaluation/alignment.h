@@ -6,6 +6,7 @@
 
 #include <fastlio/evaluation/association.h>
 
+#include <optional>
 #include <string>
 
 namespace fastlio
@@ -38,5 +39,12 @@ struct Similarity
  * std::invalid_argument the positions do not determine it (all on a line or in one point); the
  * message names an alignment that works */
 [[nodiscard]] Similarity align(const AssociatedTrajectories& trajectories, Alignment alignment);
+
+/** Positions beside a nearly straight path hardly show the turn about it. Then the alignment
+ * follows their errors, and its turn is part of the APE of the rotation.
+ * \param rmse of the aligned positions [m] \return how wrong that turn may be [rad];
+ * nothing where it is known to a degree, or where the alignment does not come from positions */
+[[nodiscard]] std::optional<double> uncertainTurn(
+    const AssociatedTrajectories& trajectories, Alignment alignment, double rmse);
 
 }  // namespace fastlio

@@ -35,8 +35,10 @@ struct EvaluationReport
   EvaluationOptions options;
   std::string estimate_source, reference_source;
   AssociationCounts association;
-  double duration = 0.0;           //!< from the first to the last common stamp [s]
-  Similarity alignment;            //!< that was applied
+  double duration = 0.0;  //!< from the first to the last common stamp [s]
+  Similarity alignment;   //!< that was applied
+  /** About a nearly straight path: the alignment may turn it by this much, see uncertainTurn(). */
+  std::optional<double> uncertain_turn;
   AlignedTrajectories aligned;     //!< poses at the common stamps
   std::vector<PoseError> errors;   //!< absolute error of each of them
   PoseErrorStatistics ape;         //!< [m], [rad]
