@@ -206,8 +206,9 @@ ExitStatus run(const MapArguments& arguments)
   if (hooks.progress) std::cerr << "\r\033[K";
   MapAccount account = accountOf(arguments, recordings, sessions, map, *outputs, *store);
   account.place = place;
-  const std::string unplaced = place ? "" : unplacedReason(map.gnss, arguments.crs);
-  if (!unplaced.empty()) account.notes.push_back(unplaced);
+  const std::string on_earth =
+      place ? controlPointSentence(*place) : unplacedReason(map.gnss, arguments.crs);
+  if (!on_earth.empty()) account.notes.push_back(on_earth);
   if (moving) account.removed = moving->counts();
   if (account.removed) account.notes.push_back(removalSentence(*account.removed));
   write(files, "report", mapReportHtml(account), account);

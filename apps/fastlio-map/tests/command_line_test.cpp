@@ -119,6 +119,7 @@ TEST_F(Map, GnssTellsTheCoordinates)
   EXPECT_TRUE(summary["gnss"]["used"].get<bool>());
   EXPECT_NEAR(summary["gnss"]["horizontal_std_m"].get<double>(), 0.5, 0.35);
   EXPECT_EQ(summary["earth"]["crs"], "EPSG:32632");
+  EXPECT_TRUE(summary["earth"]["rms_m"].is_null()) << "of control points only";
   const std::string las = contentOf(folder_.file("map") + "/map.las");
   EXPECT_EQ(las.substr(0, 4), "LASF");
   EXPECT_NE(las.find("UTM zone 32N"), std::string::npos);

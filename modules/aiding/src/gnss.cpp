@@ -182,6 +182,9 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   EarthFitOptions options;
   options.map_std_m = kDriftOfOdometry * way;
   options.most_yaw_std_deg = 15.0;  // the graph makes it better
+  options.words = {
+      "positions", "check the antenna's place (sensorPose), the receiver's clock and its reception",
+      "on a longer way they would"};
   PoseGraph graph = result.graph;
   try
   {

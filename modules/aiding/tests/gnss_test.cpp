@@ -69,6 +69,13 @@ class Road
     return {std::move(result), outcome};
   }
 
+  /** A receiver that repeats its first position. */
+  void freeze()
+  {
+    for (GnssFix& fix : fixes_)
+      fix.place = fixes_.front().place;
+  }
+
   [[nodiscard]] const std::vector<Pose>& truth() const { return truth_; }
   [[nodiscard]] const LocalFrame& frame() const { return frame_; }
 
@@ -179,6 +186,17 @@ TEST(Gnss, IsNotUsedWhereFewFixesAgree)
   EXPECT_TRUE(map.graph.positions.empty());
   for (std::size_t i = 0; i < map.submaps.size(); ++i)
     EXPECT_EQ(map.estimate.nodes[i].p, map.submaps[i].reference.T_world_body.p);
+}
+
+/** Nobody gave control points, or could give them larger standard deviations. */
+TEST(Gnss, RefusedPositionsAreCalledPositions)
+{
+  Road road(1200.0, 1);
+  road.freeze();
+  const auto [map, gnss] = road.mapped();
+  EXPECT_FALSE(gnss.used);
+  EXPECT_EQ(gnss.reason.find("positions contradict each other: "), 0U) << gnss.reason;
+  EXPECT_NE(gnss.reason.find("check the antenna's place"), std::string::npos) << gnss.reason;
 }
 
 /** The place of the map on the earth is known as well as its covariance says. */

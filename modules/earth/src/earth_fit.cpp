@@ -184,30 +184,33 @@ std::string worstDistance(const std::vector<Correspondence>& points)
   return text;
 }
 
-void requireAgreement(const std::vector<Correspondence>& points, const std::vector<double>& used)
+void requireAgreement(
+    const std::vector<Correspondence>& points, const std::vector<double>& used,
+    const EarthFitWords& words)
 {
   const double count = sum(used);
   if (count >= 2 && 2 * count > static_cast<double>(points.size())) return;
   throw std::runtime_error(
-      "control points contradict each other: no more than " + fixedText(count, 0) + " of " +
+      words.points + " contradict each other: no more than " + fixedText(count, 0) + " of " +
       std::to_string(points.size()) + " agree within " + shortestText(kGate) +
-      " standard deviations; " + worstDistance(points) +
-      "; check the coordinates, or give larger standard deviations if the map has drifted");
+      " standard deviations; " + worstDistance(points) + "; " + words.if_contradicting);
 }
 
-void requireHeading(const YawObservability& seen, std::size_t used, double most_yaw_std_deg)
+void requireHeading(
+    const YawObservability& seen, std::size_t used, double most_yaw_std_deg,
+    const EarthFitWords& words)
 {
   const double yaw_std_deg = seen.yaw_std_rad * kDegPerRad;
   if (yaw_std_deg <= most_yaw_std_deg) return;
   throw std::runtime_error(
-      "control points do not show the heading of the map: the " + std::to_string(used) +
+      words.points + " do not show the heading of the map: the " + std::to_string(used) +
       " in use lie within " + fixedText(seen.horizontal_spread_m, 2) +
       " m of their centre (rms, horizontal)" +
       (std::isfinite(yaw_std_deg)
            ? ", which leaves a standard deviation of " + fixedText(yaw_std_deg, 1) +
                  " deg, more than " + shortestText(most_yaw_std_deg)
            : "") +
-      "; give points that lie further apart");
+      "; " + words.if_close);
 }
 
 /** The residual at each point, and their mean. */
@@ -238,10 +241,11 @@ EarthFit fitToEarth(const std::vector<Correspondence>& points, const EarthFitOpt
   EarthFit fit;
   fit.T_enu_map = robustFit(problem);
   const std::vector<double> used = problem.within(fit.T_enu_map);
-  requireAgreement(points, used);
+  requireAgreement(points, used, options.words);
   addResiduals(points, used, fit);
   requireHeading(
-      yawObservability(points, problem.information(used)), fit.used(), options.most_yaw_std_deg);
+      yawObservability(points, problem.information(used)), fit.used(), options.most_yaw_std_deg,
+      options.words);
   return fit;
 }
 

@@ -4,6 +4,8 @@
 #include <fastlio/earth/las_writer.h>
 #include <fastlio/mapping/georeference.h>
 #include <fastlio/math/columns.h>
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
 
 #include <algorithm>
 #include <array>
@@ -145,6 +147,22 @@ std::optional<Georeference> georeference(
     return std::nullopt;
   place.crs = isZoneOfPlace(crs) ? utmCodeAt(place.datum) : crs;
   return place;
+}
+
+std::string controlPointSentence(const Georeference& place)
+{
+  if (place.residuals.empty()) return {};
+  std::string left_out;
+  std::size_t used = 0;
+  for (const EarthResidual& residual : place.residuals)
+    if (residual.is_used)
+      ++used;
+    else
+      left_out += (left_out.empty() ? "; left out: " : ", ") + printable(residual.name) + " (" +
+                  fixedText(residual.residual_m.norm(), 2) + " m off)";
+  return "control points: " + std::to_string(used) + " of " +
+         std::to_string(place.residuals.size()) + " agree, to " + fixedText(place.rms_m, 3) +
+         " m (rms)" + left_out;
 }
 
 OutputFile writeLasMap(

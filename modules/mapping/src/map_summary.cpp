@@ -193,7 +193,7 @@ Json placeJson(const std::optional<Georeference>& place)
         {"rotation_rows",
          {vectorJson(R.row(0).transpose()), vectorJson(R.row(1).transpose()),
           vectorJson(R.row(2).transpose())}}}},
-      {"rms_m", place->rms_m},
+      {"rms_m", place->residuals.empty() ? Json() : Json(place->rms_m)},
       {"control_points", residuals}};
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,6 +58,23 @@ TEST(Georeference, BeyondTheZonesOfUtmTheMapHasNoPlace)
     EXPECT_NE(reason.find("--crs"), std::string::npos) << reason;
   }
   EXPECT_EQ(unplacedReason({}, ""), "");
+}
+
+/** One height is wrong by what the geoid differs from the ellipsoid. */
+TEST(Georeference, SaysWhichControlPointsWereLeftOut)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("points.csv")) << "name,map_x,map_y,map_z,latitude,longitude,height\n"
+                                              "church,0,0,0,48.1,11.6,500\n"
+                                              "bridge,0,111.195,0,48.101,11.6,500\n"
+                                              "gate,0,222.39,0,48.102,11.6,500\n"
+                                              "tower,0,333.585,0,48.103,11.6,546\n";
+  const auto place = georeference({}, folder.file("points.csv"), "");
+  ASSERT_TRUE(place);
+  const std::string text = controlPointSentence(*place);
+  EXPECT_EQ(text.find("control points: 3 of 4 agree, to 0."), 0U) << text;
+  EXPECT_NE(text.find("; left out: tower (45.9"), std::string::npos) << text;
+  EXPECT_EQ(controlPointSentence(Georeference{}), "");
 }
 
 template <typename T>

@@ -20,12 +20,22 @@ struct Correspondence
   std::string name;         //!< for messages and reports
 };
 
+/** What messages call the points, and what to do about them. */
+struct EarthFitWords
+{
+  std::string points = "control points";
+  std::string if_contradicting =
+      "check the coordinates, or give larger standard deviations if the map has drifted";
+  std::string if_close = "give points that lie further apart";
+};
+
 struct EarthFitOptions
 {
   /** Standard deviation that the map's drift adds to each point [m]. */
   double map_std_m = 0;
   /** A heading that is less certain is refused [deg]. */
   double most_yaw_std_deg = 2.0;
+  EarthFitWords words;
 };
 
 /** The residual at one point. */

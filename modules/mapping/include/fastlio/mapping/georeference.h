@@ -41,6 +41,9 @@ struct Georeference
  * else. In a sentence; empty: it does. */
 [[nodiscard]] std::string unplacedReason(const GnssOutcome& gnss, const std::string& crs);
 
+/** How well the control points fit, and which were left out, in a sentence. Empty without any. */
+[[nodiscard]] std::string controlPointSentence(const Georeference& place);
+
 /** Writes the points of a map as LAS 1.4: in projected coordinates, or in those of the map where
  * its place is not known. \exception std::runtime_error the file cannot be written */
 OutputFile writeLasMap(
