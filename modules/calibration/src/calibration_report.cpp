@@ -112,7 +112,9 @@ CalibrationRow timeRow(const Rig& given, const RigEstimate& estimate)
   row.found = kMillimetres * estimate.rig.time_offset;
   row.std = kMillimetres * estimate.time_offset_std;
   row.prior_std = kMillimetres * kTimeOffsetPriorStd;
-  if (!row.determined()) row.advice = "turn back and forth, with changing speed, for ten seconds";
+  row.advice = estimate.clocks;
+  if (!row.determined() && row.advice.empty())
+    row.advice = "turn back and forth, with changing speed, for ten seconds";
   return row;
 }
 

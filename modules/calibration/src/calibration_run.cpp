@@ -99,6 +99,7 @@ double RunAgreement::mapThickness() const
 void CalibrationRunResult::takeTimeOffset(double offset, double std)
 {
   constexpr double kAboutAsWell = 2.0;
+  if (std > 0.0) clocks.readings.push_back({offset, std});
   if (std == 0.0 || (time_offset_std > 0.0 && std > kAboutAsWell * time_offset_std)) return;
   time_offset = offset;
   time_offset_std = std;
@@ -129,6 +130,7 @@ CalibrationRunResult calibrationRun(
   while (const auto result = odometry.flush())
     follower.take(*result);
   CalibrationRunResult result = follower.finish();
+  result.clocks.recording = recording.name;
   for (const ReadProblem& problem : source.problems())
     result.problems.push_back(recording.name + ": " + problem.message);
   return result;

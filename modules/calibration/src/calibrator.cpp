@@ -167,6 +167,9 @@ RigEstimate Calibrator::calibrate(
   RigEstimate estimate = estimateAt(unknowns, x, step);
   estimate.hidden_by_elevations = hidden.segment<3>(kExtrinsicError + 3).cwiseAbs();
   estimate.incidence = unknowns.incidenceBias(pass, step);
+  const ClockContradiction clocks = clockContradiction(pass.clocks);
+  estimate.clocks = clocks.advice;
+  estimate.time_offset_std = std::hypot(estimate.time_offset_std, 0.5 * clocks.difference);
   estimate.problems = pass.problems;
   return estimate;
 }

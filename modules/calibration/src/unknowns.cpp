@@ -41,6 +41,7 @@ void PassFindings::add(const CalibrationRunResult& run)
     time_information += std::pow(run.time_offset_std, -2);
     time_weighted += run.time_offset * std::pow(run.time_offset_std, -2);
   }
+  clocks.push_back(run.clocks);
   incidence.information += run.findings.incidence.information;
   incidence.weighted += run.findings.incidence.weighted;
   upright_weight += run.findings.upright_weight;

@@ -20,6 +20,7 @@ struct PassFindings
   CalibrationSums sums;
   std::map<double, BeamSums> beams;  //!< by elevation
   double time_information = 0.0, time_weighted = 0.0;
+  std::vector<ClockCourse> clocks;
   BiasSums incidence;
   double upright_weight = 0.0, upright_range = 0.0;  //!< as in CalibrationFindings
   std::size_t tracked = 0;

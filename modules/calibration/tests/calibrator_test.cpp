@@ -22,11 +22,13 @@ namespace
 class CalibratorTest : public ::testing::Test
 {
  protected:
-  CalibrationRecording record(const std::string& name, double seconds, unsigned seed)
+  CalibrationRecording record(
+      const std::string& name, double seconds, unsigned seed, double clock_error = 0.0)
   {
     SimulationSettings settings = defaultSettings("office");
     settings.duration = seconds;
     settings.seed = seed;
+    settings.lidar.hidden.clock_error = clock_error;
     settings.lidar.stride = 2;
     const RecordingFiles files = writeRecording(Simulation(settings), folder_.file(name));
     config_ = loadConfigFromFile(files.config);
@@ -108,6 +110,15 @@ TEST_F(CalibratorTest, IsTriedOutOnOtherData)
   EXPECT_TRUE(single.better()) << describe(single);
   const CalibrationTrial right = Calibrator({a, b}, config_, 3).tryOut();
   EXPECT_FALSE(right.better()) << "there is nothing to gain: " << describe(right);
+}
+
+TEST_F(CalibratorTest, ClocksThatStartAnewWithEachRecordingHaveNoOffsetOfTheRig)
+{
+  const CalibrationRecording a = record("a", 8.0, 1), b = record("b", 8.0, 2, 0.02);
+  EXPECT_EQ(Calibrator({a}, config_, 2).calibrate().clocks, "");
+  const RigEstimate estimate = Calibrator({a, b}, config_, 2).calibrate();
+  EXPECT_NE(estimate.clocks.find("between a and b"), std::string::npos) << estimate.clocks;
+  EXPECT_GT(estimate.time_offset_std, 0.008);
 }
 
 TEST_F(CalibratorTest, AgreementIsOfTheScansThatAreMeasured)

@@ -29,14 +29,19 @@ CalibrationStep stepWith(double offset, double std)
 
 constexpr Eigen::Index kOffset = kCalibrationErrorDim;  // behind the errors of the rig
 
-CalibrationRow rowWith(double std)
+CalibrationRow rowOf(const RigEstimate& estimate)
 {
-  RigEstimate estimate;
-  estimate.time_offset_std = std;
   const auto rows = calibrationRows(Rig{}, estimate);
   return *std::find_if(
       rows.begin(), rows.end(),
       [](const CalibrationRow& row) { return row.name.find("time offset") == 0; });
+}
+
+CalibrationRow rowWith(double std)
+{
+  RigEstimate estimate;
+  estimate.time_offset_std = std;
+  return rowOf(estimate);
 }
 
 TEST(CalibratedTimeOffset, IsTheOneBeforeASensorHasChanged)
@@ -60,6 +65,42 @@ TEST(CalibratedTimeOffset, StaysAsGivenWhereTheRunDoesNotTellIt)
   EXPECT_LT(std::abs(unknown.step[kOffset]), 0.001);
   EXPECT_LE(unknown.covariance(kOffset, kOffset), kTimeOffsetPriorStd * kTimeOffsetPriorStd);
   EXPECT_NEAR(stepWith(0.0, 0.0).step[kOffset], 0.0, 1e-12);
+}
+
+/** Known better and better, about one value, then about another. */
+ClockCourse courseOf(const std::string& name, double first, double last)
+{
+  ClockCourse course{name, {}};
+  for (int i = 0; i < 100; ++i)
+    course.readings.push_back({i < 50 ? first : last, std::max(1e-4, 3e-3 / (1 + i))});
+  return course;
+}
+
+TEST(CalibratedTimeOffset, MustNotChangeWithinARecording)
+{
+  EXPECT_EQ(clockContradiction({courseOf("a", -0.004, -0.0045)}).advice, "");
+  const ClockContradiction jump = clockContradiction({courseOf("a", -0.004, -0.024)});
+  EXPECT_NEAR(jump.difference, -0.020, 1e-9);
+  EXPECT_NE(jump.advice.find("changes by -20.0 ms within a:"), std::string::npos) << jump.advice;
+  // Not known yet: what it was before does not count.
+  ClockCourse late = courseOf("a", -0.024, -0.024);
+  late.readings.front() = {0.0, 0.003};
+  EXPECT_EQ(clockContradiction({late}).advice, "");
+}
+
+TEST(CalibratedTimeOffset, MustBeTheSameInAllRecordings)
+{
+  const ClockCourse a = courseOf("a", -0.004, -0.004), b = courseOf("b", -0.024, -0.024);
+  EXPECT_EQ(clockContradiction({a, a, {}}).advice, "");
+  const ClockContradiction both = clockContradiction({a, b});
+  EXPECT_NE(both.advice.find("differs by -20.0 ms between a and b:"), std::string::npos)
+      << both.advice;
+  RigEstimate estimate;
+  estimate.time_offset_std = 2e-4;
+  estimate.clocks = both.advice;
+  const CalibrationRow row = rowOf(estimate);
+  EXPECT_FALSE(row.determined());
+  EXPECT_EQ(row.advice, both.advice);
 }
 
 TEST(CalibratedTimeOffset, IsNotCalledDeterminedWhenItIsNot)

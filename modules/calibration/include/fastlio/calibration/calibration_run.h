@@ -5,6 +5,7 @@
  * calibration. */
 #pragma once
 
+#include <fastlio/calibration/clock_agreement.h>
 #include <fastlio/config/config.h>
 #include <fastlio/errormodel/calibration_sums.h>
 
@@ -39,6 +40,7 @@ struct CalibrationRunResult
   CalibrationFindings findings;
   double time_offset = 0.0;      //!< to be added to the one in use [s]
   double time_offset_std = 0.0;  //!< [s]; 0: it was not estimated
+  ClockCourse clocks;            //!< the same, scan by scan
   RunAgreement agreement;        //!< of the scans from `measured_from` on
   std::size_t scans = 0, tracked = 0;
   double seconds = 0.0;               //!< from the first to the last scan that was tracked

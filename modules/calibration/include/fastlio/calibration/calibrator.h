@@ -43,7 +43,8 @@ struct RigEstimate
   CalibrationErrorMatrix covariance = CalibrationErrorMatrix::Zero();  //!< of theta
   CalibrationErrorVector prior_std = CalibrationErrorVector::Zero();   //!< of theta, before
   double time_offset_std = 0.0;                                        //!< [s]
-  std::vector<BeamStd> beam_stds;                                      //!< of rig.beams
+  std::string clocks;  //!< why the offset of the clocks is not one, and what to do; empty: it is
+  std::vector<BeamStd> beam_stds;  //!< of rig.beams
   /** The part of the standard deviation of the LiDAR's position that beams cause whose elevations
    * are all off by the same angle [m]. */
   Vec3 hidden_by_elevations = Vec3::Zero();
