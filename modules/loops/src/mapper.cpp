@@ -71,8 +71,9 @@ void Mapper::addOdometry()
   const Submap& latest = result_.submaps.back();
   PoseGraph& graph = result_.graph;
   if (latest.gravity) graph.tilts.push_back(tiltOf(latest, b));
+  // A session before it may have no submap, hence no errors that anything depends on.
   if (graph.sensor_covariances.size() <= latest.session)
-    graph.sensor_covariances.resize(latest.session + 1);
+    graph.sensor_covariances.resize(latest.session + 1, sessionErrorCovariance(latest));
   graph.sensor_covariances[latest.session] = sessionErrorCovariance(latest);
   const bool begins = b == 0 || latest.session != result_.submaps[b - 1].session;
   if (begins) return beginSession(latest, b);

@@ -31,7 +31,7 @@ std::vector<Pose> roadBy(double scale_error)
 
 /** The submaps of a road, without surfaces. \param std of the scale error, as the odometry knows it
  */
-MappingResult mapOf(double scale_error, double std)
+MappingResult mapOf(double scale_error, double std, std::size_t session = 0)
 {
   constexpr double kSmall = 1e-5;
   const std::vector<Pose> odometry = roadBy(scale_error), more = roadBy(scale_error + kSmall);
@@ -39,6 +39,7 @@ MappingResult mapOf(double scale_error, double std)
   for (std::size_t i = 0; i < odometry.size(); ++i)
   {
     Submap submap;
+    submap.session = session;
     submap.reference.stamp_ns = static_cast<std::int64_t>(i + 1) * 1'000'000'000;
     submap.reference.T_world_body = odometry[i];
     submap.reference.covariance = 1e-10 * Matrix6::Identity();
@@ -58,6 +59,15 @@ double headingStd(const MappingResult& result, std::size_t node)
   return std::sqrt(result.estimate.covariances.at(node)(2, 2));
 }
 }  // namespace
+
+/** The odometry may find no pose in the first recording. */
+TEST(SessionErrors, SessionsBeforeTheFirstSubmapHaveNone)
+{
+  const MappingResult alone = mapOf(0.01, 0.02), second = mapOf(0.01, 0.02, 1);
+  ASSERT_EQ(second.estimate.nodes.size(), alone.estimate.nodes.size());
+  for (std::size_t i = 0; i < alone.estimate.nodes.size(); ++i)
+    EXPECT_LT((second.estimate.nodes[i].p - alone.estimate.nodes[i].p).norm(), 1e-6) << i;
+}
 
 /** Motions that share an error do not average it out: 40 independent ones of the same size would
  * give the 20th part of it. */
