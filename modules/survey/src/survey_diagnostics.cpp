@@ -17,6 +17,8 @@ namespace fastlio
 namespace
 {
 constexpr double kSteepTilt = 30.0;     // [deg]
+constexpr double kOnItsHead = 150.0;    // [deg]
+constexpr double kOddScale = 0.1;       // of the gyro; the check is rough
 constexpr double kOddRotation = 10.0;   // between found and given mounting [deg]
 constexpr double kOddOffset = 0.02;     // the check is rough [s]
 constexpr double kDegreesScale = 10.0;  // rates differ by more: the gyro is in deg/s
@@ -96,7 +98,13 @@ void reportImu(
   else if (imu.accel_unit != "m/s^2")
     warn(survey, "The specific force is in " + imu.accel_unit + ", not in m/s^2.");
   const double tilt = kDegPerRad * tiltOf(survey, sensors);
-  if (tilt > kSteepTilt)
+  if (tilt > kOnItsHead)
+    survey.notes.push_back(mrpt::format(
+        "By its sensor pose and the specific force the vehicle stands on its head at rest (%.0f "
+        "deg). If it does not, the specific force has the wrong sign: at rest it points up (+9.81 "
+        "m/s^2 along the axis that points up); the odometry cannot run with the other sign.",
+        tilt));
+  else if (tilt > kSteepTilt)
     survey.notes.push_back(mrpt::format(
         "By its sensor pose the vehicle stands tilted by %.0f deg at rest; the odometry does not "
         "mind, but is the pose of the IMU right?",
@@ -111,6 +119,13 @@ void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
     warn(
         survey, mrpt::format(
                     "The gyro turns %.1f times as fast as the LiDAR: it is in deg/s, not rad/s.",
+                    motion.scale));
+  else if (std::abs(motion.scale - 1.0) > kOddScale)
+    warn(
+        survey, mrpt::format(
+                    "The gyro turns %.2f times as fast as the LiDAR, and deg/s would be 57 times: "
+                    "its readings have another unit or a wrong scale. Correct them in the "
+                    "recording; imu.gyro_matrix takes off some per cent.",
                     motion.scale));
   const double offset = motion.time_offset - odometry.lidar.time_offset;
   if (std::abs(offset) > kOddOffset)
