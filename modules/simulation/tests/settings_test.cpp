@@ -116,6 +116,18 @@ TEST(Settings, SettingsMadeInCodeAreChecked)
     EXPECT_NE(problem.find(key), std::string::npos) << problem;
 }
 
+/** Their time stamps are not negative: they would come out thousands of years later. */
+TEST(Settings, StampsBefore1970AreRefused)
+{
+  SimulationSettings settings = defaultSettings("office");
+  settings.start_ns = 0;
+  EXPECT_EQ(problemOf([&] { requireValid(settings); }), "");
+  settings.lidar.time_offset = -10.0;
+  EXPECT_NE(problemOf([&] { requireValid(settings); }).find("before 1970"), std::string::npos);
+  settings.start_ns = 10'000'000'000;
+  EXPECT_EQ(problemOf([&] { requireValid(settings); }), "");
+}
+
 TEST(MatchingParameters, AreValidForEveryScenario)
 {
   for (const auto& info : scenarioTable())
