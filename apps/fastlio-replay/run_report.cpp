@@ -149,15 +149,26 @@ bool allAreSkipped(const RunSummary& run)
   return countOf(run, "scans_skipped") > 0 && dropped == 0;
 }
 
+/** Why no scan came to the odometry. */
+std::string whyNoScan(const RunSummary& run)
+{
+  if (allAreSkipped(run))
+    return "--skip-first-n leaves out all " + std::to_string(countOf(run, "scans_skipped")) +
+           " scans of the recording";
+  const std::size_t empty = countOf(run, "scans_empty");
+  if (empty > 0 && empty == countOf(run, "scans"))
+    return "none of the " + std::to_string(empty) + " scans has a point that can be used: " +
+           std::to_string(countOf(run, "points_without_return")) + " beams without a return, " +
+           std::to_string(countOf(run, "points_invalid")) +
+           " points that are not finite; was the view of the LiDAR covered, or did it not turn?";
+  return "no IMU samples cover a scan; check that both sensors recorded at the same time and that "
+         "their clocks agree";
+}
+
 std::string whyOdometryFailed(const RunSummary& run)
 {
   const RunStatistics& statistics = run.statistics;
-  if (statistics.scans() == 0 && allAreSkipped(run))
-    return "no scan could be processed: --skip-first-n leaves out all " +
-           std::to_string(countOf(run, "scans_skipped")) + " scans of the recording";
-  if (statistics.scans() == 0)
-    return "no scan could be processed: no IMU samples cover a scan; check that both sensors "
-           "recorded at the same time and that their clocks agree";
+  if (statistics.scans() == 0) return "no scan could be processed: " + whyNoScan(run);
   const auto trouble = statistics.firstTrouble();
   const std::string cause = trouble ? ": " + trouble->message : std::string();
   if (statistics.poses() == 0) return "the odometry never initialised" + cause;

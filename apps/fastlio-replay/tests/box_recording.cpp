@@ -101,7 +101,10 @@ mrpt::obs::CObservationPointCloud scanAt(double t, int index, const BoxRecording
   mrpt::obs::CObservationPointCloud scan;
   scan.sensorLabel = recording.lidar_label;
   scan.timestamp = toMrptTime(stampNs(t));
-  const auto cloud = makeXyzirt(scanPoints(index, recording.rotten_points));
+  PointColumns points = scanPoints(index, recording.rotten_points);
+  if (recording.view_covered)
+    std::fill(points.x.begin(), points.x.end(), std::numeric_limits<float>::quiet_NaN());
+  const auto cloud = makeXyzirt(points);
   CloudColumns columns = readColumns(*cloud);
   for (double& time : columns.time)
     time *= recording.times_per_second;

@@ -20,6 +20,7 @@ struct BoxRecording
   double lidar_starts = 0.0;      //!< the LiDAR is switched on this much later [s]
   double shake_amplitude = 0.0;   //!< of the angular rate, at 3 Hz [rad/s]
   bool rotten_points = false;     //!< every seventh point NaN or zero, every tenth scan empty
+  bool view_covered = false;      //!< no point is finite
   bool stamps_jump_back = false;  //!< some observations come with stamps one second old
   bool point_times = true;        //!< false: clouds have no time field
   double times_per_second = 1.0;  //!< what the time field shows for a second

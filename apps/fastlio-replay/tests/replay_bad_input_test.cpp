@@ -200,6 +200,13 @@ TEST_F(BadInput, EmptyScansAndInvalidPointsAreCounted)
   EXPECT_EQ(summary["scans"]["diverged"], 0);
 }
 
+TEST_F(BadInput, ScansWithoutPointsAreNotATroubleOfTheClocks)
+{
+  BoxRecording recording;
+  recording.view_covered = true;
+  expectEnd(replayFile(record("a.rawlog", recording)), 4, "none of the 40 scans has a point");
+}
+
 TEST_F(BadInput, PointTimesThatCanBeReadInTwoWaysAreAnError)
 {
   BoxRecording recording;

@@ -48,6 +48,16 @@ void reportRhythm(RecordingSurvey& survey, const SurveyedSensor& sensor, const c
                     stamps.duplicates, stamps.backwards));
 }
 
+/** Only scans with points are looked at. */
+void reportPoints(RecordingSurvey& survey)
+{
+  const SurveyedLidar& lidar = survey.lidars.front();
+  if (!survey.unusable.empty() || lidar.look.scans() > 0) return;
+  survey.unusable = "none of the scans of LiDAR '" +
+                    printable(survey.sensors[lidar.index].summary.label) +
+                    "' has a point: was its view covered, or did it not turn?";
+}
+
 void reportOverlap(RecordingSurvey& survey)
 {
   const ClockOverlap& overlap = survey.overlap;
@@ -162,6 +172,7 @@ void addRemarks(
   reportOverlap(survey);
   reportImu(survey, sensors, odometry);
   diagnoseMotion(survey, odometry);
+  reportPoints(survey);
 }
 
 }  // namespace fastlio

@@ -17,6 +17,7 @@ RecordingSurvey surveyWith(double gyro_scale, const Vec3& up)
   RecordingSurvey survey;
   survey.sensors.resize(1);
   survey.imu_index = 0;
+  survey.lidars.resize(1);
   survey.imu.rests = true;
   survey.imu.accel_unit = "m/s^2";
   survey.imu.up = up;
@@ -52,6 +53,20 @@ TEST(SurveyDiagnostics, AGyroOfAnotherUnitOrScaleIsNamed)
     EXPECT_FALSE(says(text, "it is in deg/s")) << text;
   }
   EXPECT_FALSE(says(remarksOn(surveyWith(1.03, up)), "The gyro")) << "as well as the check knows";
+}
+
+TEST(SurveyDiagnostics, ARecordingWithoutPointsCannotBeUsed)
+{
+  RecordingSurvey survey = surveyWith(1.0, {0, 0, 1});
+  PointColumns points;
+  points.push_back(1.0F, 2.0F, 3.0F, 0.0F, 0, 0);
+  survey.lidars.front().look.add(points);
+  addRemarks(survey, {}, {});
+  EXPECT_EQ(survey.unusable, "");
+  survey.lidars.front().look = {};
+  survey.lidars.front().look.add({});
+  addRemarks(survey, {}, {});
+  EXPECT_TRUE(says(survey.unusable, "has a point")) << survey.unusable;
 }
 
 TEST(SurveyDiagnostics, AReversedSpecificForceIsThoughtOf)
