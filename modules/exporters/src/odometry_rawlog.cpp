@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "lidar_clock.h"
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
@@ -78,14 +79,18 @@ class RawlogExporter : public Exporter
       : file_(options.path("odometry.rawlog")),
         recording_(options.recording),
         parameters_(options.parameters),
-        offset_ns_(toNanoseconds(options.time_offset)),
+        clock_(options.time_offset),
         max_range_(options.max_range),
         bridge_(recording_.selection, recording_.bridge),
         track_(options.frame)
   {
   }
 
-  void onScan(const ScanResult& result) override { track_.add(result); }
+  void onScan(const ScanResult& result) override
+  {
+    track_.add(result);
+    clock_.add(result);
+  }
 
   std::vector<OutputFile> finish(const RunEnd& /*end*/) override
   {
@@ -117,7 +122,7 @@ class RawlogExporter : public Exporter
   [[nodiscard]] bool isOver(const CObservation& observation)
   {
     const auto& poses = track_.poses();
-    const std::int64_t stamp_ns = toNanoseconds(observation.timestamp) + offset_ns_;
+    const std::int64_t stamp_ns = clock_.poseTimeOf(toNanoseconds(observation.timestamp));
     behind_ = poses.empty() || stamp_ns > poses.back().stamp_ns ? behind_ + 1 : 0;
     return behind_ >= kMostBehind;
   }
@@ -141,14 +146,14 @@ class RawlogExporter : public Exporter
     BridgeOutput output = bridge_.convert(observation);
     auto* scan = std::get_if<LidarScan>(&output);
     if (scan == nullptr) return nullptr;
-    scan->stamp_ns += offset_ns_;
+    scan->stamp_ns = clock_.poseTimeOf(scan->stamp_ns);
     return pseudo2dScan(*scan, track_, planarScanOptions(parameters_, max_range_));
   }
 
   [[nodiscard]] std::optional<TrackedPose> poseOf(const CObservation& observation) const
   {
     if (!isSelectedScan(recording_, observation)) return std::nullopt;
-    return track_.at(toNanoseconds(observation.timestamp) + offset_ns_);
+    return track_.at(clock_.poseTimeOf(toNanoseconds(observation.timestamp)));
   }
 
   /** Everything in order of time; odometry and planar scan go before the scan that they are of. */
@@ -188,7 +193,7 @@ class RawlogExporter : public Exporter
   GzipFile file_;
   RecordingAccess recording_;
   ExportOptions parameters_;
-  std::int64_t offset_ns_;
+  LidarClock clock_;
   double max_range_;
   ObservationBridge bridge_;
   PoseTrack track_;

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "lidar_clock.h"
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
@@ -40,13 +41,17 @@ class SimpleMapExporter : public Exporter
   explicit SimpleMapExporter(const ExportTarget& options)
       : file_(options.path("keyframes.simplemap")),
         recording_(options.recording),
-        offset_ns_(toNanoseconds(options.time_offset)),
+        clock_(options.time_offset),
         track_(options.frame),
         rule_(options.parameters.keyframe_distance, options.parameters.keyframe_angle)
   {
   }
 
-  void onScan(const ScanResult& result) override { track_.add(result); }
+  void onScan(const ScanResult& result) override
+  {
+    track_.add(result);
+    clock_.add(result);
+  }
 
   std::vector<OutputFile> finish(const RunEnd& /*end*/) override
   {
@@ -66,7 +71,7 @@ class SimpleMapExporter : public Exporter
   /** The pose is that of the scan's own stamp, to which the times of its points refer. */
   void consider(const mrpt::obs::CObservation::Ptr& scan, mrpt::maps::CSimpleMap& map)
   {
-    const auto pose = track_.at(toNanoseconds(scan->timestamp) + offset_ns_);
+    const auto pose = track_.at(clock_.poseTimeOf(toNanoseconds(scan->timestamp)));
     if (!pose || !rule_.accept(pose->T_world_body)) return;
     auto frame = mrpt::obs::CSensoryFrame::Create();
     frame->insert(scan);
@@ -80,7 +85,7 @@ class SimpleMapExporter : public Exporter
 
   GzipFile file_;
   RecordingAccess recording_;
-  std::int64_t offset_ns_;
+  LidarClock clock_;
   PoseTrack track_;
   KeyFrameRule rule_;
 };

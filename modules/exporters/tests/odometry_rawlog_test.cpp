@@ -3,13 +3,18 @@
 
 #include "bridge_recording.h"
 #include "output_test_support.h"
+#include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/xyzirt_access.h>
 
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
 
 #include <cmath>
 #include <string>
@@ -97,6 +102,77 @@ TEST(OdometryRawlog, AFrameHoldsWhatCameSinceTheScanBefore)
   // Scans 4 to 6, and 7, which begins where 6 ends; two samples with each.
   EXPECT_EQ(scansIn(all), 4U);
   EXPECT_EQ(all.size(), 12U);
+}
+
+/** At 10 m/s, with scans whose stamps are 50 ms late: the filter has found that. */
+std::vector<ScanResult> rideWithALateClock()
+{
+  std::vector<ScanResult> results;
+  for (int i = 0; i < 10; ++i)
+  {
+    ScanResult result = levelResult(i);
+    result.filter.x.time_offset = -0.05;
+    result.stamp_ns -= 50'000'000;
+    result.begin_ns = result.stamp_ns - kPeriod;
+    result.filter.x.p.x() = 10.0 * toSeconds(result.stamp_ns - kRunStart);
+    results.push_back(result);
+  }
+  return results;
+}
+
+TEST(OdometryRawlog, PosesAreOfTheTimeAtWhichTheScanWasMade)
+{
+  std::vector<Object> recorded;
+  for (int i = 0; i < 10; ++i)
+    recorded.emplace_back(cloudAt(0.1 * i));
+  int checked = 0;
+  ExportOptions parameters;
+  parameters.rawlog_scan_2d = false;
+  double x = 0.0;
+  for (const auto& observation : exported(recorded, rideWithALateClock(), parameters))
+  {
+    const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get());
+    if (odometry != nullptr) x = odometry->odometry.x();
+    const double stamp = toSeconds(toNanoseconds(observation->timestamp) - kRunStart);
+    if (observation->sensorLabel != "lidar" || stamp < 0.25 || stamp > 0.85) continue;
+    EXPECT_NEAR(x, 10.0 * (stamp - 0.05), 1e-3) << stamp;
+    ++checked;
+  }
+  EXPECT_GT(checked, 4);
+}
+
+TEST(SimpleMap, PosesAreOfTheTimeAtWhichTheScanWasMade)
+{
+  const TemporaryFolder folder;
+  std::vector<Object> recorded;
+  for (int i = 0; i < 10; ++i)
+    recorded.emplace_back(cloudAt(0.1 * i));
+  testing::write(folder.file("in.rawlog"), testing::serialize(recorded));
+  ExportTarget target;
+  target.directory = folder.path();
+  target.recording.files = {folder.file("in.rawlog")};
+  target.recording.selection.lidar.label = "lidar";
+  target.recording.selection.lidar.class_name = cloudAt(0.0)->GetRuntimeClass()->className;
+  const auto exporter = makeSimpleMapExporter(target);
+  for (const ScanResult& result : rideWithALateClock())
+    exporter->onScan(result);
+  const RunSummary summary;
+  const auto points = smallMap();
+  EXPECT_EQ(exporter->finish({summary, *points}).size(), 1U);
+  mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile(folder.file("keyframes.simplemap")));
+  ASSERT_GT(map.size(), 3U);
+  int checked = 0;
+  for (std::size_t i = 0; i < map.size(); ++i)
+  {
+    const KeyFrameView keyframe = keyFrame(map, i);
+    const auto scan = keyframe.frame->getObservationBySensorLabel("lidar");
+    const double stamp = toSeconds(toNanoseconds(scan->timestamp) - kRunStart);
+    if (stamp < 0.25) continue;
+    EXPECT_NEAR(keyframe.pose->getMeanVal().x(), 10.0 * (stamp - 0.05), 1e-3) << stamp;
+    ++checked;
+  }
+  EXPECT_GT(checked, 2);
 }
 
 /** The recording goes on for a day after a run that was stopped: it is not read to its end. */
