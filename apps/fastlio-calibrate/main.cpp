@@ -162,7 +162,7 @@ CalibrateStatus calibrate(const CalibrateArguments& arguments, ConfigFile given)
 
 CalibrateStatus run(const CalibrateArguments& arguments)
 {
-  requireGivenOnce(arguments.recordings);
+  requireDifferentRecordings(arguments.recordings);
   requireHarmlessOutputs(arguments);
   ConfigFile given;
   if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);

@@ -133,7 +133,7 @@ std::vector<RunInput> runInputs(const MapArguments& arguments)
     requireReadableRecordings(input.files);
     all.insert(all.end(), input.files.begin(), input.files.end());
   }
-  requireGivenOnce(all);
+  requireDifferentRecordings(all);
   makeNamesUnique(inputs);
   return inputs;
 }

@@ -65,7 +65,7 @@ std::vector<RecordingInput> recordingsOf(const TuneFiles& files)
     throw std::invalid_argument(
         "--truth is given " + std::to_string(files.truths.size()) + " times for " +
         std::to_string(files.recordings.size()) + " recordings; give one for each, in their order");
-  requireGivenOnce(files.recordings);
+  requireDifferentRecordings(files.recordings);
   std::vector<RecordingInput> recordings;
   for (std::size_t i = 0; i < files.recordings.size(); ++i)
   {

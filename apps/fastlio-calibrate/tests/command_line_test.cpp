@@ -24,10 +24,11 @@ namespace
 class Calibrate : public ::testing::Test
 {
  protected:
-  std::string record(const std::string& name)
+  std::string record(const std::string& name, unsigned seed = 1)
   {
     SimulationSettings settings = defaultSettings("office");
     settings.duration = 12.0;
+    settings.seed = seed;
     settings.lidar.stride = 4;
     return recordedOnce(settings, folder_.file(name));
   }
@@ -201,9 +202,19 @@ TEST_F(Calibrate, JsonGoesToStandardOutputWhenAsked)
   EXPECT_EQ(nlohmann::json::parse(result.output)["values"].size(), 18U);
 }
 
+/** It would count twice. */
+TEST_F(Calibrate, ACopyOfARecordingIsRefused)
+{
+  const std::string first = record("a"), copy = folder_.file("copy.rawlog");
+  std::filesystem::copy_file(first, copy);
+  const auto result = run({first, copy, "--no-join", "-o", folder_.file("rig.yaml")});
+  EXPECT_EQ(result.exit_status, 1) << result.output;
+  EXPECT_NE(result.output.find("is a copy of"), std::string::npos) << result.output;
+}
+
 TEST_F(Calibrate, PartsThatOverlapAreRefused)
 {
-  const std::string first = record("a"), second = record("b");
+  const std::string first = record("a"), second = record("b", 2);
   const auto result = run({first, second, "--join", "-o", folder_.file("rig.yaml")});
   EXPECT_EQ(result.exit_status, 1) << result.output;
   EXPECT_NE(result.output.find("overlap by "), std::string::npos) << result.output;

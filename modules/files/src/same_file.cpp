@@ -4,7 +4,10 @@
 #include "write_failure.h"
 #include <fastlio/files/same_file.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -43,6 +46,23 @@ std::optional<Identity> identityOf(const std::string& path)
   if (stat(path.c_str(), &status) != 0) return canonicalPath(path);
   if (S_ISCHR(status.st_mode)) return std::nullopt;
   return std::pair(status.st_dev, status.st_ino);
+}
+
+/** Of files of the same size. */
+bool hasSameBytes(const std::string& a, const std::string& b)
+{
+  constexpr std::size_t kChunk = 1 << 16;
+  std::ifstream first(a, std::ios::binary), second(b, std::ios::binary);
+  std::vector<char> from_first(kChunk), from_second(kChunk);
+  while (first && second)
+  {
+    first.read(from_first.data(), kChunk);
+    second.read(from_second.data(), kChunk);
+    if (first.gcount() != second.gcount() ||
+        !std::equal(from_first.begin(), from_first.begin() + first.gcount(), from_second.begin()))
+      return false;
+  }
+  return first.eof() && second.eof();
 }
 }  // namespace
 
@@ -87,6 +107,26 @@ void requireGivenOnce(const std::vector<std::string>& inputs)
       throw std::invalid_argument(
           "input file '" + input + "' is given twice, first as '" + first->second +
           "'; give each recording once");
+  }
+}
+
+void requireDifferentRecordings(const std::vector<std::string>& inputs)
+{
+  requireGivenOnce(inputs);
+  std::multimap<std::uintmax_t, std::string> by_size;
+  for (const std::string& input : inputs)
+  {
+    std::error_code error;
+    if (!fs::is_regular_file(input, error)) continue;
+    const std::uintmax_t size = fs::file_size(input, error);
+    if (error || size == 0) continue;  // reading says why
+    const auto [first, last] = by_size.equal_range(size);
+    for (auto other = first; other != last; ++other)
+      if (hasSameBytes(input, other->second))
+        throw std::invalid_argument(
+            "input file '" + input + "' is a copy of '" + other->second +
+            "', which would count twice; give each recording once");
+    by_size.emplace(size, input);
   }
 }
 

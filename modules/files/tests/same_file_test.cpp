@@ -103,5 +103,26 @@ TEST(SameFile, ManyMissingPartsAreLookedUpOnceEach)
   EXPECT_THROW(requireGivenOnce(missing), std::invalid_argument);
 }
 
+TEST(SameFile, ACopyIsNoOtherRecording)
+{
+  const TemporaryFolder folder;
+  const std::string bytes(200'000, 'x');
+  std::string others = bytes;
+  others.back() = 'y';
+  std::ofstream(folder.file("a")) << bytes;
+  std::ofstream(folder.file("b")) << others;
+  std::ofstream(folder.file("copy")) << bytes;
+  std::ofstream(folder.file("empty")) << "";
+  std::ofstream(folder.file("void")) << "";
+  requireDifferentRecordings(
+      {folder.file("a"), folder.file("b"), folder.file("empty"), folder.file("void"),
+       folder.file("gone"), folder.path()});
+  EXPECT_THROW(
+      requireDifferentRecordings({folder.file("a"), folder.file("b"), folder.file("copy")}),
+      std::invalid_argument);
+  EXPECT_THROW(
+      requireDifferentRecordings({folder.file("a"), folder.file("a")}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace fastlio

@@ -31,6 +31,11 @@ struct FileUse
  * the message names both */
 void requireGivenOnce(const std::vector<std::string>& inputs);
 
+/** For what counts each recording as new evidence.
+ * \exception std::invalid_argument two of the \a inputs are the same file, or a file and its copy;
+ * the message names both */
+void requireDifferentRecordings(const std::vector<std::string>& inputs);
+
 /** \exception std::invalid_argument an output is the same file as an input or as another output;
  * the message names both */
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs);
