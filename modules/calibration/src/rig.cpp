@@ -51,7 +51,7 @@ Rig rigOf(const Config& config, const SensorSelection& selection, const InputPla
 {
   Rig rig;
   rig.T_vehicle_imu = plan.T_vehicle_imu;
-  rig.T_imu_lidar = plan.bridge.T_imu_lidar.value_or(
+  rig.T_imu_lidar = plan.bridge.lidars.front().T_imu_lidar.value_or(
       plan.T_vehicle_imu.inverse() * selection.lidar.T_vehicle_sensor);
   rig.time_offset = config.odometry.lidar.time_offset;
   rig.gyro_matrix = sensorMatrix(config.odometry.imu.gyro_matrix);

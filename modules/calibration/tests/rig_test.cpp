@@ -33,7 +33,8 @@ TEST(Rig, ComesBackFromTheOptionsItIsAppliedTo)
   EXPECT_NO_THROW(validate(config));
   InputPlan plan;
   plan.T_vehicle_imu = *config.sensors.T_vehicle_imu;
-  plan.bridge.T_imu_lidar = plan.T_vehicle_imu.inverse() * *config.sensors.T_vehicle_lidar;
+  plan.bridge.lidars.emplace_back().T_imu_lidar =
+      plan.T_vehicle_imu.inverse() * *config.sensors.T_vehicle_lidar;
   const Rig back = rigOf(config, selectionAt({}), plan);
   EXPECT_TRUE(back.T_imu_lidar.R.isApprox(rig.T_imu_lidar.R, 1e-12));
   EXPECT_TRUE(back.T_imu_lidar.p.isApprox(rig.T_imu_lidar.p, 1e-12));
@@ -50,6 +51,7 @@ TEST(Rig, TakesTheRecordingsPosesWhereTheOptionsGiveNone)
 {
   InputPlan plan;
   plan.T_vehicle_imu = {Mat3::Identity(), {0.0, 0.0, 1.0}};
+  plan.bridge.lidars.emplace_back();
   const Rig rig = rigOf({}, selectionAt({Mat3::Identity(), {0.5, 0.0, 1.2}}), plan);
   EXPECT_TRUE(rig.T_imu_lidar.p.isApprox(Vec3(0.5, 0.0, 0.2), 1e-12));
 }

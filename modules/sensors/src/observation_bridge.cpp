@@ -136,23 +136,17 @@ void dropNear(LidarScan& scan, double min_range)
           all.x[i], all.y[i], all.z[i], all.intensity[i], all.time_offset_ns[i], all.ring[i]);
 }
 
-std::vector<FurtherLidarConversion> allLidars(const BridgeOptions& options, std::size_t count)
-{
-  std::vector<FurtherLidarConversion> lidars{{options.T_imu_lidar, options.timing, 0}};
-  lidars.insert(lidars.end(), options.further_lidars.begin(), options.further_lidars.end());
-  lidars.resize(count);
-  return lidars;
-}
 }  // namespace
 
 namespace fastlio
 {
 ObservationBridge::ObservationBridge(SensorSelection selection, const BridgeOptions& options)
     : selection_(std::move(selection)),
-      lidars_(allLidars(options, 1 + selection_.further_lidars.size())),
+      lidars_(options.lidars),
       further_min_range_(options.further_min_range),
       T_vehicle_imu_(options.T_vehicle_imu.value_or(selection_.imu.T_vehicle_sensor))
 {
+  lidars_.resize(1 + selection_.further_lidars.size());
 }
 
 std::optional<std::size_t> ObservationBridge::lidarOf(const CObservation& observation) const
@@ -199,7 +193,7 @@ BridgeOutput ObservationBridge::convertImu(const CObservation& observation)
 
 BridgeOutput ObservationBridge::convertScan(const CObservation& observation, std::size_t lidar)
 {
-  const FurtherLidarConversion& options = lidars_[lidar];
+  const LidarConversion& options = lidars_[lidar];
   if (observation.timestamp == INVALID_TIMESTAMP)
   {
     ++statistics_.scans_no_stamp;
@@ -231,7 +225,7 @@ BridgeOutput ObservationBridge::convertScan(const CObservation& observation, std
 }
 
 Pose ObservationBridge::extrinsicOf(
-    const CObservation& observation, const FurtherLidarConversion& lidar) const
+    const CObservation& observation, const LidarConversion& lidar) const
 {
   if (lidar.T_imu_lidar) return *lidar.T_imu_lidar;
   mrpt::poses::CPose3D T_vehicle_lidar;

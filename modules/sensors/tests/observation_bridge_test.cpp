@@ -43,7 +43,7 @@ TEST_F(ObservationBridgeTest, ExtrinsicComesFromBothPosesOrTheOverride)
   BridgeOptions options;
   options.T_vehicle_imu = Pose{};
   EXPECT_TRUE(scanOf(options).T_imu_lidar.p.isApprox(Vec3(0, 0, 1), 1e-9));
-  options.T_imu_lidar = Pose{Mat3::Identity(), Vec3(7, 8, 9)};
+  options.lidars.emplace_back().T_imu_lidar = Pose{Mat3::Identity(), Vec3(7, 8, 9)};
   EXPECT_TRUE(scanOf(options).T_imu_lidar.p.isApprox(Vec3(7, 8, 9), 1e-9));
 }
 

@@ -102,11 +102,6 @@ void planWithoutTimes(LidarPlan& plan, const SensorSummary& sensor, const Sensor
         "the LiDAR spins, set input.missing_point_times to clockwise or counterclockwise";
 }
 
-Pose imuPose(const SensorSelection& selection, const SensorOptions& parameters)
-{
-  return parameters.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
-}
-
 /** The options of those that are asked for, in the order of the selection's. */
 std::vector<FurtherLidarOptions> furtherLidars(const SensorOptions& sensors)
 {
@@ -257,25 +252,25 @@ InputPlan planInput(
   InputPlan plan;
   const SensorOptions input = withFactoryMounting(selection, sensors);
   plan.bridge.T_vehicle_imu = input.T_vehicle_imu;
-  plan.T_vehicle_imu = imuPose(selection, input);
-  const Pose T_imu_vehicle = plan.T_vehicle_imu.inverse();
-  if (input.T_vehicle_lidar) plan.bridge.T_imu_lidar = T_imu_vehicle * *input.T_vehicle_lidar;
-  add(plan, selection.lidar, planLidar(selection.lidar, input));
-  plan.bridge.timing = plan.lidars.front().timing;
-
+  plan.T_vehicle_imu = input.T_vehicle_imu.value_or(selection.imu.T_vehicle_sensor);
   plan.bridge.further_min_range = lidar.min_range;
-  const auto further = furtherLidars(sensors);
-  for (std::size_t i = 0; i < std::min(further.size(), selection.further_lidars.size()); ++i)
+  const auto take =
+      [&](const SensorSummary& sensor, const std::optional<Pose>& T_vehicle_lidar, double shift)
   {
-    add(plan, selection.further_lidars[i], planLidar(selection.further_lidars[i], input));
-    FurtherLidarConversion options;
-    options.timing = plan.lidars.back().timing;
-    // The offset of the first LiDAR is added to all points later on.
-    options.stamp_shift_ns = toNanoseconds(further[i].time_offset - lidar.time_offset);
-    if (further[i].T_vehicle_lidar)
-      options.T_imu_lidar = T_imu_vehicle * *further[i].T_vehicle_lidar;
-    plan.bridge.further_lidars.push_back(options);
-  }
+    add(plan, sensor, planLidar(sensor, input));
+    LidarConversion conversion;
+    conversion.timing = plan.lidars.back().timing;
+    conversion.stamp_shift_ns = toNanoseconds(shift);
+    if (T_vehicle_lidar) conversion.T_imu_lidar = plan.T_vehicle_imu.inverse() * *T_vehicle_lidar;
+    plan.bridge.lidars.push_back(conversion);
+  };
+  take(selection.lidar, input.T_vehicle_lidar, 0.0);
+  const auto further = furtherLidars(sensors);
+  // The offset of the first LiDAR is added to all points later on.
+  for (std::size_t i = 0; i < std::min(further.size(), selection.further_lidars.size()); ++i)
+    take(
+        selection.further_lidars[i], further[i].T_vehicle_lidar,
+        further[i].time_offset - lidar.time_offset);
   notePoses(plan, selection, sensors, input);
   noteUnused(plan, selection);
   return plan;

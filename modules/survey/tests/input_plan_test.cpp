@@ -204,7 +204,7 @@ TEST_F(InputPlanTest, SeveralLidarsEachWithItsOwn)
   ASSERT_EQ(found.lidars.size(), 2U);
   EXPECT_EQ(found.lidars[1].timing.reading->unit, PointTimeUnit::Milliseconds);
   EXPECT_EQ(found.lidars[0].timing.reading->unit, PointTimeUnit::Seconds);
-  EXPECT_EQ(found.bridge.further_lidars.at(0).stamp_shift_ns, 3'000'000);
+  EXPECT_EQ(found.bridge.lidars.at(1).stamp_shift_ns, 3'000'000);
   ObservationBridge bridge(selection_, found.bridge);
   auto rear = std::dynamic_pointer_cast<mrpt::obs::CObservationPointCloud>(objects.back());
   EXPECT_EQ(bridge.lidarOf(*rear), std::optional<std::size_t>(1));

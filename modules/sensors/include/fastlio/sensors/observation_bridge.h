@@ -20,8 +20,8 @@
 
 namespace fastlio
 {
-/** One of several LiDARs. */
-struct FurtherLidarConversion
+/** How one LiDAR is converted. */
+struct LidarConversion
 {
   std::optional<Pose> T_imu_lidar;  //!< replaces what both sensorPoses give
   CloudTiming timing;               //!< of its point clouds
@@ -30,11 +30,9 @@ struct FurtherLidarConversion
 
 struct BridgeOptions
 {
-  std::optional<Pose> T_vehicle_imu;  //!< replaces the sensorPose of the IMU's observations
-  std::optional<Pose> T_imu_lidar;    //!< replaces what both sensorPoses give
-  CloudTiming timing;                 //!< of the first LiDAR's point clouds
-  std::vector<FurtherLidarConversion> further_lidars;  //!< in the order of the selection's
-  double further_min_range = 0.0;  //!< nearer points of these are left out: the platform [m]
+  std::optional<Pose> T_vehicle_imu;    //!< replaces the sensorPose of the IMU's observations
+  std::vector<LidarConversion> lidars;  //!< the first one, then the further ones of the selection
+  double further_min_range = 0.0;  //!< nearer points of the further ones are the platform's [m]
 };
 
 /** Counts of used and dropped observations; returns are counted over all scans. */
@@ -92,10 +90,10 @@ class ObservationBridge
   BridgeOutput convertImu(const mrpt::obs::CObservation& observation);
   BridgeOutput convertScan(const mrpt::obs::CObservation& observation, std::size_t lidar);
   [[nodiscard]] Pose extrinsicOf(
-      const mrpt::obs::CObservation& observation, const FurtherLidarConversion& lidar) const;
+      const mrpt::obs::CObservation& observation, const LidarConversion& lidar) const;
 
   SensorSelection selection_;
-  std::vector<FurtherLidarConversion> lidars_;  // the first one, too
+  std::vector<LidarConversion> lidars_;
   double further_min_range_;
   Pose T_vehicle_imu_;
   BridgeStatistics statistics_;
