@@ -66,14 +66,6 @@ unsigned char ObjectStream::byteAt(std::size_t offset) const
   return static_cast<unsigned char>(bytes_[object_ + offset]);
 }
 
-std::uint32_t ObjectStream::wordAt(std::size_t offset) const
-{
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;)
-    word = (word << 8U) | byteAt(offset + i);
-  return word;
-}
-
 std::optional<ObjectHeader> ObjectStream::headerAtOffset(std::size_t offset)
 {
   if (!holds(offset, 1)) return {};
@@ -120,7 +112,8 @@ void ObjectStream::requirePoseOfMovement(std::size_t name_size)
   const bool has_method = byteAt(at) >= kFirstWithMethod;
   const std::size_t pose = at + (has_method ? 5 : 1);
   const auto header = headerAtOffset(pose);
-  if (has_method && wordAt(at + 1) == mrpt::obs::CActionRobotMovement2D::emOdometry)
+  if (has_method &&
+      numberAt<std::uint32_t>(at + 1) == mrpt::obs::CActionRobotMovement2D::emOdometry)
   {
     if (header) requireFewParticles(pose + header->length, byteAt(at));
     return;
@@ -148,9 +141,9 @@ void ObjectStream::requireFewParticles(
     count += byteAt(pose_version) == 0 ? 3 * sizeof(float) : 3 * sizeof(double);
     count += 1 + 4 + (*odometry_version == kFirstWithCount ? 5 : 6) * sizeof(float);
   }
-  if (holds(count, 4) && wordAt(count) > kMostParticles)
+  if (holds(count, 4) && numberAt<std::uint32_t>(count) > kMostParticles)
     throw std::runtime_error(
-        "a movement in it claims " + std::to_string(wordAt(count)) + " particles");
+        "a movement in it claims " + std::to_string(numberAt<std::uint32_t>(count)) + " particles");
 }
 
 std::size_t ObjectStream::Write(const void* /*data*/, std::size_t /*size*/)

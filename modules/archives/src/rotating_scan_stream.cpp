@@ -3,6 +3,7 @@
 
 #include <fastlio/archives/rotating_scan_stream.h>
 #include <fastlio/compat/bounded_read.h>
+#include <fastlio/math/little_endian.h>
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/serialization/stl_serialization.h>
@@ -26,7 +27,7 @@ constexpr std::size_t kMostPixels = 16'000'000;
 
 std::uint16_t shortAt(const std::array<std::uint8_t, 4>& bytes, std::size_t at)
 {
-  return static_cast<std::uint16_t>(bytes.at(at) | (bytes.at(at + 1) << 8U));
+  return littleAt<std::uint16_t>(bytes.data() + at);
 }
 
 struct Size

@@ -80,14 +80,14 @@ class Walk
   bool countedBytes(std::size_t size)
   {
     if (!skip(kCountBytes)) return false;
-    return skip(stream_.wordAt(at_ - kCountBytes) * size);
+    return skip(stream_.numberAt<std::uint32_t>(at_ - kCountBytes) * size);
   }
 
   template <typename Step>
   bool repeated(Step step)
   {
     if (!skip(kCountBytes)) return false;
-    const std::size_t count = stream_.wordAt(at_ - kCountBytes);
+    const std::size_t count = stream_.numberAt<std::uint32_t>(at_ - kCountBytes);
     if (count > kMostParts) return stop(SizeVerdict::Misaligned);
     for (std::size_t i = 0; i < count; ++i)
       if (!step()) return false;
@@ -146,7 +146,7 @@ class Walk
 
   [[nodiscard]] std::uint16_t shortAt(std::size_t at) const
   {
-    return static_cast<std::uint16_t>(stream_.byteAt(at) | (stream_.byteAt(at + 1) << 8U));
+    return stream_.numberAt<std::uint16_t>(at);
   }
 
   bool walk(const Field& field, int depth)

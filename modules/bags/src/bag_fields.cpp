@@ -3,20 +3,11 @@
 
 #include "bag_fields.h"
 
-#include <cstring>
-
 namespace fastlio
 {
 namespace
 {
 constexpr std::size_t kMostBagFields = 100;
-
-std::uint32_t bagWord(const void* data)
-{
-  std::uint32_t value = 0;
-  std::memcpy(&value, data, sizeof value);
-  return value;
-}
 }  // namespace
 
 std::optional<BagFields> BagFields::parse(const std::uint8_t* data, std::size_t size)
@@ -26,7 +17,7 @@ std::optional<BagFields> BagFields::parse(const std::uint8_t* data, std::size_t 
   {
     if (size < sizeof(std::uint32_t) || fields.fields_.size() == kMostBagFields)
       return std::nullopt;
-    const std::size_t length = bagWord(data);
+    const std::size_t length = littleAt<std::uint32_t>(data);
     data += sizeof(std::uint32_t);
     size -= sizeof(std::uint32_t);
     if (length > size) return std::nullopt;
@@ -51,7 +42,7 @@ std::optional<std::uint32_t> BagFields::number(std::string_view name) const
 {
   const auto value = text(name);
   if (!value || value->size() != sizeof(std::uint32_t)) return std::nullopt;
-  return bagWord(value->data());
+  return littleAt<std::uint32_t>(value->data());
 }
 
 std::optional<BagOp> BagFields::op() const

@@ -7,7 +7,6 @@
 #include <fastlio/options/printable.h>
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace fastlio
@@ -48,9 +47,8 @@ void BagFile::readIndex()
   if (!head_size || *head_size > kLargestHead || !readBytes(file_, *head_size, head_)) return;
   const auto fields = BagFields::parse(head_.data(), head_.size());
   const auto place = fields ? fields->text("index_pos") : std::nullopt;
-  std::uint64_t position = 0;
-  if (!place || place->size() != sizeof position) return;
-  std::memcpy(&position, place->data(), sizeof position);
+  if (!place || place->size() != sizeof(std::uint64_t)) return;
+  const auto position = littleAt<std::uint64_t>(place->data());
   if (position < kBagVersion.size() || position >= file_.size()) return;
   file_.seek(position);
   const TopicFilter nothing = [](const RosTopic&) { return false; };

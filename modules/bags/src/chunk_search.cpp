@@ -7,7 +7,6 @@
 #include "mcap_record.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace fastlio
 {
@@ -16,16 +15,8 @@ namespace
 constexpr std::size_t kSearchWindow = std::size_t{1} << 16U;
 constexpr std::size_t kLongestHead = 160;  // of a chunk
 
-template <typename T>
-T numberAt(const std::string& bytes, std::size_t at)
-{
-  T value{};
-  std::memcpy(&value, bytes.data() + at, sizeof value);
-  return value;
-}
-
-/** Calls \a at(window, offset) for every place from which kLongestHead bytes, or the rest of the
- * file, can be seen. */
+/** Calls \a matches(window, offset) for every place from which kLongestHead bytes, or the rest of
+ * the file, can be seen. */
 template <typename Matches>
 std::optional<std::uint64_t> search(FileBytes& file, std::uint64_t from, Matches matches)
 {
@@ -47,7 +38,7 @@ bool isBagChunk(const std::string& window, std::size_t at)
 {
   constexpr std::size_t kShortest = 20, kLongest = 128;
   if (window.size() - at < sizeof(std::uint32_t)) return false;
-  const auto size = numberAt<std::uint32_t>(window, at);
+  const auto size = littleAt<std::uint32_t>(window.data() + at);
   if (size < kShortest || size > kLongest || window.size() - at - 4 < size) return false;
   const auto fields =
       BagFields::parse(reinterpret_cast<const std::uint8_t*>(window.data()) + at + 4, size);
@@ -66,8 +57,8 @@ bool isMcapChunk(const std::string& window, std::size_t at)
       {
         if (window.compare(at + kNameAt, name.size(), name) != 0) return false;
         // Its head holds its length twice.
-        const auto size = numberAt<std::uint64_t>(window, at + 1);
-        const auto packed = numberAt<std::uint64_t>(window, at + kNameAt + name.size());
+        const auto size = littleAt<std::uint64_t>(window.data() + at + 1);
+        const auto packed = littleAt<std::uint64_t>(window.data() + at + kNameAt + name.size());
         return size == packed + kNameAt - 9 + name.size() + sizeof packed;
       });
 }

@@ -4,8 +4,9 @@
 /** \file mcap_record.h Records of MCAP as bytes. */
 #pragma once
 
+#include <fastlio/math/little_endian.h>
+
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -32,9 +33,7 @@ class McapRecord
   template <typename T>
   McapRecord& number(T value)
   {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes_.append(raw, sizeof(T));
+    appendLittle(bytes_, value);
     return *this;
   }
   McapRecord& text(std::string_view text)

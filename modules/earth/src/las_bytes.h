@@ -5,13 +5,12 @@
  * Specification 1.4 - R15, tables 3, 5 and 14; all numbers are little-endian). */
 #pragma once
 
+#include <fastlio/math/little_endian.h>
 #include <fastlio/math/so3.h>
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 namespace fastlio
 {
@@ -23,7 +22,7 @@ inline constexpr std::size_t kLongestLasWkt = 65534;
 /** Of point data record format 6: return number 1 in the lower four bits, 1 return in the upper. */
 inline constexpr std::uint8_t kLasOneOfOneReturns = 0x11;
 
-/** Appends to a text, byte by byte, the same on every machine. */
+/** Appends to a text. */
 class LasBytes
 {
  public:
@@ -32,20 +31,8 @@ class LasBytes
   template <typename Number>
   LasBytes& number(Number value)
   {
-    if constexpr (std::is_floating_point_v<Number>)
-    {
-      static_assert(sizeof(Number) == sizeof(std::uint64_t));
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      return number(bits);
-    }
-    else
-    {
-      const auto bits = static_cast<std::make_unsigned_t<Number>>(value);
-      for (std::size_t i = 0; i < sizeof bits; ++i)
-        bytes_.push_back(static_cast<char>((std::uint64_t{bits} >> (8 * i)) & 0xFFU));
-      return *this;
-    }
+    appendLittle(bytes_, value);
+    return *this;
   }
   LasBytes& zeros(std::size_t count)
   {

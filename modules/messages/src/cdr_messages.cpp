@@ -27,28 +27,20 @@ bool areOffsets(const std::vector<double>& times)
       times.begin(), times.end(), [](double t) { return t >= 0.0 && t < kLongestOffset; });
 }
 
-template <typename T>
-void append(std::string& data, T value)
-{
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  data.append(raw, sizeof(T));
-}
-
 std::string pointsOf(const CloudColumns& columns, bool offsets)
 {
   std::string data;
   for (std::size_t i = 0; i < columns.size(); ++i)
   {
     for (const float value : {columns.x[i], columns.y[i], columns.z[i]})
-      append(data, value);
-    append(data, columns.intensity.empty() ? 0.0F : columns.intensity[i]);
-    append(data, columns.ring.empty() ? std::uint16_t{0} : columns.ring[i]);
+      appendLittle(data, value);
+    appendLittle(data, columns.intensity.empty() ? 0.0F : columns.intensity[i]);
+    appendLittle(data, columns.ring.empty() ? std::uint16_t{0} : columns.ring[i]);
     if (columns.time.empty()) continue;
     if (offsets)
-      append(data, static_cast<std::uint32_t>(toNanoseconds(columns.time[i])));
+      appendLittle(data, static_cast<std::uint32_t>(toNanoseconds(columns.time[i])));
     else
-      append(data, columns.time[i]);
+      appendLittle(data, columns.time[i]);
   }
   return data;
 }

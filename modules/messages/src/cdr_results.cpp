@@ -28,12 +28,7 @@ std::string coordinates(const std::vector<Vec3>& points)
   data.reserve(points.size() * 3 * sizeof(T));
   for (const Vec3& point : points)
     for (int i = 0; i < 3; ++i)
-    {
-      const T value = static_cast<T>(point[i]);
-      char raw[sizeof(T)];
-      std::memcpy(raw, &value, sizeof(T));
-      data.append(raw, sizeof(T));
-    }
+      appendLittle(data, static_cast<T>(point[i]));
   return data;
 }
 }  // namespace

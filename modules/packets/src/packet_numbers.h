@@ -4,11 +4,11 @@
 /** \file packet_numbers.h Numbers at a place in a packet, whose size was checked before. */
 #pragma once
 
+#include <fastlio/math/little_endian.h>
 #include <fastlio/math/time.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <ctime>
 
 namespace fastlio
@@ -16,15 +16,6 @@ namespace fastlio
 inline constexpr int kTurn = 36'000;  // in the unit of azimuths, 0.01 deg
 /** A scan that has more is no scan: it is given as it is. */
 inline constexpr std::size_t kMostPointsPerScan = 2'000'000;
-
-/** The lowest byte first, as on this machine. */
-template <typename T>
-[[nodiscard]] T littleAt(const std::uint8_t* bytes)
-{
-  T value{};
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
 
 /** The highest byte first. \param size of the number, at most 8 bytes */
 [[nodiscard]] inline std::uint64_t bigAt(const std::uint8_t* bytes, std::size_t size)

@@ -4,6 +4,7 @@
 // Velodyne's data packets: they stay raw, a revolution an observation.
 
 #include "packet_kinds.h"
+#include <fastlio/math/little_endian.h>
 #include <fastlio/packets/velodyne_scans.h>
 
 #include <array>
@@ -24,7 +25,7 @@ class VelodyneSensor : public PacketSensor
   void take(const UdpPacket& packet, ObservationQueue& out) override
   {
     if (!isVelodynePacket(packet)) return;  // its position packets
-    const int azimuth = packet.data[kAzimuthAt] | (packet.data[kAzimuthAt + 1] << 8U);
+    const int azimuth = littleAt<std::uint16_t>(packet.data + kAzimuthAt);
     if (!packets_.empty() && (azimuth < azimuth_ || packets_.size() == kMostPacketsPerScan))
       flush(out);
     if (packets_.empty()) stamp_ns_ = packet.stamp_ns;

@@ -5,6 +5,8 @@
  * (MRPT's own accessors bind references to them, which is undefined behaviour). */
 #pragma once
 
+#include <fastlio/math/little_endian.h>
+
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstddef>
@@ -22,8 +24,7 @@ constexpr std::size_t kIntensity = 2;                                           
 
 inline std::uint16_t uint16At(const void* object, std::size_t offset)
 {
-  const auto* bytes = static_cast<const unsigned char*>(object) + offset;
-  return static_cast<std::uint16_t>(bytes[0] | (bytes[1] << 8U));
+  return littleAt<std::uint16_t>(static_cast<const unsigned char*>(object) + offset);
 }
 }  // namespace packet_layout
 

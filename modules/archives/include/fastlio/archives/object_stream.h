@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/archives/inflating_file.h>
+#include <fastlio/math/little_endian.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -71,7 +72,11 @@ class ObjectStream
    * @{ */
   [[nodiscard]] bool holds(std::size_t offset, std::size_t size);
   [[nodiscard]] unsigned char byteAt(std::size_t offset) const;
-  [[nodiscard]] std::uint32_t wordAt(std::size_t offset) const;
+  template <typename Number>
+  [[nodiscard]] Number numberAt(std::size_t offset) const
+  {
+    return littleAt<Number>(bytes_.data() + object_ + offset);
+  }
   [[nodiscard]] std::optional<ObjectHeader> headerAtOffset(std::size_t offset);
   /** The file ends there or inside of what may be a header there. */
   [[nodiscard]] bool endsInsideHeader(std::size_t offset);

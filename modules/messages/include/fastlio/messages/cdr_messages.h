@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/math/linear_algebra.h>
+#include <fastlio/math/little_endian.h>
 #include <fastlio/messages/diagnostic_status.h>
 #include <fastlio/messages/ros_messages.h>
 #include <fastlio/sensors/xyzirt_access.h>
@@ -13,7 +14,6 @@
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,9 +31,7 @@ class CdrWriter
     constexpr std::size_t kHead = 4;
     while ((bytes_.size() - kHead) % sizeof(T) != 0)
       bytes_ += '\0';
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes_.append(raw, sizeof(T));
+    appendLittle(bytes_, value);
   }
   void text(std::string_view text);
   void raw(std::string_view bytes) { bytes_ += bytes; }

@@ -4,12 +4,12 @@
 /** \file byte_source.h Bytes of a file, and bytes that a stretch of a file inflates to. */
 #pragma once
 
+#include <fastlio/math/little_endian.h>
 #include <fastlio/recordings/inflater.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,9 +48,7 @@ template <typename T>
 {
   std::uint8_t bytes[sizeof(T)];
   if (source.read(bytes, sizeof bytes) < sizeof bytes) return std::nullopt;
-  T value{};
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
+  return littleAt<T>(bytes);
 }
 
 /** A whole file. */

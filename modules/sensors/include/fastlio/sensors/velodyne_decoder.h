@@ -10,6 +10,7 @@
 #pragma once
 
 #include <fastlio/lidar/scan.h>
+#include <fastlio/math/little_endian.h>
 
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
@@ -46,11 +47,8 @@ struct VelodyneSweep
 /** Microseconds past the hour. \param packet its 1206 bytes */
 [[nodiscard]] inline std::uint32_t velodyneTimeOf(const std::uint8_t* packet)
 {
-  constexpr std::size_t kTimeAt = 1200, kTimeBytes = 4;  // the lowest first
-  std::uint32_t time_us = 0;
-  for (std::size_t i = kTimeBytes; i-- > 0;)
-    time_us = time_us << 8U | packet[kTimeAt + i];
-  return time_us;
+  constexpr std::size_t kTimeAt = 1200;
+  return littleAt<std::uint32_t>(packet + kTimeAt);
 }
 
 /** Decodes all packets: VLP-16 and Puck LITE, Puck Hi-Res, HDL-32E, HDL-64E; strongest, last and
