@@ -204,10 +204,7 @@ TEST(InflatingFile, ReportsAFileThatIsNotThere)
 TEST(InflatingFile, ReportsAFolder)
 {
   const TemporaryFolder folder;
-  InflatingFile file(folder.path());
-  char byte = 0;
-  EXPECT_EQ(file.read(&byte, 1), 0U);
-  EXPECT_EQ(file.end(), FileEnd::Corrupt);
+  EXPECT_THROW(InflatingFile{folder.path()}, std::runtime_error);
 }
 
 }  // namespace

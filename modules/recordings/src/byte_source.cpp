@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -86,20 +87,29 @@ StretchBytes::StretchBytes(
   if (inflater_) buffer_.resize(kStretchBuffer);
 }
 
+// Fills the buffer up behind what is left in it.
 void StretchBytes::load()
 {
+  const auto waiting_bytes = buffer_.begin() + static_cast<std::ptrdiff_t>(begin_);
+  std::copy(waiting_bytes, buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+  end_ = waiting();
   begin_ = 0;
-  const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left_, buffer_.size()));
-  end_ = file_.read(buffer_.data(), wanted);
-  left_ -= end_;
-  truncated_ |= end_ < wanted;
+  const auto wanted =
+      static_cast<std::size_t>(std::min<std::uint64_t>(left_, buffer_.size() - end_));
+  const std::size_t got = file_.read(buffer_.data() + end_, wanted);
+  end_ += got;
+  left_ -= got;
+  truncated_ |= got < wanted;
 }
 
 bool StretchBytes::beginsAnotherMember()
 {
-  if (!joins_members_) return false;
-  if (begin_ == end_) load();
-  if (begin_ == end_) return false;
+  if (!member_magic_) return false;
+  const std::string_view& magic = *member_magic_;
+  const std::size_t least = std::max<std::size_t>(magic.size(), 1);
+  if (waiting() < least) load();
+  if (waiting() < least || std::memcmp(buffer_.data() + begin_, magic.data(), magic.size()) != 0)
+    return false;
   inflater_->reset();
   return true;
 }
@@ -113,8 +123,10 @@ std::size_t StretchBytes::inflate(std::uint8_t* data, std::size_t size)
   begin_ += step.consumed;
   corrupt_ = step.status == InflateStatus::Corrupt;
   const bool stuck = step.consumed == 0 && step.produced == 0;
-  if (stuck && !corrupt_ && !truncated_) corrupt_ = step.status == InflateStatus::Going;
-  ended_ = corrupt_ || stuck || (step.status == InflateStatus::MemberEnd && !beginsAnotherMember());
+  const bool more = !truncated_ || waiting() > 0;
+  if (stuck && !corrupt_ && more) corrupt_ = step.status == InflateStatus::Going;
+  whole_ = step.status == InflateStatus::MemberEnd && !beginsAnotherMember();
+  ended_ = corrupt_ || stuck || whole_;
   return step.produced;
 }
 

@@ -4,15 +4,13 @@
 /** \file inflating_file.h A file, plain, gzip or Zstandard, as one run of uncompressed bytes. */
 #pragma once
 
-#include <fastlio/recordings/inflater.h>
+#include <fastlio/recordings/byte_source.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace fastlio
 {
@@ -40,29 +38,17 @@ class InflatingFile
 
   /** Up to \a size bytes; fewer only at the end, which end() then explains. */
   std::size_t read(char* data, std::size_t size);
-
   [[nodiscard]] FileEnd end() const { return end_; }
-
   /** Bytes of the file as it lies on disk that have been used. */
-  [[nodiscard]] std::uint64_t compressedPosition() const { return loaded_ - available(); }
+  [[nodiscard]] std::uint64_t compressedPosition() const
+  {
+    return file_.position() - bytes_.waiting();
+  }
 
  private:
-  struct Closer
-  {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  [[nodiscard]] std::size_t available() const { return buffer_end_ - buffer_begin_; }
-  void load();
-  [[nodiscard]] bool startsWith(std::string_view magic);
-  [[nodiscard]] std::size_t readPlain(unsigned char* data, std::size_t size);
-  [[nodiscard]] std::size_t inflate(unsigned char* data, std::size_t size);
-
-  std::unique_ptr<std::FILE, Closer> file_;
-  std::unique_ptr<Inflater> inflater_;  // none: the file is plain
-  std::string_view magic_;              // of its members
-  std::vector<unsigned char> buffer_;   // bytes of the file
-  std::size_t buffer_begin_ = 0, buffer_end_ = 0;
-  std::uint64_t loaded_ = 0;  // bytes of the file so far
+  FileBytes file_;
+  std::string_view magic_;  // of its members; empty: the file is plain
+  StretchBytes bytes_;
   FileEnd end_ = FileEnd::NotYet;
 };
 

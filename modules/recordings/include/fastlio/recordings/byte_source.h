@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -65,6 +66,8 @@ class FileBytes : public ByteSource
   [[nodiscard]] std::uint64_t position() const { return position_; }
   [[nodiscard]] std::uint64_t size() const { return size_; }
   [[nodiscard]] std::uint64_t left() const { return size_ - position_; }
+  /** The disk has failed: the file goes on where reading has ended. */
+  [[nodiscard]] bool failed() const { return std::ferror(file_.get()) != 0; }
 
  private:
   struct Closer
@@ -88,14 +91,19 @@ class StretchBytes : public ByteSource
   bool skip(std::uint64_t size) override;
 
   /** Members (frames, streams) that follow each other are one, as the programs that compress whole
-   * files take them. */
-  void joinMembers() { joins_members_ = true; }
+   * files take them. \param magic with which each begins: what is none is left alone; empty: all
+   * that follows is one */
+  void joinMembers(std::string_view magic = {}) { member_magic_ = magic; }
+  /** The data end where they should. */
+  [[nodiscard]] bool whole() const { return !inflater_ || whole_; }
 
   /** The compressed data are damaged. */
   [[nodiscard]] bool corrupt() const { return corrupt_; }
   /** The file ends inside the stretch. */
   [[nodiscard]] bool truncated() const { return truncated_; }
 
+  /** Compressed bytes that have been read from the file and wait for their turn. */
+  [[nodiscard]] std::size_t waiting() const { return end_ - begin_; }
   /** The checksum (CRC-32) of all bytes; nothing when some were not looked at, or nobody
    * asked for it. */
   [[nodiscard]] std::optional<std::uint32_t> checksum() const;
@@ -114,8 +122,8 @@ class StretchBytes : public ByteSource
   std::size_t begin_ = 0, end_ = 0;
   Bytes ready_;  // inflated, for small reads
   std::size_t ready_begin_ = 0;
-  bool joins_members_ = false;
-  bool ended_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
+  std::optional<std::string_view> member_magic_;
+  bool ended_ = false, whole_ = false, corrupt_ = false, truncated_ = false, skipped_ = false;
   std::uint32_t checksum_ = 0;
 };
 
