@@ -27,7 +27,7 @@ bool isStatic(const RosTopic& topic)
 bool isSensor(const RosTopic& topic)
 {
   const RosType& type = rosTypeOf(topic.type);
-  return topic.trouble.empty() && (type.read != nullptr || type.hasPackets());
+  return topic.trouble.empty() && (type.read != nullptr || type.packets);
 }
 
 bool tellsOfOthers(const RosTopic& topic)
@@ -79,8 +79,7 @@ void LookAhead::lookAt(const RosMessage& message)
     WireReader in(data.bytes().data(), data.bytes().size(), topic.format);
     const RosType& type = rosTypeOf(topic.type);
     if (isSensor(topic))
-      noteFrame(
-          topic, type.hasPackets() ? readRosHeader(in).frame : type.read(in, topic.name).frame);
+      noteFrame(topic, type.packets ? readRosHeader(in).frame : type.read(in, topic.name).frame);
     else if (type.role == RosRole::Text)
       ouster_.takeMetadata(topic.name, in);
     else

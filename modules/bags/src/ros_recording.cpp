@@ -21,14 +21,6 @@ bool isWanted(const RosTopic& topic)
 {
   return topic.trouble.empty() && rosTypeOf(topic.type).isTaken();
 }
-
-std::optional<PacketMessage> packetsOf(RosRole role)
-{
-  if (role == RosRole::FixedPackets) return PacketMessage::Fixed;
-  if (role == RosRole::VariedPackets) return PacketMessage::Varied;
-  if (role == RosRole::SinglePackets) return PacketMessage::Single;
-  return std::nullopt;
-}
 }  // namespace
 
 RosRecording::RosRecording(std::string path, OpenMessages open)
@@ -93,9 +85,9 @@ std::optional<ReadProblem> RosRecording::convert(const RosMessage& message)
     const RosType& type = rosTypeOf(topic.type);
     if (type.role == RosRole::OusterPackets)
       ouster_.takePacket(topic.name, in, queue_);
-    else if (const auto kind = packetsOf(type.role))
+    else if (type.packets)
     {
-      packets_.take(topic.name, *kind, in);
+      packets_.take(topic.name, *type.packets, in);
       queuePackets();
     }
     else

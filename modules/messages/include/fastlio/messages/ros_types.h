@@ -4,8 +4,10 @@
 /** \file ros_types.h The types of messages that become observations. */
 #pragma once
 
+#include <fastlio/messages/packet_topics.h>
 #include <fastlio/messages/ros_messages.h>
 
+#include <optional>
 #include <string>
 
 namespace fastlio
@@ -17,9 +19,6 @@ enum class RosRole
   Transforms,     //!< where frames are
   Text,           //!< metadata, perhaps
   OusterPackets,  //!< a part of a scan, or an inertial sample
-  FixedPackets,   //!< packets that tell their sensor, PacketMessage::Fixed
-  VariedPackets,  //!< PacketMessage::Varied
-  SinglePackets,  //!< PacketMessage::Single
 };
 
 /** A row: a type and what is made of it. */
@@ -30,25 +29,18 @@ struct RosType
   RosObservation (*read)(WireReader&, const std::string& label) =
       nullptr;  //!< null: it is not read
   RosRole role = RosRole::Observation;
-
-  /** Packets of LiDARs behind a header, which names the frame. */
-  [[nodiscard]] bool hasPackets() const
-  {
-    return role == RosRole::FixedPackets || role == RosRole::VariedPackets ||
-           role == RosRole::SinglePackets;
-  }
+  /** Packets of LiDARs behind a header, which names the frame; nothing: it holds none. */
+  std::optional<PacketMessage> packets = std::nullopt;
 
   /** Its messages become observations of a LiDAR or of an IMU. */
   [[nodiscard]] bool isLidarOrImu() const
   {
     return isTaken() && read != readNavSatFix && read != readOdometry;
   }
-
   /** Its messages become observations. */
   [[nodiscard]] bool isTaken() const
   {
-    return read != nullptr ||
-           (role != RosRole::Observation && role != RosRole::Transforms && role != RosRole::Text);
+    return read != nullptr || packets || role == RosRole::OusterPackets;
   }
 };
 
