@@ -84,7 +84,7 @@ void LookAhead::lookAt(const RosMessage& message)
       ouster_.takeMetadata(topic.name, in);
     else
       for (const RosTransform& transform : readTransforms(in))
-        isStatic(topic) ? transforms_.addFixed(transform) : transforms_.addMoving(transform);
+        transforms_.add(transform, isStatic(topic));
   }
   catch (const std::exception&)
   {

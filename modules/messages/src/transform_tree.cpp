@@ -32,16 +32,6 @@ void TransformTree::add(const RosTransform& transform, bool fixed)
   ++edge.seen;
 }
 
-void TransformTree::addFixed(const RosTransform& transform)
-{
-  add(transform, true);
-}
-
-void TransformTree::addMoving(const RosTransform& transform)
-{
-  add(transform, false);
-}
-
 const TransformTree::Edge* TransformTree::edgeOf(const std::string& child) const
 {
   constexpr std::size_t kRepetitions = 3;  // before a transform of tf counts as fixed

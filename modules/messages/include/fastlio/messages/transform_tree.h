@@ -20,10 +20,8 @@ inline constexpr std::size_t kMostFrames = 10000;
 class TransformTree
 {
  public:
-  void addFixed(const RosTransform& transform);
-
-  /** Of tf: kept as long as it repeats itself. */
-  void addMoving(const RosTransform& transform);
+  /** \param fixed of tf_static; one of tf is kept as long as it repeats itself */
+  void add(const RosTransform& transform, bool fixed);
 
   /** The frame that poses of sensors refer to: base_link or another usual name that any of the
    * frames hangs under, otherwise the top of the first one that something is known of; nothing
@@ -53,7 +51,6 @@ class TransformTree
     Pose T_top_frame;
   };
 
-  void add(const RosTransform& transform, bool fixed);
   [[nodiscard]] const Edge* edgeOf(const std::string& child) const;
   [[nodiscard]] std::optional<std::string> topOf(const std::string& frame) const;
   [[nodiscard]] Top climb(const std::string& frame, const std::string& until) const;
