@@ -6,15 +6,21 @@
 
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/observation_bridge.h>
+#include <fastlio/sensors/scan_merger.h>
 
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <variant>
 #include <vector>
 
 namespace fastlio
 {
+template <typename Item>
+class BoundedQueue;
+
 /** One input of the odometry, and how far reading had come when it was made. */
 struct DecodedInput
 {
@@ -55,8 +61,19 @@ class DecodeAheadSource
   [[nodiscard]] const BridgeStatistics& statistics() const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  void run();
+  bool deliver(const mrpt::obs::CObservation& observation);
+  bool deliver(LidarScan scan);
+  void join();
+  void requireStopped() const;
+
+  RawlogSource source_;
+  ObservationBridge bridge_;
+  ScanMerger merger_;  // idle with a single LiDAR
+  std::unique_ptr<BoundedQueue<DecodedInput>> queue_;
+  std::exception_ptr failure_;
+  BridgeStatistics statistics_;  // of everything, once the thread has been joined
+  std::thread thread_;           // last: starts when all else is there
 };
 
 }  // namespace fastlio
