@@ -14,7 +14,6 @@
 #include <stdexcept>
 #include <string>
 #include <sys/socket.h>
-#include <unistd.h>
 
 namespace fastlio
 {
@@ -30,24 +29,19 @@ std::runtime_error failed(std::uint16_t port, const char* what)
       "UDP port " + std::to_string(port) + ": " + what + " (" + std::strerror(errno) + ")");
 }
 
-int boundSocket(std::uint16_t port)
+FileDescriptor boundSocket(std::uint16_t port)
 {
-  const int handle = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (handle < 0) throw failed(port, "no socket");
+  FileDescriptor handle(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!handle.isOpen()) throw failed(port, "no socket");
   const int on = 1;
-  setsockopt(handle, SOL_SOCKET, SO_RCVBUF, &kWaitingBytes, sizeof kWaitingBytes);
-  setsockopt(handle, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  setsockopt(handle.get(), SOL_SOCKET, SO_RCVBUF, &kWaitingBytes, sizeof kWaitingBytes);
+  setsockopt(handle.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_ANY);
-  if (bind(handle, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-  {
-    const int reason = errno;
-    close(handle);
-    errno = reason;
+  if (bind(handle.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     throw failed(port, "cannot be listened on");
-  }
   return handle;
 }
 
@@ -78,33 +72,18 @@ std::int64_t arrivalOf(msghdr& message)
 
 UdpReceiver::UdpReceiver(const std::vector<std::uint16_t>& ports) : bytes_(kLargestPacket)
 {
-  try
+  for (const std::uint16_t port : ports)
   {
-    for (const std::uint16_t port : ports)
-    {
-      sockets_.push_back(boundSocket(port));
-      ports_.push_back(portOf(sockets_.back()));
-    }
+    sockets_.push_back(boundSocket(port));
+    ports_.push_back(portOf(sockets_.back().get()));
   }
-  catch (...)
-  {
-    for (const int handle : sockets_)
-      close(handle);
-    throw;
-  }
-}
-
-UdpReceiver::~UdpReceiver()
-{
-  for (const int handle : sockets_)
-    close(handle);
 }
 
 std::optional<UdpPacket> UdpReceiver::next(std::chrono::milliseconds patience)
 {
   std::vector<pollfd> waiting;
-  for (const int handle : sockets_)
-    waiting.push_back({handle, POLLIN, 0});
+  for (const FileDescriptor& handle : sockets_)
+    waiting.push_back({handle.get(), POLLIN, 0});
   if (poll(waiting.data(), waiting.size(), static_cast<int>(patience.count())) <= 0)
     return std::nullopt;
   for (std::size_t i = 0; i < waiting.size(); ++i)
@@ -132,7 +111,7 @@ std::optional<UdpPacket> UdpReceiver::receive(std::size_t index)
   message.msg_iovlen = 1;
   message.msg_control = control.data();
   message.msg_controllen = control.size();
-  const ssize_t size = recvmsg(sockets_[index], &message, 0);
+  const ssize_t size = recvmsg(sockets_[index].get(), &message, 0);
   if (size < 0) return std::nullopt;
   std::array<char, INET_ADDRSTRLEN> address{};
   inet_ntop(AF_INET, &sender.sin_addr, address.data(), address.size());

@@ -4,6 +4,7 @@
 /** \file udp_receiver.h Packets from the network. */
 #pragma once
 
+#include <fastlio/files/file_descriptor.h>
 #include <fastlio/packets/packet_streams.h>
 
 #include <chrono>
@@ -21,9 +22,6 @@ class UdpReceiver
   /** \param ports 0: any free one
    * \exception std::runtime_error a port cannot be listened on: which, and why */
   explicit UdpReceiver(const std::vector<std::uint16_t>& ports);
-  ~UdpReceiver();
-  UdpReceiver(const UdpReceiver&) = delete;
-  UdpReceiver& operator=(const UdpReceiver&) = delete;
 
   /** The next packet, whose bytes stay valid until the one after it; nothing if none comes in time.
    */
@@ -35,7 +33,7 @@ class UdpReceiver
  private:
   [[nodiscard]] std::optional<UdpPacket> receive(std::size_t index);
 
-  std::vector<int> sockets_;
+  std::vector<FileDescriptor> sockets_;
   std::vector<std::uint16_t> ports_;
   std::vector<std::uint8_t> bytes_;
   std::size_t first_ = 0;  // socket that is looked at first, so that none is starved
