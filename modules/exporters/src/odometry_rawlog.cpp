@@ -147,7 +147,7 @@ class RawlogExporter : public Exporter
     auto* scan = std::get_if<LidarScan>(&output);
     if (scan == nullptr) return nullptr;
     scan->stamp_ns = clock_.poseTimeOf(scan->stamp_ns);
-    return pseudo2dScan(*scan, track_, planarScanOptions(parameters_, max_range_));
+    return pseudo2dScan(*scan, track_, parameters_, max_range_);
   }
 
   [[nodiscard]] std::optional<TrackedPose> poseOf(const CObservation& observation) const

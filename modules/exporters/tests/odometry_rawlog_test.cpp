@@ -237,7 +237,7 @@ TEST(Pseudo2dScan, IsAsExactFarFromTheOrigin)
         static_cast<float>(kRange * std::cos(angle)), static_cast<float>(kRange * std::sin(angle)),
         0.0F, 0.0F, 0, 0);
   }
-  const auto planar = pseudo2dScan(scan, track, {});
+  const auto planar = pseudo2dScan(scan, track, {}, 150.0);
   ASSERT_TRUE(planar);
   int valid = 0;
   for (std::size_t i = 0; i < planar->getScanSize(); ++i)

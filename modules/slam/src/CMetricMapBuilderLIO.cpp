@@ -165,7 +165,7 @@ void CMetricMapBuilderLIO::insertScan(
   cloud->sensorPose = toMrptPose(T_map_vehicle * T_vehicle_lidar);
   // In use, not as given: the preset of the LiDAR may say how far it sees.
   const double max_range = odometry_.parameters().lidar.max_range;
-  const auto planar = pseudo2dScan(scan, track, planarScanOptions(config_.exporters, max_range));
+  const auto planar = pseudo2dScan(scan, track, config_.exporters, max_range);
   const mrpt::poses::CPose3D ground(onGround(T_map_vehicle));
   for (auto& map : metric_map.maps)
     if (!map->insertObservation(*cloud, mrpt::poses::CPose3D()) && planar)

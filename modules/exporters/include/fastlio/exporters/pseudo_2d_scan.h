@@ -12,25 +12,13 @@
 
 namespace fastlio
 {
-/** Options of pseudo2dScan(). */
-struct Pseudo2dScanOptions
-{
-  int rays = 720;
-  double height = 0.0;       //!< of the plane above the LiDAR [m]
-  double thickness = 0.2;    //!< of the slice around the plane [m]
-  double max_range = 150.0;  //!< [m]
-};
-
-/** As the options of the exporters ask for it.
- * \param max_range of the LiDAR (lidar.max_range) [m] */
-[[nodiscard]] Pseudo2dScanOptions planarScanOptions(const ExportOptions& options, double max_range);
-
 /** The scan as a planar LiDAR in a level plane through the real one would have seen it at the
  * scan's stamp: each point moves to where it was in the world when it was measured, and the nearest
  * one in each ray of the slice counts. The vehicle of the result is the level frame on the ground
  * below the body (x, y and yaw of its pose). Null when the track has no pose for the scan's stamp.
- */
+ * \param options rays, and height and thickness of the slice
+ * \param max_range of the LiDAR (lidar.max_range) [m] */
 [[nodiscard]] mrpt::obs::CObservation2DRangeScan::Ptr pseudo2dScan(
-    const LidarScan& scan, const PoseTrack& track, const Pseudo2dScanOptions& options);
+    const LidarScan& scan, const PoseTrack& track, const ExportOptions& options, double max_range);
 
 }  // namespace fastlio
