@@ -3,6 +3,7 @@
 
 // Files of bags that are compressed as a whole, and the order of the files of a folder.
 
+#include "failure_message.h"
 #include "file_size_limit.h"
 #include "inflated_copy.h"
 #include "recording_test_support.h"
@@ -43,16 +44,12 @@ TEST_F(CompressedBags, AFullDiskIsNoDamageOfTheRecording)
 {
   // Fewer bytes than the library's buffer: they are written when the file is closed.
   const std::string file = fileOf(zstd(std::string(3000, 'x')), "walk.mcap.zstd");
-  std::string message;
-  try
-  {
-    const FileSizeLimit limit(1000);
-    const InflatedCopy copy(file);
-  }
-  catch (const std::runtime_error& e)
-  {
-    message = e.what();
-  }
+  const std::string message = failureOf(
+      [&]
+      {
+        const FileSizeLimit limit(1000);
+        const InflatedCopy copy(file);
+      });
   EXPECT_TRUE(contains(message, "TMPDIR")) << message;
 }
 

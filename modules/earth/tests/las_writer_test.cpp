@@ -5,6 +5,7 @@
 #include "las_points.h"
 
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <vector>
 

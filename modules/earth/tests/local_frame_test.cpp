@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "proj_objects.h"
 #include <fastlio/earth/local_frame.h>
 
@@ -17,6 +18,8 @@ namespace fastlio
 {
 namespace
 {
+using testing::failureOf;
+
 const std::vector<GeodeticPoint> kDatums = {
     {48.137, 11.575, 520}, {-33.86, 151.21, 20}, {0, 0, 0},
     {89.9999, 45, 0},      {-90, 0, 2800},       {90, 0, 0},
@@ -145,17 +148,13 @@ TEST(LocalFrame, RefusesWhatIsNoPlace)
            {0, 0, nan},
            {0, 0, -13e3}})
     EXPECT_THROW(LocalFrame{wrong}, std::invalid_argument);
-  try
-  {
-    const LocalFrame frame({4812.5, 11, 0});
-  }
-  catch (const std::invalid_argument& error)
-  {
-    EXPECT_STREQ(
-        error.what(),
-        "the datum (latitude 4812.5, longitude 11, height 0) is no place on the earth: the "
-        "latitude is not within -90 to 90 degrees");
-  }
+  EXPECT_EQ(
+      failureOf(
+          [] {
+            const LocalFrame frame({4812.5, 11, 0});
+          }),
+      "the datum (latitude 4812.5, longitude 11, height 0) is no place on the earth: the latitude "
+      "is not within -90 to 90 degrees");
 }
 }  // namespace
 }  // namespace fastlio

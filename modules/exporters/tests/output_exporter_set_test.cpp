@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "output_test_support.h"
 #include <fastlio/exporters/standard_exporters.h>
 
@@ -10,6 +11,7 @@ namespace
 {
 using testing::contentOf;
 using testing::dataLinesOf;
+using testing::failureOf;
 using testing::madeUpResult;
 using testing::smallMap;
 using testing::TemporaryFolder;
@@ -132,17 +134,10 @@ TEST(ExporterSet, AnUnknownNameIsAnsweredWithThoseThatThereAre)
   const TemporaryFolder folder;
   ExportTarget options = optionsFor(folder);
   options.parameters.exporters = "states,plz";
-  try
-  {
-    (void)makeExporters(options);
-    FAIL();
-  }
-  catch (const std::invalid_argument& e)
-  {
-    const std::string message = e.what();
-    EXPECT_NE(message.find("'plz'"), std::string::npos) << message;
-    EXPECT_NE(message.find("simplemap"), std::string::npos) << message;
-  }
+  const std::string message =
+      failureOf<std::invalid_argument>([&] { (void)makeExporters(options); });
+  EXPECT_NE(message.find("'plz'"), std::string::npos) << message;
+  EXPECT_NE(message.find("simplemap"), std::string::npos) << message;
 }
 
 /** A program's own format: a class and a row. */

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "folder_listing.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/run/run_folder.h>
@@ -13,6 +14,7 @@ namespace fastlio
 namespace
 {
 using testing::contentOf;
+using testing::failureOf;
 using testing::namesIn;
 using testing::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -53,16 +55,12 @@ class RunFolderTest : public ::testing::Test
 
   [[nodiscard]] std::string refusal() const
   {
-    try
-    {
-      requireReplaceable(plan());
-      const RunFolder run(plan());
-      return "";
-    }
-    catch (const std::runtime_error& e)
-    {
-      return e.what();
-    }
+    return failureOf<std::runtime_error>(
+        [this]
+        {
+          requireReplaceable(plan());
+          const RunFolder run(plan());
+        });
   }
 
   [[nodiscard]] const TemporaryFolder& folder() const { return folder_; }
@@ -98,19 +96,11 @@ TEST_F(RunFolderTest, ARunOfAnotherProgramIsNotReplacedUnlessAsked)
   EXPECT_NO_THROW(requireReplaceable(own));
   const auto refuse = [&](const auto& step)
   {
-    try
-    {
-      step();
-      ADD_FAILURE() << "it was not refused";
-    }
-    catch (const std::runtime_error& e)
-    {
-      const std::string text = e.what();
-      EXPECT_NE(
-          text.find("holds a run of fastlio-sort; choose another folder or give --overwrite"),
-          std::string::npos)
-          << text;
-    }
+    const std::string text = failureOf<std::runtime_error>(step);
+    EXPECT_NE(
+        text.find("holds a run of fastlio-sort; choose another folder or give --overwrite"),
+        std::string::npos)
+        << text;
   };
   refuse([&] { requireReplaceable(other); });
   refuse([&] { const RunFolder run(other); });

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "failure_message.h"
 #include "folder_listing.h"
 #include <fastlio/files/folder_lock.h>
 #include <fastlio/files/made_folders.h>
@@ -14,6 +15,7 @@ namespace fastlio
 namespace
 {
 using testing::contentOf;
+using testing::failureOf;
 using testing::namesIn;
 using testing::TemporaryFolder;
 namespace fs = std::filesystem;
@@ -55,17 +57,9 @@ TEST(FolderLock, KeepsOthersOutAndTellsWhoHoldsIt)
     const FolderLock lock(folder.path());
     EXPECT_FALSE(lock.tookOver());
     EXPECT_TRUE(hasLockFile(folder.path()));
-    try
-    {
-      const FolderLock second(folder.path());
-      FAIL() << "two hold one folder";
-    }
-    catch (const std::runtime_error& e)
-    {
-      const std::string message = e.what();
-      EXPECT_NE(message.find("process " + std::to_string(getpid())), std::string::npos) << message;
-      EXPECT_NE(message.find(folder.path()), std::string::npos) << message;
-    }
+    const std::string message = failureOf([&] { const FolderLock second(folder.path()); });
+    EXPECT_NE(message.find("process " + std::to_string(getpid())), std::string::npos) << message;
+    EXPECT_NE(message.find(folder.path()), std::string::npos) << message;
   }
   EXPECT_EQ(namesIn(folder), "");
 }
@@ -87,17 +81,9 @@ void expectNoLock(const TemporaryFolder& folder, const std::string& reason)
 {
   const std::string path = folder.file(".fastlio-lock");
   const fs::file_type before = fs::symlink_status(path).type();
-  try
-  {
-    const FolderLock lock(folder.path());
-    ADD_FAILURE() << "it was taken for a lock: " << reason;
-  }
-  catch (const std::runtime_error& e)
-  {
-    const std::string message = e.what();
-    EXPECT_NE(message.find("'" + path + "'"), std::string::npos) << message;
-    EXPECT_NE(message.find(reason), std::string::npos) << message;
-  }
+  const std::string message = failureOf([&] { const FolderLock lock(folder.path()); });
+  EXPECT_NE(message.find("'" + path + "'"), std::string::npos) << message;
+  EXPECT_NE(message.find(reason), std::string::npos) << message;
   EXPECT_EQ(fs::symlink_status(path).type(), before);
 }
 

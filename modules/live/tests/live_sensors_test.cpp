@@ -3,6 +3,7 @@
 
 // From a socket to observations.
 
+#include "failure_message.h"
 #include <fastlio/live/live_sensors.h>
 #include <fastlio/live/udp_receiver.h>
 #include <fastlio/scenarios/scenario.h>
@@ -25,6 +26,8 @@ namespace fastlio
 {
 namespace
 {
+using testing::failureOf;
+
 constexpr std::int64_t kArrival = 1'700'000'000'000'000'000;
 constexpr std::chrono::milliseconds kPatience(2000);
 
@@ -76,15 +79,10 @@ TEST(UdpReceiver, GetsPacketsOfAllItsPortsWithTheTimeOfTheirArrival)
 TEST(UdpReceiver, APortInUseIsNamed)
 {
   const UdpReceiver first({0});
-  try
-  {
-    const UdpReceiver second({first.ports()[0]});
-    FAIL() << "the port was taken twice";
-  }
-  catch (const std::runtime_error& e)
-  {
-    EXPECT_NE(std::string(e.what()).find(std::to_string(first.ports()[0])), std::string::npos);
-  }
+  const std::uint16_t port = first.ports()[0];
+  const std::string refusal =
+      failureOf<std::runtime_error>([&] { const UdpReceiver second({port}); });
+  EXPECT_NE(refusal.find(std::to_string(port)), std::string::npos) << refusal;
 }
 
 TEST(LiveSensors, ASampleIsALineOfText)

@@ -4,6 +4,7 @@
 // Rotating scans in both layouts of their stream, with points of their own and with ranges only.
 
 #include "bridge_recording.h"
+#include "failure_message.h"
 #include "rawlog_reading.h"
 #include "rotating_scans.h"
 #include <fastlio/sensors/conversions.h>
@@ -150,17 +151,7 @@ TEST_F(RotatingScanTest, ColumnsThatMrptLeavesEmptyTakeNoTime)
 TEST_F(RotatingScanTest, WhatHasNoPointsSaysWhy)
 {
   const auto errorOf = [](const Scan& scan)
-  {
-    try
-    {
-      (void)pointsOf(scan);
-    }
-    catch (const std::runtime_error& e)
-    {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
+  { return failureOf<std::runtime_error>([&] { (void)pointsOf(scan); }); };
   auto scan = rangeScan();
   scan->lidarModel = "OS1-16";
   EXPECT_TRUE(contains(errorOf(*scan), "elevations are not known")) << errorOf(*scan);

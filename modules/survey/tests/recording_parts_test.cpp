@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "bridge_recording.h"
+#include "failure_message.h"
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/recording_parts.h>
@@ -95,17 +96,7 @@ TEST_F(RecordingPartsTest, PartsThatOverlapOrGoBackAreRefused)
 {
   const std::string a = fileFrom(0, 3, "a"), b = fileFrom(2, 3, "b"), c = fileFrom(6, 3, "c");
   const auto refusalOf = [](const Files& files)
-  {
-    try
-    {
-      requireInOrder(files);
-      return std::string();
-    }
-    catch (const std::invalid_argument& e)
-    {
-      return std::string(e.what());
-    }
-  };
+  { return failureOf<std::invalid_argument>([&] { requireInOrder(files); }); };
   const std::string overlap = refusalOf({a, b, c});
   EXPECT_NE(overlap.find("'" + a + "' and '" + b + "' overlap by 0.9"), std::string::npos)
       << overlap;

@@ -4,6 +4,7 @@
 // Which sensors of a recording are chosen, and what is said when there are none.
 
 #include "bridge_recording.h"
+#include "failure_message.h"
 #include "rawlog_reading.h"
 #include <fastlio/sensors/conversions.h>
 
@@ -21,15 +22,7 @@ class SensorSelectionTest : public BridgeTest
  protected:
   std::string errorOf(const std::vector<Object>& objects, const SensorPatterns& patterns = {})
   {
-    try
-    {
-      (void)select(objects, patterns);
-    }
-    catch (const std::runtime_error& e)
-    {
-      return e.what();
-    }
-    return "";
+    return failureOf<std::runtime_error>([&] { (void)select(objects, patterns); });
   }
 };
 }  // namespace
@@ -120,18 +113,8 @@ TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
   EXPECT_TRUE(contains(no_acceleration, "No IMU of the recording can be used"));
   EXPECT_TRUE(contains(no_acceleration, "no acceleration channels")) << no_acceleration;
 
-  const std::string unreadable = []
-  {
-    try
-    {
-      (void)selectSensors(surveySensors({"/nonexistent.rawlog"}, {}), {});
-    }
-    catch (const std::runtime_error& e)
-    {
-      return std::string(e.what());
-    }
-    return std::string();
-  }();
+  const std::string unreadable = failureOf<std::runtime_error>(
+      [] { (void)selectSensors(surveySensors({"/nonexistent.rawlog"}, {}), {}); });
   EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: the file does not exist")) << unreadable;
 
   EXPECT_THROW((void)select(recording(1), {"(", ""}), std::invalid_argument);
@@ -157,14 +140,8 @@ TEST_F(SensorSelectionTest, MoreSensorsThanAnyVehicleHasAreLeftOut)
     (void)noteObservation(survey, *imuAt(0.0, "imu_" + std::to_string(i)));
   EXPECT_EQ(survey.sensors.size(), kMostSensors);
   EXPECT_EQ(survey.observations_beyond, 500U);
-  try
-  {
-    (void)selectSensors(survey, {});
-    ADD_FAILURE() << "a LiDAR was found";
-  }
-  catch (const std::runtime_error& e)
-  {
-    EXPECT_TRUE(contains(e.what(), "500 observations of further sensors")) << e.what();
-    EXPECT_TRUE(contains(e.what(), "and 960 further sensors")) << e.what();
-  }
+  const std::string refusal =
+      failureOf<std::runtime_error>([&] { (void)selectSensors(survey, {}); });
+  EXPECT_TRUE(contains(refusal, "500 observations of further sensors")) << refusal;
+  EXPECT_TRUE(contains(refusal, "and 960 further sensors")) << refusal;
 }
