@@ -58,7 +58,7 @@ void printScript(const TuneCommand& command)
 {
   const SearchInputs inputs = readInputs(command);
   Evaluator evaluator(command, inputs);
-  evaluator.add(knownSets(command, inputs));
+  evaluator.add(knownSets(command, inputs), allRecordings(inputs));
   std::cout
       << (command.task == TuneCommand::Task::PrintSlurm ? slurmScript(command)
                                                         : workerCommands(command));

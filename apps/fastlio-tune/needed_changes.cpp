@@ -22,7 +22,7 @@ bool isAsGood(const TuningResult& result, const JudgedRuns& best, const JudgedRu
 void keepNeededChanges(const SearchInputs& inputs, Evaluator& evaluator, TuningResult& result)
 {
   if (result.conclusion != Conclusion::Better) return;
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   const Candidate base = result.trials.sets.front().values;
   const JudgedRuns best = result.trials.runs[result.best];
   Candidate values = result.trials.sets[result.best].values;

@@ -86,7 +86,7 @@ void rankProxy(const TuneCommand& command)
   const SearchInputs inputs = readInputs(command);
   Evaluator evaluator(command, inputs);
   const std::vector<Trial> sets = knownSets(command, inputs);
-  (void)evaluator.run(sets, recordingsWithout(inputs, inputs.recordings.size()));
+  (void)evaluator.run(sets, allRecordings(inputs));
   std::vector<std::vector<RunOutcome>> outcomes(inputs.recordings.size());
   for (std::size_t r = 0; r < outcomes.size(); ++r)
     for (const Trial& trial : sets)

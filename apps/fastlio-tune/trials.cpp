@@ -131,11 +131,11 @@ Job Evaluator::jobOf(const Trial& trial, std::size_t recording) const
   return {inputs_.id, trial.yaml, input.path, input.truth, command_.frame};
 }
 
-void Evaluator::add(const std::vector<Trial>& sets)
+void Evaluator::add(const std::vector<Trial>& sets, const std::vector<std::size_t>& recordings)
 {
   std::vector<Job> jobs;
   for (const Trial& trial : sets)
-    for (std::size_t r = 0; r < inputs_.recordings.size(); ++r)
+    for (const std::size_t r : recordings)
       jobs.push_back(jobOf(trial, r));
   store_.add(programVersion(), jobs);
 }
@@ -143,11 +143,7 @@ void Evaluator::add(const std::vector<Trial>& sets)
 std::vector<JudgedRuns> Evaluator::run(
     const std::vector<Trial>& sets, const std::vector<std::size_t>& recordings)
 {
-  std::vector<Job> jobs;
-  for (const Trial& trial : sets)
-    for (const std::size_t r : recordings)
-      jobs.push_back(jobOf(trial, r));
-  store_.add(programVersion(), jobs);
+  add(sets, recordings);
   runSearch(command_.runner, inputs_.id);
   std::vector<JudgedRuns> judged(sets.size(), JudgedRuns(inputs_.recordings.size()));
   for (std::size_t i = 0; i < sets.size(); ++i)
@@ -215,12 +211,10 @@ Trials search(
   return trials;
 }
 
-std::vector<std::size_t> recordingsWithout(const SearchInputs& inputs, std::size_t left_out)
+std::vector<std::size_t> allRecordings(const SearchInputs& inputs)
 {
   std::vector<std::size_t> indices(inputs.recordings.size());
   std::iota(indices.begin(), indices.end(), std::size_t{0});
-  if (left_out < indices.size())
-    indices.erase(indices.begin() + static_cast<std::ptrdiff_t>(left_out));
   return indices;
 }
 }  // namespace fastlio

@@ -32,8 +32,8 @@ class Evaluator
 {
  public:
   Evaluator(const TuneCommand& command, const SearchInputs& inputs);
-  /** Adds jobs to the store, and runs none. */
-  void add(const std::vector<Trial>& sets);
+  /** Adds jobs to the store, and runs none. \param recordings indices */
+  void add(const std::vector<Trial>& sets, const std::vector<std::size_t>& recordings);
   /** The base must have been among the sets of this or an earlier call: a run that lasts less than
    * that of the base is truncated.
    * \param recordings indices; the others stay out */
@@ -59,7 +59,6 @@ class Evaluator
     const TuneCommand& command, const SearchInputs& inputs, Evaluator& evaluator,
     const std::vector<std::size_t>& recordings);
 
-/** All recordings but one (or all: \a left_out is their number). */
-[[nodiscard]] std::vector<std::size_t> recordingsWithout(
-    const SearchInputs& inputs, std::size_t left_out);
+/** Their indices. */
+[[nodiscard]] std::vector<std::size_t> allRecordings(const SearchInputs& inputs);
 }  // namespace fastlio

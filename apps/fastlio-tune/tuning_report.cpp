@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -29,7 +28,7 @@ constexpr const char* kBeyond = "var(--soft)";
 /** Mean ratio of each set; nothing where a run was lost or failed. */
 std::vector<double> ratiosOf(const SearchInputs& inputs, const TuningResult& result)
 {
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   std::vector<double> ratios;
   for (const JudgedRuns& runs : result.trials.runs)
   {
@@ -102,18 +101,15 @@ std::string courseFigure(const std::vector<double>& ratios)
 /** A number, or the place in the list of a value that is none. */
 double numberOf(const SearchKey& key, const std::string& value)
 {
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  if (end != value.c_str() && *end == '\0') return key.logarithmic ? std::log10(number) : number;
+  if (const auto number = parsed<double>(value))
+    return key.logarithmic ? std::log10(*number) : *number;
   const auto found = std::find(key.values.begin(), key.values.end(), value);
   return static_cast<double>(found - key.values.begin());
 }
 
 bool isNumber(const std::string& value)
 {
-  char* end = nullptr;
-  (void)std::strtod(value.c_str(), &end);
-  return end != value.c_str() && *end == '\0';
+  return parsed<double>(value).has_value();
 }
 
 /** " [m]", or nothing. */
@@ -224,10 +220,8 @@ std::string keysTable(const SearchInputs& inputs, const TuningResult& result)
     std::string size, levels;
     if (effect != result.effects.end())
     {
-      size = fixedText(effect->effect, 2) + (effect->certain ? "" : " (may be chance)");
-      for (const KeyLevel& level : effect->levels)
-        levels += (levels.empty() ? "" : ", ") + level.values + ": " +
-                  (std::isfinite(level.mean_ratio) ? fixedText(level.mean_ratio, 2) : "lost");
+      size = sizeText(*effect);
+      levels = levelsText(*effect);
     }
     rows += "<tr>" + cell(name + unitOf(name)) + cell(before[k]) + cell(after[k]) + cell(size) +
             cell(levels) + "</tr>\n";

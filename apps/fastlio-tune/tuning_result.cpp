@@ -46,14 +46,8 @@ std::string effectsText(const TuningResult& result, const std::string& indent)
 {
   std::string text;
   for (const KeyEffect& effect : result.effects)
-  {
-    text += indent + effect.key + ": " + fixedText(effect.effect, 2) +
-            (effect.certain ? "" : " (may be chance)") + ";";
-    for (const KeyLevel& level : effect.levels)
-      text += (&level == &effect.levels.front() ? " " : ", ") + level.values + ": " +
-              (std::isfinite(level.mean_ratio) ? fixedText(level.mean_ratio, 2) : "lost");
-    text += "\n";
-  }
+    text += indent + effect.key + ": " + sizeText(effect) + ";" +
+            (effect.levels.empty() ? "" : " ") + levelsText(effect) + "\n";
   return text;
 }
 
@@ -71,7 +65,7 @@ std::string failuresText(const TuningResult& result)
 std::vector<KeyEffect> eachEffects(const SearchInputs& inputs, const Trials& trials)
 {
   const Candidate& base = trials.sets[0].values;
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   std::vector<KeyEffect> effects;
   for (std::size_t k = 0; k < inputs.space.size(); ++k)
   {
@@ -132,7 +126,7 @@ std::vector<KeyEffect> effectsOf(
     const TuneCommand& command, const SearchInputs& inputs, const Trials& trials)
 {
   if (command.search.method == "each") return eachEffects(inputs, trials);
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   std::vector<TriedPoint> points;
   // The base and the defaults are no points of the search.
   for (std::size_t i = 1; i < trials.sets.size(); ++i)

@@ -26,7 +26,8 @@ void leaveEachOut(
 {
   for (std::size_t r = 0; r < inputs.recordings.size(); ++r)
   {
-    const auto others = recordingsWithout(inputs, r);
+    auto others = allRecordings(inputs);
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(r));
     Trial chosen;
     if (command.search.method == "cmaes")
     {
@@ -80,7 +81,7 @@ Conclusion tune(const TuneCommand& command)
   }
   sayPlan(command, inputs);
   Evaluator evaluator(command, inputs);
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   TuningResult result;
   result.trials = search(command, inputs, evaluator, all);
   result.best = bestTrial(result.trials.runs, all);

@@ -6,6 +6,7 @@
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace fastlio
@@ -34,6 +35,20 @@ std::string ratioText(const Judged& base, const Judged& run)
 std::string fileNameOf(const std::string& path)
 {
   return printable(std::filesystem::path(path).filename().string());
+}
+
+std::string sizeText(const KeyEffect& effect)
+{
+  return fixedText(effect.effect, 2) + (effect.certain ? "" : " (may be chance)");
+}
+
+std::string levelsText(const KeyEffect& effect)
+{
+  std::string text;
+  for (const KeyLevel& level : effect.levels)
+    text += (text.empty() ? "" : ", ") + level.values + ": " +
+            (std::isfinite(level.mean_ratio) ? fixedText(level.mean_ratio, 2) : "lost");
+  return text;
 }
 
 std::string effectsTitle(const TuneCommand& command)
@@ -71,7 +86,7 @@ std::string conclusionText(const TuneCommand& command, const TuningResult& resul
 std::string costText(const SearchInputs& inputs, const TuningResult& result)
 {
   const auto& runs = result.trials.runs;
-  const auto all = recordingsWithout(inputs, inputs.recordings.size());
+  const auto all = allRecordings(inputs);
   std::size_t best = 0;
   for (std::size_t i = 1; i < runs.size(); ++i)
     if (scoreOf(runs[0], runs[i], all) < scoreOf(runs[0], runs[best], all)) best = i;

@@ -20,6 +20,10 @@ namespace fastlio
 /** Without its folder, printable. */
 [[nodiscard]] std::string fileNameOf(const std::string& path);
 
+/** "1.20", "1.20 (may be chance)". */
+[[nodiscard]] std::string sizeText(const KeyEffect& effect);
+/** "0.1 to 0.2: 1.20, 0.2 to 0.4: lost". */
+[[nodiscard]] std::string levelsText(const KeyEffect& effect);
 /** The meaning of the numbers of the effects. */
 [[nodiscard]] std::string effectsTitle(const TuneCommand& command);
 

@@ -16,7 +16,7 @@ TEST_F(Tune, ARunThatIsMuchShorterThanThatOfTheBaseIsTruncated)
   const Trial shorter = trialOf(inputs_, {"1", "0.5"});
   const Trial about_as_long = trialOf(inputs_, {"1", "1"});
   const std::vector<Trial> tried = {sets.front(), shorter, about_as_long};
-  evaluator.add(tried);
+  evaluator.add(tried, {0, 1});
   finishRuns(
       [](const Config& config, const std::string& recording)
       {
@@ -37,7 +37,7 @@ TEST_F(Tune, ARunWithoutTheMeasureHasFailed)
 {
   Evaluator evaluator(command_, inputs_);
   const std::vector<Trial> base = {knownSets(command_, inputs_).front()};
-  evaluator.add(base);
+  evaluator.add(base, {0, 1});
   finishRuns(
       [](const Config&, const std::string&) {
         return RunOutcome{RunState::Complete, {{"duration", 100.0}}, "", 0.5};

@@ -40,8 +40,9 @@ class TuneResult : public Tune
   void finish(double only_range, double only_voxel)
   {
     Evaluator evaluator(command_, inputs_);
-    evaluator.add({trialOf(inputs_, {"1", base(1)}), trialOf(inputs_, {base(0), "1"})});
-    evaluator.add({trialOf(inputs_, {base(0), base(1)}), knownSets(command_, inputs_).front()});
+    evaluator.add({trialOf(inputs_, {"1", base(1)}), trialOf(inputs_, {base(0), "1"})}, {0, 1});
+    evaluator.add(
+        {trialOf(inputs_, {base(0), base(1)}), knownSets(command_, inputs_).front()}, {0, 1});
     const double range = 1.0, voxel = 1.0;
     finishRuns(
         [&](const Config& config, const std::string&)
