@@ -20,8 +20,8 @@ struct BatchRun
 };
 
 /** The runs that a command line asks for: one, or one for each recording. Files that follow each
- * other in time are one recording (see joinParts()), unless the user says otherwise. A run without
- * any output gets a folder of its own.
+ * other in time are one recording (Joining::ByStamps), unless the user says otherwise. A run
+ * without any output gets a folder of its own.
  * \exception std::invalid_argument a recording is given twice; the message names both */
 [[nodiscard]] std::vector<BatchRun> runsOf(const ReplayArguments& arguments);
 

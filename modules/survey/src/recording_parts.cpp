@@ -161,9 +161,8 @@ std::vector<std::optional<Continuation>> continuationsOf(const std::vector<std::
   }
   return continuations;
 }
-}  // namespace
 
-std::vector<RecordingParts> joinParts(const std::vector<std::string>& files)
+std::vector<RecordingParts> joinedByStamps(const std::vector<std::string>& files)
 {
   if (files.size() < 2) return {{files}};
   const auto continuations = continuationsOf(files);
@@ -184,6 +183,7 @@ std::vector<RecordingParts> joinParts(const std::vector<std::string>& files)
   }
   return recordings;
 }
+}  // namespace
 
 void requireInOrder(const std::vector<std::string>& files)
 {
@@ -211,14 +211,12 @@ void requireInOrder(const std::vector<std::string>& files)
 
 std::vector<RecordingParts> partsOf(const std::vector<std::string>& files, Joining joining)
 {
-  if (joining == Joining::Never) return withoutJoining(files);
-  if (joining == Joining::ByStamps) return joinParts(files);
-  requireInOrder(files);
-  return {{files}};
-}
-
-std::vector<RecordingParts> withoutJoining(const std::vector<std::string>& files)
-{
+  if (joining == Joining::ByStamps) return joinedByStamps(files);
+  if (joining == Joining::Always)
+  {
+    requireInOrder(files);
+    return {{files}};
+  }
   std::vector<RecordingParts> recordings;
   for (const std::string& file : files)
     recordings.push_back({{file}});

@@ -16,6 +16,7 @@ namespace fastlio
 {
 namespace
 {
+constexpr double kMatchedScans = 100;  // for the check of motion
 
 std::size_t indexOf(const RecordingSurvey& survey, const SensorSummary& summary)
 {
@@ -159,12 +160,11 @@ RecordingSurvey surveyRecording(
   survey.overlap =
       overlapOf(survey.sensors[lidar].stamps, survey.sensors[imu].stamps, first.leads[lidar]);
 
-  SecondPassRequest request;
-  const double seconds =
-      static_cast<double>(options.most_scans) * survey.sensors[lidar].stamps.period;
-  if (options.check_motion) request.turns = liveliest(samples, survey.imu.gyro_max, seconds);
+  const double seconds = kMatchedScans * survey.sensors[lidar].stamps.period;
+  ScanSpan lively{0, -1};
+  if (options.check_motion) lively = liveliest(samples, survey.imu.gyro_max, seconds);
   SecondPass second =
-      readSecond(files, ObservationBridge(*selection, bridge), request, half(options, 0.5));
+      readSecond(files, ObservationBridge(*selection, bridge), lively, half(options, 0.5));
   recogniseModels(survey, second);
   if (options.check_motion)
   {

@@ -189,9 +189,10 @@ FirstPass readFirst(const std::vector<std::string>& files, const SurveyProgress&
 }
 
 SecondPass readSecond(
-    const std::vector<std::string>& files, ObservationBridge bridge,
-    const SecondPassRequest& request, const SurveyProgress& progress)
+    const std::vector<std::string>& files, ObservationBridge bridge, const ScanSpan& lively,
+    const SurveyProgress& progress)
 {
+  constexpr std::size_t kLooks = 20;  // scans of each LiDAR
   RawlogSource source(files);
   SecondPass pass;
   pass.looks.resize(1 + bridge.selection().further_lidars.size());
@@ -202,9 +203,8 @@ SecondPass readSecond(
     const auto lidar = bridge.lidarOf(*observation);
     if (!lidar) continue;
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
-    const bool in_window =
-        *lidar == 0 && stamp_ns >= request.turns.begin_ns && stamp_ns <= request.turns.end_ns;
-    const bool to_look = pass.looks[*lidar].scans() < request.looks;
+    const bool in_window = *lidar == 0 && stamp_ns >= lively.begin_ns && stamp_ns <= lively.end_ns;
+    const bool to_look = pass.looks[*lidar].scans() < kLooks;
     if (!in_window && !to_look) continue;
     const BridgeOutput output = bridge.convert(*observation);
     const auto* scan = std::get_if<LidarScan>(&output);

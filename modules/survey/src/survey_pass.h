@@ -30,12 +30,6 @@ struct FirstPass
     const std::vector<std::string>& files, const SurveyProgress& progress);
 
 /** The results of the second reading. */
-struct SecondPassRequest
-{
-  ScanSpan turns{0, -1};   //!< stamps of scans of the first LiDAR to be matched; empty: none
-  std::size_t looks = 20;  //!< scans per LiDAR to be looked at
-};
-
 struct SecondPass
 {
   std::vector<LidarLook> looks;  //!< the first LiDAR, then the further ones
@@ -43,8 +37,9 @@ struct SecondPass
   Pose T_imu_lidar;  //!< of the first LiDAR, as it is given
 };
 
+/** \param lively stamps of scans of the first LiDAR to be matched; ends before it begins: none */
 [[nodiscard]] SecondPass readSecond(
-    const std::vector<std::string>& files, ObservationBridge bridge,
-    const SecondPassRequest& request, const SurveyProgress& progress);
+    const std::vector<std::string>& files, ObservationBridge bridge, const ScanSpan& lively,
+    const SurveyProgress& progress);
 
 }  // namespace fastlio

@@ -39,7 +39,7 @@ class RecordingPartsTest : public BridgeTest
   static std::vector<Files> joined(const Files& files)
   {
     std::vector<Files> all;
-    for (const RecordingParts& recording : joinParts(files))
+    for (const RecordingParts& recording : partsOf(files, Joining::ByStamps))
       all.push_back(recording.files);
     return all;
   }
@@ -52,7 +52,7 @@ TEST_F(RecordingPartsTest, FilesThatFollowEachOtherAreOneInTheOrderOfTime)
   EXPECT_EQ(joined({a, b, c}), (std::vector<Files>{{a, b, c}}));
   EXPECT_EQ(joined({c, a, b}), (std::vector<Files>{{a, b, c}}));
   EXPECT_EQ(joined({a}), (std::vector<Files>{{a}}));
-  const auto one = joinParts({c, b, a}).front();
+  const auto one = partsOf({c, b, a}, Joining::ByStamps).front();
   ASSERT_EQ(one.pauses.size(), 2U);
   for (const double pause : one.pauses)
     EXPECT_NEAR(pause, 0.0, 0.11);

@@ -16,27 +16,22 @@ struct RecordingParts
   std::vector<double> pauses = {};  //!< between a part and the next one [s]; negative: they overlap
 };
 
-/** Joins files that follow each other in time: the same LiDARs and IMUs (label and class), and the
- * next one begins within a second of the end of the one before. Everything else stays alone.
- *
- * Only files of which another one may be the continuation are read to their end. Never throws for
- * what the files contain; what cannot be read (or only once, as a pipe) stays alone.
- * \param files recordings of any format, in any order
- * \return in the order of the first file of each */
-[[nodiscard]] std::vector<RecordingParts> joinParts(const std::vector<std::string>& files);
-
-/** Each file is a recording of its own. */
-[[nodiscard]] std::vector<RecordingParts> withoutJoining(const std::vector<std::string>& files);
-
 /** How several files become recordings. */
 enum class Joining
 {
-  ByStamps,  //!< joinParts()
-  Always,    //!< all are parts of one recording, in this order
-  Never      //!< withoutJoining()
+  /** Files that follow each other in time are one: the same LiDARs and IMUs (label and class), and
+   * the next one begins within a second of the end of the one before. Everything else stays alone,
+   * and so does what cannot be read (or only once, as a pipe). Only files of which another one may
+   * be the continuation are read to their end. */
+  ByStamps,
+  Always,  //!< all are parts of one recording, in this order
+  Never    //!< each is a recording of its own
 };
 
-/** \exception std::invalid_argument files that are joined always are not in the order of time, or
+/** Never throws for what the files contain, unless they are joined always.
+ * \param files recordings of any format; in any order, unless they are joined always
+ * \return in the order of the first file of each
+ * \exception std::invalid_argument files that are joined always are not in the order of time, or
  * overlap by more than the last sensors of a file that is cut by bytes do; names both and the
  * overlap */
 [[nodiscard]] std::vector<RecordingParts> partsOf(

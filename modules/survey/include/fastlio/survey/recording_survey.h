@@ -65,7 +65,6 @@ struct RecordingSurvey
 struct SurveyOptions
 {
   bool check_motion = true;
-  std::size_t most_scans = 100;  //!< for the check of motion
   /** Fraction of the work that is done, 0..1. */
   std::function<void(double)> progress;
 };
