@@ -22,8 +22,7 @@ struct PacketView
 
 PacketView fixedPacket(WireReader& in)
 {
-  (void)in.number<std::uint32_t>();
-  (void)in.number<std::uint32_t>();
+  (void)readRosTime(in);
   const std::uint8_t* data = in.take(kFixedBytes);
   const std::size_t size = in.number<std::uint32_t>();
   if (size > kFixedBytes) throw std::runtime_error("it claims a packet of more than 1500 bytes");
@@ -52,11 +51,7 @@ void PacketTopics::take(const std::string& topic, PacketMessage kind, WireReader
   const std::size_t packets = in.count(kStampBytes + (fixed ? kFixedBytes + 4 : 4));
   for (std::size_t i = 0; i < packets; ++i)
   {
-    if (!fixed)
-    {
-      (void)in.number<std::uint32_t>();
-      (void)in.number<std::uint32_t>();
-    }
+    if (!fixed) (void)readRosTime(in);
     const PacketView packet = fixed ? fixedPacket(in) : variedPacket(in);
     takePacket(topic, packet.data, packet.size);
   }

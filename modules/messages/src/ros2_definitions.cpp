@@ -17,7 +17,7 @@ struct Definition
   std::array<std::string_view, 4> parts;
 };
 
-constexpr std::array<Definition, 19> kDefinitions{{
+constexpr std::array<Definition, 20> kDefinitions{{
     {"std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n", {}},
     {"geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n", {}},
     {"geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n", {}},
@@ -68,11 +68,9 @@ constexpr std::array<Definition, 19> kDefinitions{{
      {"std_msgs/Header", "diagnostic_msgs/DiagnosticStatus"}},
     {"velodyne_msgs/VelodyneScan",
      "std_msgs/Header header\nvelodyne_msgs/VelodynePacket[] packets\n",
-     {"std_msgs/Header"}},
+     {"velodyne_msgs/VelodynePacket", "std_msgs/Header"}},
+    {"velodyne_msgs/VelodynePacket", "builtin_interfaces/Time stamp\nuint8[1206] data\n", {}},
 }};
-
-const std::string kVelodynePacket =
-    "velodyne_msgs/VelodynePacket\nbuiltin_interfaces/Time stamp\nuint8[1206] data\n";
 
 const Definition* definitionOf(std::string_view type)
 {
@@ -102,8 +100,6 @@ std::string ros2DefinitionOf(const std::string& type)
   const Definition* definition = definitionOf(plain);
   if (definition == nullptr) return {};
   std::string text(definition->fields);
-  if (plain == "velodyne_msgs/VelodyneScan")
-    text += std::string(80, '=') + "\nMSG: " + kVelodynePacket;
   addParts(text, *definition);
   return text;
 }

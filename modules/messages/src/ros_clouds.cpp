@@ -85,9 +85,7 @@ RosObservation readVelodyneScan(WireReader& in, const std::string& label)
   std::int64_t first_ns = header.stamp_ns;
   for (std::size_t i = 0; i < n; ++i)
   {
-    const std::int64_t seconds =
-        in.isRos1() ? std::int64_t{in.number<std::uint32_t>()} : in.number<std::int32_t>();
-    const std::int64_t stamp_ns = seconds * kSecondNs + in.number<std::uint32_t>();
+    const std::int64_t stamp_ns = readRosTime(in);
     // The header's stamp is that of the last packet with most drivers; MRPT's is the first one's.
     if (i == 0 && stamp_ns != 0) first_ns = stamp_ns;
     packets.push_back(in.take(kVelodynePacketBytes));

@@ -63,15 +63,19 @@ void setImu(
 }
 }  // namespace
 
-RosHeader readRosHeader(WireReader& in)
+std::int64_t readRosTime(WireReader& in)
 {
-  if (in.isRos1()) (void)in.number<std::uint32_t>();  // the sequence number
   // Seconds of ROS 1 have no sign, which matters after 2038 only.
   const std::int64_t seconds =
       in.isRos1() ? std::int64_t{in.number<std::uint32_t>()} : in.number<std::int32_t>();
-  const auto nanoseconds = in.number<std::uint32_t>();
+  return seconds * kSecondNs + in.number<std::uint32_t>();
+}
+
+RosHeader readRosHeader(WireReader& in)
+{
+  if (in.isRos1()) (void)in.number<std::uint32_t>();  // the sequence number
   RosHeader header;
-  header.stamp_ns = seconds * kSecondNs + nanoseconds;
+  header.stamp_ns = readRosTime(in);
   header.frame = in.text();
   if (!header.frame.empty() && header.frame.front() == '/') header.frame.erase(0, 1);
   return header;

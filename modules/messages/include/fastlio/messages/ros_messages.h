@@ -23,6 +23,8 @@ struct RosHeader
   std::string frame;
 };
 [[nodiscard]] RosHeader readRosHeader(WireReader& in);
+/** Nanoseconds since 1970. */
+[[nodiscard]] std::int64_t readRosTime(WireReader& in);
 
 /** A converted message: an observation and the frame that it was measured in. */
 struct RosObservation
