@@ -76,10 +76,10 @@ void requireBoundedSize(const std::string& path)
   InflatingFile file(path);
   std::vector<char> buffer(std::size_t{1} << 16U);
   std::size_t size = 0;
-  for (std::size_t got = buffer.size(); got == buffer.size() && size <= kLargestObject; size += got)
+  for (std::size_t got = buffer.size(); got == buffer.size() && size <= kLargestRecord; size += got)
     got = file.read(buffer.data(), buffer.size());
-  if (size > kLargestObject)
-    throw std::runtime_error("is larger than " + std::to_string(kLargestObject >> 20U) + " MiB");
+  if (size > kLargestRecord)
+    throw std::runtime_error("is larger than " + std::to_string(kLargestRecord >> 20U) + " MiB");
 }
 
 /** Data kept in a file, and the function that loads them. */

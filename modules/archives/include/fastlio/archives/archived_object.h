@@ -17,7 +17,7 @@ namespace fastlio
  * sentence goes on behind "the file" */
 [[nodiscard]] mrpt::serialization::CSerializable::Ptr readObjectHere(ObjectStream& stream);
 
-/** The first object of a file of MRPT, gzip or not, of up to kLargestObject bytes. */
+/** The first object of a file of MRPT, gzip or not, of up to kLargestRecord bytes. */
 [[nodiscard]] mrpt::serialization::CSerializable::Ptr readArchivedObject(const std::string& path);
 
 }  // namespace fastlio

@@ -26,16 +26,12 @@ struct ObjectHeader
 /** The last byte of a serialised object. */
 inline constexpr std::uint8_t kEndFlag = 0x88;
 
-/** Of an observation or a frame [bytes]: ten times the clouds of the largest LiDARs. A damaged
- * length costs twice as much memory before it is noticed. */
-inline constexpr std::size_t kLargestObject = std::size_t{256} << 20U;
-
 /** Has what mrpt::serialization::archiveFrom() asks of a stream. All positions are in uncompressed
  * bytes from the start of the file. */
 class ObjectStream
 {
  public:
-  explicit ObjectStream(const std::string& path, std::size_t largest_object = kLargestObject)
+  explicit ObjectStream(const std::string& path, std::size_t largest_object = kLargestRecord)
       : file_(path), largest_object_(largest_object)
   {
   }
