@@ -23,14 +23,14 @@ bool isWanted(const RosTopic& topic)
 }
 }  // namespace
 
-RosRecording::RosRecording(std::string path, OpenMessages open)
-    : path_(std::move(path)), open_(std::move(open)), packets_(path_)
+RosRecording::RosRecording(std::string path, const OpenMessages& open)
+    : path_(std::move(path)), packets_(path_)
 {
   LookAhead ahead(transforms_, ouster_);
-  messages_ = open_();
+  messages_ = open();
   ahead.lookThrough(*messages_);
   vehicle_ = ahead.vehicleFrame();
-  messages_ = open_();
+  messages_ = open();
 }
 
 NextRecorded RosRecording::next()

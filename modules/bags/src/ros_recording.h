@@ -29,7 +29,7 @@ class RosRecording : public RecordingReader
 {
  public:
   /** \exception std::runtime_error the container cannot be opened */
-  RosRecording(std::string path, OpenMessages open);
+  RosRecording(std::string path, const OpenMessages& open);
 
   [[nodiscard]] NextRecorded next() override;
   [[nodiscard]] std::uint64_t position() const override { return messages_->position(); }
@@ -50,7 +50,6 @@ class RosRecording : public RecordingReader
       mrpt::obs::CObservation& observation, const std::string& frame, bool is_lidar_or_imu);
 
   std::string path_;
-  OpenMessages open_;
   std::unique_ptr<RosMessageSource> messages_;
   TransformTree transforms_;
   OusterTopics ouster_;

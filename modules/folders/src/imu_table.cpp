@@ -237,7 +237,6 @@ void ImuTable::advance()
   for (std::string line; !stamp_ns_ && readBoundedLine(in_, line);)
   {
     bytes_ += line.size() + 1;
-    ++lines_;
     if (line.empty() || line.front() == '#') continue;
     if (!parseLine(line)) ++bad_;
   }

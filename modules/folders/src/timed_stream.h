@@ -105,9 +105,9 @@ class ImuTable : public TimedStream
   std::optional<std::size_t> nanoseconds_;  // column of the rest of each second
   std::int64_t unit_ns_ = 1;                // of times; any, as long as it is not known
   std::optional<std::int64_t> stamp_ns_;
-  std::vector<double> values_;  // three rates, three accelerations
-  std::size_t lines_ = 0, taken_ = 0, bad_ = 0;
-  bool told_ = false;  // that some lines are bad
+  std::vector<double> values_;       // three rates, three accelerations
+  std::size_t taken_ = 0, bad_ = 0;  // lines
+  bool told_ = false;                // that some lines are bad
   std::uint64_t bytes_ = 0;
 };
 

@@ -223,15 +223,15 @@ FiringTiming timingOf(VelodyneModel model)
   switch (model)
   {
     case VelodyneModel::Hdl32e:
-      return {32, 1, 1, 1.152, 46.08, 46.08};
+      return {32, 1, 1.152, 46.08, 46.08};
     // 32 lasers of each bank within 48 us, both banks at once.
     case VelodyneModel::Hdl64e:
-      return {32, 1, 2, 1.5, 48.0, 48.0};
+      return {32, 2, 1.5, 48.0, 48.0};
     case VelodyneModel::Vlp16:
     case VelodyneModel::PuckHiRes:
       break;
   }
-  return {16, 2, 1, 2.304, 55.296, 110.592};
+  return {16, 1, 2.304, 55.296, 110.592};
 }
 
 std::vector<LaserGeometry> lasersOf(

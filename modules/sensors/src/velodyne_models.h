@@ -27,7 +27,6 @@ enum class VelodyneModel
 struct FiringTiming
 {
   std::size_t lasers_per_sequence;
-  std::size_t sequences_per_block;
   std::size_t blocks_at_once;  //!< blocks (banks of lasers) that fire simultaneously
   double laser_us;             //!< from one laser to the next within a sequence
   double sequence_us;          //!< from one sequence to the next
