@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-eval: how far is an estimated trajectory from the truth? */
 
+#include "../shared/failure.h"
 #include "../shared/parsing.h"
 #include "command_line.h"
 #include "estimates.h"
@@ -110,7 +111,8 @@ bool evaluateAll(
     catch (const std::exception& e)
     {
       if (reports.empty() && i + 1 == estimates.size()) throw;
-      std::cerr << "fastlio-eval: " << estimates[i].name << " is left out: " << e.what() << '\n';
+      std::cerr << "fastlio-eval: " << estimates[i].name
+                << " is left out: " << fastlio::failureText(e) << '\n';
     }
   }
   return reports.size() == estimates.size();
@@ -129,16 +131,15 @@ int run(const EvalCommand& command)
 }  // namespace
 
 int main(int argc, char** argv)
-try
 {
-  CLI::App app{"Compares an estimated trajectory with the truth.", "fastlio-eval"};
-  fastlio::EvalCommand command;
-  fastlio::addOptions(app, command);
-  if (const auto end = fastlio::endAfterParsing(app, argc, argv, kExitInput, [] {})) return *end;
-  return run(command);
-}
-catch (const std::exception& e)
-{
-  std::cerr << "fastlio-eval: " << e.what() << '\n';
-  return kExitInput;
+  return fastlio::endOf(
+      "fastlio-eval", kExitInput,
+      [&]
+      {
+        CLI::App app{"Compares an estimated trajectory with the truth.", "fastlio-eval"};
+        EvalCommand command;
+        fastlio::addOptions(app, command);
+        const auto end = fastlio::endAfterParsing(app, argc, argv, kExitInput, [] {});
+        return end ? *end : run(command);
+      });
 }

@@ -4,6 +4,7 @@
 /** \file main.cpp fastlio-info: what is in a recording, and what would fastlio-replay do with it?
  */
 
+#include "../shared/failure.h"
 #include "command_line.h"
 #include "config_proposal.h"
 #include "info_report.h"
@@ -67,7 +68,7 @@ void requireHarmlessOutput(const InfoArguments& arguments)
   requireDistinctFiles(inputs, outputs);
 }
 
-int run(const InfoArguments& arguments)
+InfoStatus run(const InfoArguments& arguments)
 {
   requireGivenOnce(arguments.input_files);
   requireInOrder(arguments.input_files);
@@ -82,7 +83,7 @@ int run(const InfoArguments& arguments)
   write(arguments, survey);
   if (!arguments.new_config.empty() && survey.unusable.empty())
     writeFileAtomically(arguments.new_config, proposedConfig(survey, config));
-  return static_cast<int>(survey.unusable.empty() ? InfoStatus::Ok : InfoStatus::Unusable);
+  return survey.unusable.empty() ? InfoStatus::Ok : InfoStatus::Unusable;
 }
 }  // namespace
 
@@ -90,13 +91,6 @@ int main(int argc, char** argv)
 {
   const auto parsed = parseCommandLine(argc, argv);
   if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  try
-  {
-    return run(std::get<InfoArguments>(parsed));
-  }
-  catch (const std::exception& e)
-  {
-    std::cerr << "fastlio-info: " << e.what() << '\n';
-    return static_cast<int>(InfoStatus::Usage);
-  }
+  return endOf(
+      "fastlio-info", InfoStatus::Usage, [&] { return run(std::get<InfoArguments>(parsed)); });
 }

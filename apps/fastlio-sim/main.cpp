@@ -3,6 +3,7 @@
 
 /** \file main.cpp fastlio-sim: simulated recordings with exact ground truth. */
 
+#include "../shared/failure.h"
 #include "../shared/parsing.h"
 #include "command_line.h"
 #include <fastlio/simulation/recording.h>
@@ -64,17 +65,17 @@ void run(const fastlio::SimCommand& command)
 }  // namespace
 
 int main(int argc, char** argv)
-try
 {
-  CLI::App app{"Makes simulated LiDAR-inertial recordings with exact ground truth.", "fastlio-sim"};
-  fastlio::SimCommand command;
-  fastlio::addOptions(app, command);
-  if (const auto end = fastlio::endAfterParsing(app, argc, argv, kExitError, [] {})) return *end;
-  run(command);
-  return kExitOk;
-}
-catch (const std::exception& e)
-{
-  std::cerr << "fastlio-sim: " << e.what() << '\n';
-  return kExitError;
+  return fastlio::endOf(
+      "fastlio-sim", kExitError,
+      [&]
+      {
+        CLI::App app{
+            "Makes simulated LiDAR-inertial recordings with exact ground truth.", "fastlio-sim"};
+        fastlio::SimCommand command;
+        fastlio::addOptions(app, command);
+        const auto end = fastlio::endAfterParsing(app, argc, argv, kExitError, [] {});
+        if (!end) run(command);
+        return end.value_or(kExitOk);
+      });
 }

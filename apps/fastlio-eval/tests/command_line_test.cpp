@@ -44,6 +44,22 @@ TEST_F(FastlioEval, APictureOfAnotherKindIsRefused)
   EXPECT_FALSE(std::filesystem::exists(folder_.file("p.jpg")));
 }
 
+TEST_F(FastlioEval, TooLittleMemoryIsSaidInWords)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizers reserve more than the limit";
+#endif
+  std::string text;
+  for (int i = 0; i < 400'000; ++i)
+    text += std::to_string(i) + " 1 2 3 0 0 0 1\n";
+  write("long.tum", text);
+  const Outcome outcome = runShell(
+      "cd '" + folder_.path() +
+      "' && ulimit -v 60000 && '" FASTLIO_EVAL_PROGRAM "' long.tum long.tum 2>&1");
+  EXPECT_EQ(outcome.status, 1) << outcome.output;
+  EXPECT_EQ(outcome.output, "fastlio-eval: there is not enough memory\n");
+}
+
 TEST_F(FastlioEval, HelpAndVersion)
 {
   expectOutcome("--help", 0, {"--max-ape", "Exit status", "--kitti-times", "covariance.csv"});
