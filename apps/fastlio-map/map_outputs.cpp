@@ -133,11 +133,6 @@ std::string MapFiles::nameOf(const MapFileKind& kind, std::size_t session) const
   return file.substr(0, dot) + "." + sessions_.at(session) + file.substr(dot);
 }
 
-std::string MapFiles::path(const std::string& kind) const
-{
-  return path(kind, 0);
-}
-
 std::string MapFiles::path(const std::string& kind, std::size_t session) const
 {
   const auto& all = mapFileKinds();

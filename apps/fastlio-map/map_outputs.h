@@ -30,10 +30,8 @@ class MapFiles
 
   [[nodiscard]] bool wants(const std::string& kind) const;
   [[nodiscard]] bool wantsMap() const;
-  /** Path of a file of the whole map. */
-  [[nodiscard]] std::string path(const std::string& kind) const;
-  /** Path of a file of a session. */
-  [[nodiscard]] std::string path(const std::string& kind, std::size_t session) const;
+  /** Path of a file of the whole map, or of a session. */
+  [[nodiscard]] std::string path(const std::string& kind, std::size_t session = 0) const;
   /** Names of all files, without the folder. */
   [[nodiscard]] std::vector<std::string> names() const;
 
