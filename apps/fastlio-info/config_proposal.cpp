@@ -5,6 +5,7 @@
 
 #include <fastlio/config/presets.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 
@@ -25,7 +26,6 @@ using mrpt::format;
 
 // In motion a sensor vibrates: the defaults are as far above the data sheets of their sensors.
 constexpr double kNoiseInMotion = 2.5;
-constexpr double kStandardGravity = 9.80665;
 constexpr double kLeastTimeOffset = 0.005;  // the odometry finds smaller ones by itself [s]
 constexpr double kDegreesPerRadian = 30.0;  // a ratio of the rates beyond it: the gyro is in deg/s
 constexpr double kTurned =
@@ -42,12 +42,6 @@ std::string patternOf(const std::string& label)
     pattern += (plain ? "" : "\\") + std::string(1, c);
   }
   return pattern;
-}
-
-bool hasPose(const SensorSummary& sensor)
-{
-  const Pose& T = sensor.T_vehicle_sensor;
-  return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
 }
 
 /** Keys with their reasons, and what to say beside them. */
@@ -101,7 +95,7 @@ class Proposal
 
   void takePoses()
   {
-    if (hasPose(lidar()) || hasPose(imu()) || given_.sensors.T_vehicle_lidar ||
+    if (hasKnownMounting(lidar()) || hasKnownMounting(imu()) || given_.sensors.T_vehicle_lidar ||
         given_.sensors.T_vehicle_imu)
       return;
     const auto& motion = survey_.motion;

@@ -16,12 +16,14 @@
 #include <fastlio/math/angles.h>
 #include <fastlio/options/nearest_name.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/report/report_reference.h>
 #include <fastlio/savedmaps/saved_map_file.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -38,19 +40,6 @@ std::string joined(const std::vector<std::string>& names)
   for (const auto& name : names)
     list += (list.empty() ? "" : ",") + name;
   return list;
-}
-
-/** Whether a list of names, separated by commas or blanks, has this one. */
-bool names(const std::string& list, const std::string& name)
-{
-  constexpr const char* kSeparators = ", \t";
-  for (std::size_t begin = list.find_first_not_of(kSeparators); begin != std::string::npos;)
-  {
-    const std::size_t end = list.find_first_of(kSeparators, begin);
-    if (list.substr(begin, end - begin) == name) return true;
-    begin = list.find_first_not_of(kSeparators, end);
-  }
-  return false;
 }
 
 /** A configuration and what changed it. */
@@ -97,9 +86,10 @@ Loaded loadConfiguration(const ReplayArguments& arguments)
   if (arguments.no_map_update) set("map.update", "--no-map-update", odometry.map.update, false);
   if (!arguments.exporters.empty())
     set("output.exporters", "--export", exporters, joined(arguments.exporters));
+  const auto names = splitAtCommas(exporters);
   if (arguments.imu_rate)
     set("output.imu_rate", "--imu-rate", odometry.imu_rate, true);
-  else if (names(exporters, "imu_rate") && !odometry.imu_rate)
+  else if (std::count(names.begin(), names.end(), "imu_rate") > 0 && !odometry.imu_rate)
   {
     odometry.imu_rate = true;
     loaded.origins["output.imu_rate"] = "output.exporters names imu_rate";

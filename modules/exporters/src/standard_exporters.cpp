@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <sstream>
 #include <stdexcept>
 
 namespace fastlio
@@ -20,13 +20,8 @@ constexpr std::string_view kSummary = "summary";
 std::vector<std::string> namesIn(const std::string& list)
 {
   std::vector<std::string> names;
-  std::istringstream in(list);
-  for (std::string name; std::getline(in, name, ',');)
-  {
-    const auto first = name.find_first_not_of(" \t");
-    if (first == std::string::npos) continue;
-    names.push_back(name.substr(first, name.find_last_not_of(" \t") - first + 1));
-  }
+  for (const std::string_view name : splitAtCommas(list))
+    if (!name.empty()) names.emplace_back(name);
   return names;
 }
 
