@@ -116,6 +116,30 @@ TEST(Units, ALidarInMillimetresIsReportedAndRead)
   EXPECT_LT(positionError(run, run.scans.back()), 0.02);
 }
 
+// Every scan fits a map that is a tenth too small, and so does gravity.
+TEST(Units, RangesOfAWrongScaleAreReported)
+{
+  SimulationSettings settings = walk("office");
+  settings.duration = 40.0;
+  const Simulation simulation(settings);
+  const auto tooShort = [&](LidarScan& scan)
+  {
+    for (auto* column : {&scan.points.x, &scan.points.y, &scan.points.z})
+      for (float& value : *column)
+        value *= 0.9F;
+    return true;
+  };
+  const SimulatedRun run =
+      runOdometryWithScans(simulation, matchingParameters(simulation.settings()), tooShort);
+  const ScanResult& last = run.scans.back().result;
+  ASSERT_TRUE(last.statistics.range_scale.has_value());
+  EXPECT_NEAR(last.statistics.range_scale->scale, 0.9, 4.0 * last.statistics.range_scale->std);
+  EXPECT_EQ(last.health.cause, HealthCause::MotionDisagreement);
+  EXPECT_LT(last.health.value, 0.5);
+  EXPECT_NE(last.health.reason.find("changes of velocity"), std::string::npos)
+      << last.health.reason;
+}
+
 TEST(Units, ALidarWhosePointsAreAllOutOfRangeIsNeverOk)
 {
   const Simulation simulation(walk("office"));

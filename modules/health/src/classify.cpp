@@ -207,6 +207,7 @@ void ScanClassifier::classify(
       std::sqrt(std::max(0.0, symmetricEigensystem(position).values[2])));
   context.max_mounting_error = maxMountingError(options_.calibration);
   context.max_gyro_scale_error = maxGyroScaleError(options_.calibration);
+  context.max_range_scale_error = maxRangeScaleError(options_.calibration);
   result.health = healthOf(result, context);
   previous_ns_ = result.stamp_ns;
   if (result.status == ScanStatus::FirstScan)

@@ -178,6 +178,18 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
               "wrong unit, range setting or imu.gyro_matrix?",
               s.gyro_scale->scale(), s.gyro_scale->std, context.max_gyro_scale_error);
         });
+  if (s.range_scale)
+    consider(
+        health, below(s.range_scale->leastError(), context.max_range_scale_error),
+        HealthCause::MotionDisagreement,
+        [&]
+        {
+          return mrpt::format(
+              "the scans see %.3f +- %.3f times the changes of velocity that the accelerometer "
+              "sees, surely more than %g off: are ranges or specific force in a wrong unit, or the "
+              "inertial data filtered?",
+              s.range_scale->scale, s.range_scale->std, context.max_range_scale_error);
+        });
   if (s.inertial_step)
     consider(
         health, kPredicted, HealthCause::MotionDisagreement,
@@ -247,6 +259,13 @@ double maxGyroScaleError(const CalibrationOptions& options)
 {
   constexpr double kOfNoCommonGyro = 0.02;
   return std::max(kOfNoCommonGyro, 3.0 * options.imu_scale_std);
+}
+
+double maxRangeScaleError(const CalibrationOptions& options)
+{
+  // An extrinsic that is off by a centimetre, and clocks by milliseconds, make 3 %.
+  constexpr double kOfNoCommonSensors = 0.05;
+  return std::max(kOfNoCommonSensors, 3.0 * options.imu_scale_std);
 }
 
 ScanHealth healthOf(const ScanResult& result, const HealthContext& context)

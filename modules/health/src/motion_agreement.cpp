@@ -61,15 +61,24 @@ double normalized(
   return e.dot(ldlt.solve(e).eval()) / 3.0;
 }
 
-/** The attitude that the scan alone shows: without the weight that the prediction had. */
-Mat3 attitudeOfScan(
-    const StateVector& correction, const FilterState& predicted, const FilterState& posterior)
+/** The pose that the scan alone shows: without the weight that the prediction had. */
+struct PoseOfScan
 {
-  const Square6 P = predicted.P.topLeftCorner<6, 6>();
-  const Square6 S = P - posterior.P.topLeftCorner<6, 6>();
-  const Vec6 e = P * S.ldlt().solve(correction.head<6>());
-  return predicted.x.R * expSO3(e.head<3>());
-}
+  PoseOfScan(
+      const StateVector& correction, const FilterState& predicted, const FilterState& posterior)
+  {
+    const Square6 P = predicted.P.topLeftCorner<6, 6>();
+    const Eigen::LDLT<Square6> S(P - posterior.P.topLeftCorner<6, 6>());
+    const Vec6 e = P * S.solve(correction.head<6>());
+    T_world_imu.R = predicted.x.R * expSO3(e.head<3>());
+    T_world_imu.p = predicted.x.p + e.tail<3>();
+    const Square6 covariance = P * S.solve(P) - P;
+    position_std = std::sqrt(std::max(0.0, covariance.diagonal().tail<3>().maxCoeff()));
+  }
+
+  Pose T_world_imu;
+  double position_std = 0.0;  // largest of an axis [m]
+};
 
 double medianOf(std::array<double, MotionAgreement::kWindow> values)
 {
@@ -106,17 +115,20 @@ void MotionAgreement::add(
   unexplained_.attitude[slot] = at(kAttitude, nothing);
   unexplained_.position[slot] = at(kPosition, nothing);
   ++corrections_;
-  const Mat3 R_scan = attitudeOfScan(correction, predicted, posterior);
+  const PoseOfScan scan(correction, predicted, posterior);
+  const Mat3& R_scan = scan.T_world_imu.R;
   // As the gyro measured it: the filter's bias takes in what a wrong scale does in a long turn.
   const Vec3 inertial = logSO3(before.R.transpose() * predicted.x.R) + seconds * before.gyro_bias;
   if (R_last_scan_) addTurn(inertial, logSO3(R_last_scan_->transpose() * R_scan));
   R_last_scan_ = R_scan;
+  changes_.add(before, seconds, predicted.x, scan.T_world_imu.p, scan.position_std);
 }
 
 void MotionAgreement::restart()
 {
   corrections_ = 0;
   R_last_scan_.reset();
+  changes_.restart();
 }
 
 double MotionAgreement::largerMedian(const Windows& windows) const

@@ -218,6 +218,7 @@ void Estimator::compareMotion(
   statistics.unexplained_motion_innovation = agreement_.unexplainedInnovation();
   statistics.mounting_error = agreement_.mountingError();
   statistics.gyro_scale = agreement_.gyroScale();
+  statistics.range_scale = agreement_.rangeScale();
 }
 
 }  // namespace fastlio

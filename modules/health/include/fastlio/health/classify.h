@@ -30,6 +30,8 @@ inline constexpr double kMaxMotionInnovation = 12.0;
 /** Of the gyro's scale: 2 % (datasheets of common sensors say 0.5 to 1 %), or three times what is
  * known of it. */
 [[nodiscard]] double maxGyroScaleError(const CalibrationOptions& options);
+/** How far the ranges may be off the changes of velocity that the accelerometer sees, as a part. */
+[[nodiscard]] double maxRangeScaleError(const CalibrationOptions& options);
 
 /** The filter's treatment of a scan, as far as the status depends on it. */
 struct ScanOutcome
@@ -68,6 +70,7 @@ struct HealthContext
   double lost_std = 0.0;
   double max_mounting_error = maxMountingError({});  //!< [rad]
   double max_gyro_scale_error = maxGyroScaleError({});
+  double max_range_scale_error = maxRangeScaleError({});
 };
 
 /** Health of a scan: the smallest of its measures, each 1/2 at its limit. */

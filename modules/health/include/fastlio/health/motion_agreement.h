@@ -9,6 +9,7 @@
 
 #include <fastlio/filter/state.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/health/velocity_changes.h>
 #include <fastlio/interface/scan_result.h>
 
 #include <array>
@@ -50,6 +51,9 @@ class MotionAgreement
    * determine it. */
   [[nodiscard]] std::optional<GyroScale> gyroScale() const;
 
+  /** The changes of velocity of the scans over those of the accelerometer, likewise. */
+  [[nodiscard]] std::optional<RangeScale> rangeScale() const { return changes_.scale(); }
+
  private:
   /** The turns of the last minute, without their means: the bias of the gyro does not
    * matter. */
@@ -76,6 +80,7 @@ class MotionAgreement
 
   Windows explained_, unexplained_;
   std::size_t corrections_ = 0;
+  VelocityChanges changes_;
   std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
   // Sums over the turns between scans, for Wahba's problem.
   Mat3 products_ = Mat3::Zero();

@@ -92,6 +92,18 @@ struct GyroScale
   }
 };
 
+/** The changes of velocity that the scans see over those that the accelerometer sees. */
+struct RangeScale
+{
+  double scale = 1.0, std = 0.0;
+
+  /** How far the scale is from 1 at least, by three standard deviations. */
+  [[nodiscard]] double leastError() const
+  {
+    return std::max(0.0, std::abs(scale - 1.0) - 3.0 * std);
+  }
+};
+
 /** How wrong the calibration in use seems to be, by the innovations of all scans so far. */
 struct CalibrationCheck
 {
@@ -136,6 +148,7 @@ struct ScanStatistics
   double unexplained_motion_innovation = 0.0;   //!< the same over what the noise alone explains
   std::optional<MountingError> mounting_error;  //!< of the last minute; nothing: not observable
   std::optional<GyroScale> gyro_scale;          //!< likewise
+  std::optional<RangeScale> range_scale;        //!< likewise
   CalibrationCheck calibration;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< of H^T R^-1 H, ascending
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
