@@ -15,8 +15,9 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kLeastFixes = 10;
-// Fewer that agree are chance: their residuals say nothing about the receiver.
-constexpr double kLeastAgreeing = 0.5;     // part of the fixes
+// Fewer that agree are chance: their residuals say nothing about the receiver. And where nearly as
+// many contradict them, as after a jump in the middle, the others may be right.
+constexpr double kLeastAgreeing = 0.6;     // part of the fixes
 constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
 constexpr double kMostCorrelation = 0.98;
 }  // namespace

@@ -76,6 +76,13 @@ class Road
       fix.place = fixes_.front().place;
   }
 
+  /** The second half of its positions is off, all by the same. */
+  void jump(const Vec3& by)
+  {
+    for (std::size_t i = fixes_.size() / 2; i < fixes_.size(); ++i)
+      fixes_[i].place = frame_.geodeticOf(frame_.enuOf(fixes_[i].place) + by);
+  }
+
   [[nodiscard]] const std::vector<Pose>& truth() const { return truth_; }
   [[nodiscard]] const LocalFrame& frame() const { return frame_; }
 
@@ -186,6 +193,16 @@ TEST(Gnss, IsNotUsedWhereFewFixesAgree)
   EXPECT_TRUE(map.graph.positions.empty());
   for (std::size_t i = 0; i < map.submaps.size(); ++i)
     EXPECT_EQ(map.estimate.nodes[i].p, map.submaps[i].reference.T_world_body.p);
+}
+
+/** Which half is right nobody knows. */
+TEST(Gnss, IsNotUsedWhereHalfOfTheFixesContradictTheOthers)
+{
+  Road road(1200.0, 1);
+  road.jump({30.0, -20.0, 0.0});
+  const auto [map, gnss] = road.mapped();
+  EXPECT_FALSE(gnss.used);
+  EXPECT_NE(gnss.reason.find("positions agree with each other"), std::string::npos) << gnss.reason;
 }
 
 /** Nobody gave control points, or could give them larger standard deviations. */

@@ -1,11 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "lidar_clock.h"
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/math/time.h>
+#include <fastlio/run/lidar_clock.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 

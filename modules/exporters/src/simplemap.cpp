@@ -1,12 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "lidar_clock.h"
 #include <fastlio/compat/mrpt_compat.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/run/lidar_clock.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/sensors/conversions.h>
 

@@ -7,6 +7,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/map/register_classes.h>
 #include <fastlio/odometry/odometry.h>
+#include <fastlio/run/lidar_clock.h>
 #include <fastlio/slam/CLidarInertialOdometry.h>
 
 #include <mrpt/core/initializer.h>
@@ -58,7 +59,9 @@ class CLidarInertialOdometry::Impl
 {
  public:
   Impl(const Config& config, OptionFilter is_given)
-      : odometry_(std::in_place, config.odometry), sensors_(config, std::move(is_given))
+      : odometry_(std::in_place, config.odometry),
+        sensors_(config, std::move(is_given)),
+        lidar_clock_(config.odometry.lidar.time_offset)
   {
   }
 
@@ -69,7 +72,11 @@ class CLidarInertialOdometry::Impl
     const bool were_known = sensors_.areKnown();
     auto outputs = sensors_.convert(observation);
     // With the preset of the LiDAR, before the first sample.
-    if (!were_known && sensors_.areKnown()) startAnew();
+    if (!were_known && sensors_.areKnown())
+    {
+      startAnew();
+      lidar_clock_ = LidarClock(sensors_.config().odometry.lidar.time_offset);
+    }
     for (BridgeOutput& output : outputs)
     {
       if (auto* sample = std::get_if<ImuSample>(&output)) add(*sample);
@@ -115,6 +122,7 @@ class CLidarInertialOdometry::Impl
 
   [[nodiscard]] const Odometry& odometry() const { return *odometry_; }
   [[nodiscard]] const PoseTrack& track() const { return track_; }
+  [[nodiscard]] const LidarClock& lidarClock() const { return lidar_clock_; }
 
   std::optional<OdometryEstimate> latest;
   Callback callback;
@@ -132,6 +140,7 @@ class CLidarInertialOdometry::Impl
     if (hasPose(result.status)) start_.reset();
     if (track_.poses().empty()) track_ = PoseTrack({"vehicle", sensors_.T_vehicle_imu().inverse()});
     track_.add(result);
+    lidar_clock_.add(result);
     latest = OdometryEstimate{result, std::nullopt};
     if (hasPose(result.status)) latest->vehicle = track_.poses().back();
     if (!callback) return;
@@ -187,6 +196,7 @@ class CLidarInertialOdometry::Impl
   bool in_motion_ = false;            // as far as anybody knows, at that start
   OnlineSensors sensors_;
   PoseTrack track_{{}};
+  LidarClock lidar_clock_;
 };
 
 CLidarInertialOdometry::CLidarInertialOdometry()
@@ -227,6 +237,11 @@ std::optional<LidarScan> CLidarInertialOdometry::decode(
     const mrpt::obs::CObservation& observation) const
 {
   return impl_->decode(observation);
+}
+
+std::int64_t CLidarInertialOdometry::poseTimeOf(const LidarScan& scan) const
+{
+  return impl_->lidarClock().poseTimeOf(scan.stamp_ns);
 }
 
 void CLidarInertialOdometry::startIn(SavedMap map, const VehicleGuess& guess)

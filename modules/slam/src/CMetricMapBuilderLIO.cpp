@@ -5,7 +5,6 @@
 #include <fastlio/exporters/pseudo_2d_scan.h>
 #include <fastlio/math/columns.h>
 #include <fastlio/math/linear_algebra.h>
-#include <fastlio/math/time.h>
 #include <fastlio/run/mrpt_poses.h>
 #include <fastlio/run/scan_in_world.h>
 #include <fastlio/sensors/conversions.h>
@@ -113,7 +112,6 @@ void CMetricMapBuilderLIO::processObservation(const CObservation::Ptr& observati
   if (!options.enableMapUpdating) return;
   if (auto scan = odometry_.decode(*observation))
   {
-    scan->stamp_ns += toNanoseconds(config_.odometry.lidar.time_offset);
     waiting_.push_back({observation, std::move(*scan)});
     if (waiting_.size() > kMostWaiting) waiting_.pop_front();  // no pose in sight
   }
@@ -137,9 +135,12 @@ void CMetricMapBuilderLIO::takeKeyFrames()
   const auto& poses = odometry_.track().poses();
   while (!waiting_.empty() && !poses.empty())
   {
-    if (spanOf(waiting_.front().scan).end_ns > poses.back().stamp_ns) return;
-    const Waiting waiting = std::move(waiting_.front());
+    const LidarScan& next = waiting_.front().scan;
+    const std::int64_t stamp_ns = odometry_.poseTimeOf(next);
+    if (spanOf(next).end_ns + stamp_ns - next.stamp_ns > poses.back().stamp_ns) return;
+    Waiting waiting = std::move(waiting_.front());
     waiting_.pop_front();
+    waiting.scan.stamp_ns = stamp_ns;
     const auto pose = odometry_.track().at(waiting.scan.stamp_ns);
     if (pose && rule_.accept(pose->T_world_body)) addKeyFrame(waiting, *pose);
   }
@@ -199,7 +200,7 @@ void CMetricMapBuilderLIO::rebuild(
     const CObservation::Ptr& raw = *view.frame->begin();
     auto scan = odometry_.decode(*raw);
     if (!scan) continue;
-    scan->stamp_ns += toNanoseconds(config_.odometry.lidar.time_offset);
+    scan->stamp_ns = odometry_.poseTimeOf(*scan);
     const auto pose = odometry_.track().at(scan->stamp_ns);
     if (!pose) continue;
     const TrackedPose in_map = fromStart(correction(*pose));

@@ -4,6 +4,7 @@
 #include "built_map.h"
 #include "walk.h"
 #include <fastlio/map/mrpt_voxel_planes_map.h>
+#include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/slam/CMetricMapBuilderLIO.h>
 
@@ -117,6 +118,35 @@ TEST_F(Builder, KeepsViewsByTheRules)
     const Pose b = toPose(keyFrame(views, i).pose->getMeanVal());
     const double turned = logSO3(a.R.transpose() * b.R).norm();
     EXPECT_TRUE((a.p - b.p).norm() >= 0.999 || turned >= 0.348) << i;
+  }
+}
+
+// A scan was made at its stamp less the offset of its clock, which nobody but the odometry knows.
+TEST(BuilderClock, ViewsAreWhereTheirScansWereMade)
+{
+  constexpr double kLate = 0.05;  // [s]
+  SimulationSettings settings = walk().settings();
+  settings.lidar.stride = 4;
+  settings.lidar.time_offset = kLate;
+  const Simulation late(settings);
+  Config config = matchingConfig(settings);
+  config.odometry.lidar.time_offset = 0.0;
+  CMetricMapBuilderLIO builder(config, threeMaps());
+  for (const auto& observation : testing::observationsOf(late))
+    builder.processObservation(observation);
+  mrpt::maps::CSimpleMap views;
+  builder.getCurrentlyBuiltMap(views);
+  ASSERT_GT(views.size(), 4U);
+  const Vec3 start = late.motion().pose(0.0).p;
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    const KeyFrameView view = keyFrame(views, i);
+    const double stamp =
+        toSeconds(toNanoseconds((*view.frame->begin())->timestamp) - settings.start_ns);
+    if (stamp < 4.0) continue;  // the offset has not been found yet
+    const Vec3 made = late.motion().pose(stamp - kLate).p - start;
+    const double distance = view.pose->getMeanVal().norm();
+    EXPECT_NEAR(distance, made.norm(), 0.012) << stamp;
   }
 }
 

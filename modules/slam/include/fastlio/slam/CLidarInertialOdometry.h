@@ -17,6 +17,7 @@
 #include <mrpt/rtti/CObject.h>
 #include <mrpt/system/COutputLogger.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -115,6 +116,10 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** The points of a scan of the LiDAR in use, without taking it in; nothing for observations of
    * other sensors, and as long as the sensors are not known. */
   [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation) const;
+
+  /** The stamp of a decoded scan on the clock of track(): with the offset that was given and found.
+   * [ns] */
+  [[nodiscard]] std::int64_t poseTimeOf(const LidarScan& scan) const;
 
   /** All poses of the vehicle so far. */
   [[nodiscard]] const PoseTrack& track() const;

@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file lidar_clock.h Stamps of raw scans on the clock of the poses (internal). */
+/** \file lidar_clock.h Stamps of raw scans on the clock of the poses. */
 #pragma once
 
 #include <fastlio/interface/scan_result.h>
