@@ -263,8 +263,8 @@ double maxGyroScaleError(const CalibrationOptions& options)
 
 double maxRangeScaleError(const CalibrationOptions& options)
 {
-  // An extrinsic that is off by a centimetre, and clocks by milliseconds, make 3 %.
-  constexpr double kOfNoCommonSensors = 0.05;
+  // An extrinsic that is off by a centimetre, and clocks by milliseconds, make that.
+  constexpr double kOfNoCommonSensors = 0.03;
   return std::max(kOfNoCommonSensors, 3.0 * options.imu_scale_std);
 }
 

@@ -213,7 +213,7 @@ StartDecision StartFinder::confirmRest(
   if (span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
   const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
   if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");
-  if (count == 0 || scansShowRest(scans, count, imu, parameters_)) return at_rest;
+  if (count == 0 || scansShowRest(scans, count, imu, parameters_, *at_rest.state)) return at_rest;
   const MotionStart start = startInMotion(scans, count, imu, parameters_);
   const bool moves = start.speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
   if (!moves) return at_rest;

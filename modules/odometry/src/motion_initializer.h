@@ -42,11 +42,12 @@ struct MotionStart
 [[nodiscard]] std::size_t motionWindow(
     const ScanQueue& scans, const ImuBuffer& imu, double duration);
 
-/** Do the first \a count scans agree that the platform rests? A single pass tells, where a start
- * in motion takes several. False: it moves, or they do not tell. \param imu covers them */
+/** Do the first \a count scans agree with a resting start? A single pass tells, where a start in
+ * motion takes several. False: the platform moves, or they do not tell. \param imu covers them
+ * \param at_rest the state at the first scan's begin */
 [[nodiscard]] bool scansShowRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
-    const OdometryOptions& parameters);
+    const OdometryOptions& parameters, const FilterState& at_rest);
 
 /** The start from the first \a count scans. \param imu covers them */
 [[nodiscard]] MotionStart startInMotion(
