@@ -198,7 +198,12 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
   if (search.decision.state) return confirmRest(search.decision, scans, imu, at_end);
   if (!search.rejected && !at_end) return search.decision;
   StartDecision moving = decideInMotion(scans, imu, at_end);
-  if (!moving.state && search.rejected) moving.message += "; " + search.decision.message;
+  if (moving.state) return moving;
+  // Inertial data that have not come, as with clocks that are apart, are no rest and no motion.
+  if (search.rejected)
+    moving.message += "; " + search.decision.message;
+  else
+    moving.message = search.decision.message;
   return moving;
 }
 

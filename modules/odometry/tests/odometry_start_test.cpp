@@ -20,6 +20,13 @@ const RoomRecording& roomForStart()
   return recording;
 }
 
+OdometryOptions startingAtRest()
+{
+  OdometryOptions parameters = roomParameters();
+  parameters.initialization.mode = InitializationMode::Rest;
+  return parameters;
+}
+
 RoomRecording movingFromTheStart(double imu_rate)
 {
   RoomSettings settings;
@@ -110,7 +117,7 @@ TEST(OdometryStart, AnImuThatFailsOnTheWayIsReported)
 
 TEST(OdometryStart, APlatformThatNeverRestsSaysSo)
 {
-  OdometryOptions p = roomParameters();
+  OdometryOptions p = startingAtRest();
   p.initialization.max_gyro_mean = 0.02;
   p.initialization.max_gyro_std = 0.02;
   const RoomRecording recording = movingFromTheStart(200.0);
@@ -130,7 +137,7 @@ TEST(OdometryStart, APlatformThatNeverRestsSaysSo)
 TEST(OdometryStart, ASlowImuThatNeverRestsEndsTheSearchForRestToo)
 {
   // Samples farther apart than the search's steps.
-  OdometryOptions p = roomParameters();
+  OdometryOptions p = startingAtRest();
   p.initialization.max_gyro_mean = 0.02;
   p.initialization.max_gyro_std = 0.02;
   const RoomRecording recording = movingFromTheStart(2.0);
@@ -172,7 +179,7 @@ TEST(OdometryStart, APlatformThatMovesOffBeforeTheFirstScanHasItsVelocity)
 TEST(OdometryStart, AStartInMotionNamesTheModeThatTakesIt)
 {
   const RoomRecording moving = movingFromTheStart(200.0);
-  Odometry odometry(roomParameters());
+  Odometry odometry(startingAtRest());
   const Results results = runInOrder(odometry, moving);
   ASSERT_EQ(countOf(results, ScanStatus::Initializing), results.size());
   for (const ScanResult& r : results)
