@@ -56,16 +56,12 @@ export PATH=$work/shims:$programs:$PATH
 
 make_files() {
   local seed=1 name
-  for name in walk walk_1 monday tuesday; do
+  for name in walk walk_1 walk_2 walk_3 a b c monday tuesday; do
     case $name in *day) set -- --duration 15 ;; *) set -- --duration 6 ;; esac
     fastlio-sim office --seed $seed "$@" --output-dir ../simulated --quiet
     cp ../simulated/recording.rawlog "$name.rawlog"
     cp ../simulated/ground_truth.tum "$name.gt.tum"
     seed=$((seed + 1))
-  done
-  for name in walk_2 walk_3 a b c; do
-    cp walk_1.rawlog $name.rawlog
-    cp walk_1.gt.tum $name.gt.tum
   done
   # Parts of one recording follow each other.
   fastlio-import walk_1.rawlog -o part.rawlog --split-time 3 --quiet

@@ -7,6 +7,7 @@
 #include <fastlio/initialization/motion_fit.h>
 #include <fastlio/initialization/motion_prior.h>
 #include <fastlio/initialization/static_initializer.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 
@@ -40,6 +41,8 @@ constexpr double kNarrowing = 0.6;
 // The poses of a platform at rest drift by up to 0.02 m in a second, those of one that moves at
 // 0.4 m/s or more by 0.27 m, although the pass begins at rest [m/s].
 constexpr double kMostRestSpeed = 0.05;
+// A larger bias is none, but a wrong unit or mounting.
+constexpr double kMostBiasSigmas = 5.0;
 // A pass goes too far, as the map, made with its start, pulls the scans to the other side.
 constexpr double kDamping = 0.6;
 // Passes agree when their starts differ by no more than this.
@@ -173,7 +176,7 @@ NavState damped(const NavState& from, const NavState& to, const InitializationOp
       between(from.gyro_bias, to.gyro_bias), p);
 }
 
-std::string refusal(const Pass& pass, bool agreed)
+std::string refusal(const Pass& pass, bool agreed, const InitializationOptions& p)
 {
   if (!pass.problem.empty())
     return "no start in motion: " + pass.problem +
@@ -186,6 +189,13 @@ std::string refusal(const Pass& pass, bool agreed)
         "to see, or start at rest",
         pass.least_known.x(), pass.least_known.y(), pass.least_known.z(), pass.velocity_std,
         kMaxVelocityStd);
+  const double bias = pass.start.gyro_bias.norm();
+  if (!(bias < kMostBiasSigmas * p.motion_gyro_bias_std))
+    return mrpt::format(
+        "no start in motion: the gyro would have a bias of %.1f deg/s, more than %g times "
+        "initialization.motion_gyro_bias_std; is its unit right (imu.gyro_unit), is the pose of "
+        "the LiDAR right (input.T_vehicle_lidar)?",
+        kDegPerRad * bias, kMostBiasSigmas);
   if (!agreed)
     return "no start in motion: repeated passes over the first scans do not settle; start at rest "
            "or move more slowly";
@@ -257,7 +267,7 @@ MotionStart startInMotion(
   }
   if (pass.problem.empty() && isFinite(pass.start)) result.speed = pass.start.v.norm();
   result.velocity_std = pass.velocity_std;
-  result.message = refusal(pass, agreed);
+  result.message = refusal(pass, agreed, p);
   if (!result.message.empty()) return result;
   result.state = window.prior(pass.start, {kLeastVelocityStd, kLeastTiltStd});
   result.motion_window = window.motionWindow();

@@ -181,6 +181,7 @@ TEST(Odometry, RunsSideBySideDoNotDisturbEachOther)
 
 TEST(Odometry, CanBeMoved)
 {
+  constexpr std::size_t kScans = 15;  // a second of them confirms the resting start
   Odometry first(roomParameters());
   Results results;
   for (const ImuSample& s : room().imu)
@@ -188,11 +189,11 @@ TEST(Odometry, CanBeMoved)
   first.addScan(room().scans[0]);
   drain(first, results);
   Odometry second(std::move(first));
-  for (std::size_t i = 1; i < 10; ++i)
+  for (std::size_t i = 1; i < kScans; ++i)
     second.addScan(room().scans[i]);
   drain(second, results);
-  EXPECT_EQ(results.size(), 10U);
-  EXPECT_EQ(second.inputStatistics().scans_in, 10U);
+  EXPECT_EQ(results.size(), kScans);
+  EXPECT_EQ(second.inputStatistics().scans_in, kScans);
   EXPECT_EQ(second.parameters().downsampling.target_points, 1000);
   EXPECT_EQ(second.map().pointCount(), results.back().statistics.map_points);
 }
