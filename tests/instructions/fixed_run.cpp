@@ -25,6 +25,8 @@ int main()
   settings.duration = 4.0;
   settings.columns = 900;  // 14400 points per scan
   fastlio::OdometryOptions parameters = fastlio::testing::roomParameters(settings);
+  // What scans cost: the comparison of the first ones with rest comes once per run.
+  parameters.initialization.mode = fastlio::InitializationMode::Rest;
   parameters.downsampling.target_points = 1500;
   fastlio::testing::RoomRecording recording = fastlio::testing::recordRoom(settings);
   fastlio::testing::Results results;

@@ -91,8 +91,15 @@ TEST_F(ReplayReport, HasTheErrorsOfTheEvaluation)
   const std::string html = reportOfReplay({"--reference", in("ground_truth.tum")});
   expectGoodPage(html);
   const fs::path out = fs::path(in("")).parent_path().parent_path() / "out";
-  const EvaluationReport report =
-      evaluate(readCovarianceCsv(out / "covariance.csv"), readTum(in("ground_truth.tum")), {});
+  const Trajectory estimate = readCovarianceCsv(out / "covariance.csv");
+  const Trajectory truth = readTum(in("ground_truth.tum"));
+  EvaluationReport report = evaluate(estimate, truth, {});
+  if (report.uncertain_turn)  // a path that is nearly straight
+  {
+    EvaluationOptions options;
+    options.alignment = Alignment::First;
+    report = evaluate(estimate, truth, options);
+  }
   EXPECT_TRUE(says(html, ">" + fixedText(report.ape.translation.rmse, 4) + "<")) << html;
   EXPECT_TRUE(says(html, "NEES of the pose: " + fixedText(report.nees->pose.mean, 2)));
 }

@@ -5,9 +5,6 @@
  */
 
 #include "simulated_run.h"
-#include <fastlio/math/angles.h>
-#include <fastlio/math/so3.h>
-#include <fastlio/math/time.h>
 
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
@@ -222,73 +219,6 @@ TEST_P(StartInMotionWithTheClocksApart, IsNotRefused)
 INSTANTIATE_TEST_SUITE_P(
     Scenario, StartInMotionWithTheClocksApart, ::testing::Values("spin", "shake"),
     [](const auto& parameter) { return std::string(parameter.param); });
-
-/** Two seconds after its start a run is watched as one that began at rest. */
-class FaultAfterAStartInMotion : public ::testing::Test
-{
- protected:
-  FaultAfterAStartInMotion()
-  {
-    settings.duration = 30.0;
-    settings.lidar.stride = 4;
-  }
-
-  [[nodiscard]] SimulatedRun runWith(const AlteredInputs& altered) const
-  {
-    OdometryOptions parameters = matchingParameters(settings);
-    parameters.threads = 1;
-    parameters.initialization.mode = InitializationMode::Motion;
-    return runOdometryFrom(kSwitchedOn, Simulation(settings), parameters, altered);
-  }
-
-  SimulationSettings settings = settingsOf("office");
-};
-
-TEST_F(FaultAfterAStartInMotion, AWrongMountingIsReported)
-{
-  const Mat3 R_wrong = expSO3({0.0, 0.0, 5.0 / kDegPerRad});
-  AlteredInputs turned;
-  turned.scan = [&](LidarScan& scan)
-  {
-    scan.T_imu_lidar.R = R_wrong * scan.T_imu_lidar.R;
-    return true;
-  };
-  const ScanResult last = runWith(turned).scans.back().result;
-  EXPECT_EQ(last.health.cause, HealthCause::MotionDisagreement);
-  EXPECT_LT(last.health.value, 0.5);
-  ASSERT_TRUE(last.statistics.mounting_error.has_value());
-  EXPECT_NEAR(kDegPerRad * last.statistics.mounting_error->angle, 5.0, 1.6);
-}
-
-TEST_F(FaultAfterAStartInMotion, AStepOfTheAccelerometerIsLearned)
-{
-  const Vec3 step{0.1, -0.2, 0.5};
-  const std::int64_t from_ns = settings.start_ns + toNanoseconds(15.0);
-  AlteredInputs stepped;
-  stepped.imu = [&](ImuSample& sample)
-  {
-    if (sample.stamp_ns >= from_ns) sample.accel += step;
-    return true;
-  };
-  const SimulatedRun run = runWith(stepped);
-  std::size_t steps = 0;
-  for (const JudgedScan& scan : run.scans)
-    steps += scan.result.statistics.inertial_step ? 1 : 0;
-  EXPECT_GT(steps, 0U);
-  const JudgedScan& last = run.scans.back();
-  EXPECT_LT((last.result.filter.x.accel_bias - last.true_bias.accel - step).norm(), 0.1);
-  EXPECT_LT(positionError(run), 0.1);
-}
-
-TEST_F(FaultAfterAStartInMotion, NothingIsReportedWithoutOne)
-{
-  for (const JudgedScan& scan : runWith({}).scans)
-  {
-    EXPECT_FALSE(scan.result.statistics.inertial_step);
-    if (scan.result.status != ScanStatus::Tracking) continue;
-    ASSERT_GT(scan.result.health.value, 0.5) << scan.result.health.reason;
-  }
-}
 
 // Nothing constrains the speed along a tunnel without features: no start is better than a wrong
 // one.

@@ -250,24 +250,6 @@ void considerInertialData(double inflated, const NavState& x, ScanHealth& health
 }
 }  // namespace
 
-double maxMountingError(const CalibrationOptions& options)
-{
-  return std::max(kRadPerDeg, 3.0 * options.extrinsic_rotation_std);
-}
-
-double maxGyroScaleError(const CalibrationOptions& options)
-{
-  constexpr double kOfNoCommonGyro = 0.02;
-  return std::max(kOfNoCommonGyro, 3.0 * options.imu_scale_std);
-}
-
-double maxRangeScaleError(const CalibrationOptions& options)
-{
-  // An extrinsic that is off by a centimetre, and clocks by milliseconds, make that.
-  constexpr double kOfNoCommonSensors = 0.03;
-  return std::max(kOfNoCommonSensors, 3.0 * options.imu_scale_std);
-}
-
 ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
 {
   ScanHealth health;

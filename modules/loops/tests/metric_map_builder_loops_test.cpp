@@ -98,9 +98,11 @@ mrpt::maps::CSimpleMap viewsOf(const mrpt::slam::CMetricMapBuilder& builder)
   return views;
 }
 
+/** When the scan was made, by the clock of the poses. */
 std::int64_t stampOf(const mrpt::maps::CSimpleMap& views, std::size_t i)
 {
-  return toNanoseconds((*keyFrame(views, i).frame->begin())->timestamp);
+  const auto raw_ns = toNanoseconds((*keyFrame(views, i).frame->begin())->timestamp);
+  return driven().odometry().poseTimeOf(raw_ns);
 }
 
 /** Error of poses at the key frames when heading and place are aligned; rms [m]. The vehicle is

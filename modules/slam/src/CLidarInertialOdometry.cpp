@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "given_options.h"
 #include "online_sensors.h"
 #include "start_in_map.h"
 #include <fastlio/compat/register_classes.h>
@@ -32,36 +33,13 @@ void registerSlamClasses()
   mrpt::rtti::registerClass(CLASS_ID(fastlio::CLidarInertialOdometry));
 }
 
-namespace
-{
-/** Whether a document has a key, written as "group.name". */
-OptionFilter standsIn(const mrpt::containers::yaml& document)
-{
-  return [document](std::string_view key)
-  {
-    const std::string group(key.substr(0, key.find('.'))), name(key.substr(key.find('.') + 1));
-    return document.has(group) && document[group].isMap() && document[group].has(name);
-  };
-}
-
-/** Whether a value was set in code, as far as that can be seen. */
-OptionFilter differsFromDefault(const Config& config)
-{
-  return [config](std::string_view key)
-  {
-    const auto& row = *findOption(configTable(), key);
-    return valueText(row, config) != valueText(row, Config{});
-  };
-}
-}  // namespace
-
 class CLidarInertialOdometry::Impl
 {
  public:
   Impl(const Config& config, OptionFilter is_given)
-      : odometry_(std::in_place, config.odometry),
-        sensors_(config, std::move(is_given)),
-        lidar_clock_(config.odometry.lidar.time_offset)
+      : lidar_clock(config.odometry.lidar.time_offset),
+        odometry_(std::in_place, config.odometry),
+        sensors_(config, std::move(is_given))
   {
   }
 
@@ -75,7 +53,7 @@ class CLidarInertialOdometry::Impl
     if (!were_known && sensors_.areKnown())
     {
       startAnew();
-      lidar_clock_ = LidarClock(sensors_.config().odometry.lidar.time_offset);
+      lidar_clock = LidarClock(sensors_.config().odometry.lidar.time_offset);
     }
     for (BridgeOutput& output : outputs)
     {
@@ -122,9 +100,9 @@ class CLidarInertialOdometry::Impl
 
   [[nodiscard]] const Odometry& odometry() const { return *odometry_; }
   [[nodiscard]] const PoseTrack& track() const { return track_; }
-  [[nodiscard]] const LidarClock& lidarClock() const { return lidar_clock_; }
 
   std::optional<OdometryEstimate> latest;
+  LidarClock lidar_clock;
   Callback callback;
   std::function<void(const ImuSample&)> sample_callback;
 
@@ -140,7 +118,7 @@ class CLidarInertialOdometry::Impl
     if (hasPose(result.status)) start_.reset();
     if (track_.poses().empty()) track_ = PoseTrack({"vehicle", sensors_.T_vehicle_imu().inverse()});
     track_.add(result);
-    lidar_clock_.add(result);
+    lidar_clock.add(result);
     latest = OdometryEstimate{result, std::nullopt};
     if (hasPose(result.status)) latest->vehicle = track_.poses().back();
     if (!callback) return;
@@ -196,7 +174,6 @@ class CLidarInertialOdometry::Impl
   bool in_motion_ = false;            // as far as anybody knows, at that start
   OnlineSensors sensors_;
   PoseTrack track_{{}};
-  LidarClock lidar_clock_;
 };
 
 CLidarInertialOdometry::CLidarInertialOdometry()
@@ -239,9 +216,9 @@ std::optional<LidarScan> CLidarInertialOdometry::decode(
   return impl_->decode(observation);
 }
 
-std::int64_t CLidarInertialOdometry::poseTimeOf(const LidarScan& scan) const
+std::int64_t CLidarInertialOdometry::poseTimeOf(std::int64_t stamp_ns) const
 {
-  return impl_->lidarClock().poseTimeOf(scan.stamp_ns);
+  return impl_->lidar_clock.poseTimeOf(stamp_ns);
 }
 
 void CLidarInertialOdometry::startIn(SavedMap map, const VehicleGuess& guess)

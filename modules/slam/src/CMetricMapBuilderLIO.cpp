@@ -136,7 +136,7 @@ void CMetricMapBuilderLIO::takeKeyFrames()
   while (!waiting_.empty() && !poses.empty())
   {
     const LidarScan& next = waiting_.front().scan;
-    const std::int64_t stamp_ns = odometry_.poseTimeOf(next);
+    const std::int64_t stamp_ns = odometry_.poseTimeOf(next.stamp_ns);
     if (spanOf(next).end_ns + stamp_ns - next.stamp_ns > poses.back().stamp_ns) return;
     Waiting waiting = std::move(waiting_.front());
     waiting_.pop_front();
@@ -200,7 +200,7 @@ void CMetricMapBuilderLIO::rebuild(
     const CObservation::Ptr& raw = *view.frame->begin();
     auto scan = odometry_.decode(*raw);
     if (!scan) continue;
-    scan->stamp_ns = odometry_.poseTimeOf(*scan);
+    scan->stamp_ns = odometry_.poseTimeOf(scan->stamp_ns);
     const auto pose = odometry_.track().at(scan->stamp_ns);
     if (!pose) continue;
     const TrackedPose in_map = fromStart(correction(*pose));
