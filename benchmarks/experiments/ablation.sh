@@ -21,7 +21,7 @@ no more points in wide scenes | downsampling.wide_points=0
 directions without information updated, too | measurement.min_signal_to_noise=0
 time offset as given | calibration.estimate_time_offset=false
 extrinsic estimated | calibration.estimate_extrinsic=true
-automatic start | initialization.mode=auto
+resting start without a comparison of scans | initialization.mode=rest
 exact neighbours (paper) | map.type=knn
 paper: features, exact neighbours, left hold | features.mode=planar_and_edge map.type=knn imu.hold=left
 '

@@ -117,7 +117,8 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
    * other sensors, and as long as the sensors are not known. */
   [[nodiscard]] std::optional<LidarScan> decode(const mrpt::obs::CObservation& observation) const;
 
-  /** The stamp of a raw scan on the clock of track(): with the offset that was given and found [ns].
+  /** The stamp of a raw scan on the clock of track(): with the offset that was given and found
+   * [ns].
    */
   [[nodiscard]] std::int64_t poseTimeOf(std::int64_t stamp_ns) const;
 
