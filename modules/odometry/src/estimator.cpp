@@ -117,7 +117,7 @@ void Estimator::downsample(const LidarScan& scan, std::int64_t end_ns)
 {
   const Stopwatch watch;
   std::size_t at_least = 0;
-  if (run().startsWith(end_ns))
+  if (run().startingAt(end_ns))
     at_least = static_cast<std::size_t>(run().motion_window->target_points);
   const auto* tracking = std::get_if<Tracking>(&mode_);
   const auto measuresVelocity = [&](const Tracking& mode)
@@ -233,7 +233,7 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   { transformToWorld(points, T_world_scan, first, last, registered_.points); };
   workers_->forEachChunk(points.size(), transform);
   InsertionError error{filter.P, Matrix6::Zero()};
-  if (run.startsWith(state_.stamp_ns)) error.distortion = run.motion_window->insertion_covariance;
+  if (run.startingAt(state_.stamp_ns)) error.distortion = run.motion_window->insertion_covariance;
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
       scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);

@@ -86,14 +86,14 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
       map_.considerUpdate(work.deskewed, match, update, beams_, agrees);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
   const double surprise = learnFromInnovation(match, considered, update, work);
-  if (!work.searched && !run().settlesWith(state_.stamp_ns))
+  if (!work.searched && !run().settlingAt(state_.stamp_ns))
     ambiguity_.addCorrection(work.predicted.state.x, filter.x, surprise);
   // A start in motion does not know its biases yet, and a given map has errors of its own.
   result.statistics.inertial_step =
-      calibration_.takeStep() && !run().settlesWith(state_.stamp_ns) && !map_.isGiven();
+      calibration_.takeStep() && !run().settlingAt(state_.stamp_ns) && !map_.isGiven();
   if (result.statistics.inertial_step) releaseBiasesAndClock();
   report(result);
-  if (!run().settlesWith(state_.stamp_ns)) noteOpenDirections(match, result);
+  if (!run().settlingAt(state_.stamp_ns)) noteOpenDirections(match, result);
 
   preparation_.describe(work.scan, result.statistics);
   describeMatch(match, result.statistics);

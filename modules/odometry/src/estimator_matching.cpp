@@ -101,7 +101,7 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
-    const bool starting = tracking.run.startsWith(work.end_ns), open = hasOpenDirection(match);
+    const bool starting = tracking.run.startingAt(work.end_ns), open = hasOpenDirection(match);
     const bool uncertain = !starting && needsPullIn(predicted, open);
     if (uncertain)
       match = pullIn(work);
@@ -136,7 +136,7 @@ MatchResult Estimator::matchPrediction(const Work& work)
   const bool pull_in = run.motion_window && run.motion_window->pull_in;
   MatchOptions how = pull_in ? pullInMatching(options_) : ordinaryMatching(options_);
   // Only these scans can tell the velocity of a start in motion: no direction is left out lightly.
-  const bool settles = run.settlesWith(work.end_ns);
+  const bool settles = run.settlingAt(work.end_ns);
   if (settles)
   {
     how.measurement.min_signal_to_noise *= kStartSignalToNoise;
@@ -209,7 +209,7 @@ void Estimator::compareMotion(
   const MatchResult& match = matched.match;
   const std::int64_t since_ns = state_.stamp_ns - toNanoseconds(work.predicted.blind_s);
   const bool inflated = inflatedRatio(imu.inflations(), since_ns, state_.stamp_ns) > 0.0;
-  if (matched.poses || run().settlesWith(state_.stamp_ns) || inflated)
+  if (matched.poses || run().settlingAt(state_.stamp_ns) || inflated)
     agreement_.restart();
   else if (match.update.updated && match.constraints.unconstrained == 0)
     agreement_.add(

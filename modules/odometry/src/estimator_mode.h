@@ -31,13 +31,13 @@ struct FilterRun
   std::optional<MotionWindow> motion_window;  //!< after a start in motion
 
   /** Is a scan that ends then one of those from which a start in motion was computed? */
-  [[nodiscard]] bool startsWith(std::int64_t end_ns) const
+  [[nodiscard]] bool startingAt(std::int64_t end_ns) const
   {
     return motion_window && end_ns <= motion_window->end_ns;
   }
 
   /** Does a scan that ends then correct what a start in motion did not know yet? */
-  [[nodiscard]] bool settlesWith(std::int64_t end_ns) const
+  [[nodiscard]] bool settlingAt(std::int64_t end_ns) const
   {
     return motion_window && end_ns <= motion_window->settled_ns;
   }
