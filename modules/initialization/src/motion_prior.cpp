@@ -95,7 +95,7 @@ NavState startState(
   return x;
 }
 
-NavState firstGuess(const Inputs& inputs, const InitializationOptions& p)
+Vec3 integratedForce(const Inputs& inputs)
 {
   Mat3 R = Mat3::Identity();
   Vec3 sum = Vec3::Zero();
@@ -105,7 +105,12 @@ NavState firstGuess(const Inputs& inputs, const InitializationOptions& p)
     sum += dt * (R * inputs.samples[i].accel);
     R = R * expSO3(dt * inputs.samples[i].gyro);
   }
-  return startState(-sum, Vec3::Zero(), Vec3::Zero(), p);
+  return sum;
+}
+
+NavState firstGuess(const Inputs& inputs, const InitializationOptions& p)
+{
+  return startState(-integratedForce(inputs), Vec3::Zero(), Vec3::Zero(), p);
 }
 
 NavState propagatedBack(NavState x, const Inputs& inputs)

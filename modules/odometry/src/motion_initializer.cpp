@@ -41,6 +41,8 @@ constexpr double kNarrowing = 0.6;
 // The poses of a platform at rest drift by up to 0.02 m in a second, those of one that moves at
 // 0.4 m/s or more by 0.27 m, although the pass begins at rest [m/s].
 constexpr double kMostRestSpeed = 0.05;
+// Over a second, no vehicle is thrown up or dropped faster than that; a wrong unit is farther off.
+constexpr double kMostForceError = 3.0;  // [m/s^2]
 // A larger bias is none, but a wrong unit or mounting. Shaken, with clocks 2 ms apart, a start
 // finds 6 deg/s; with rates in deg/s, 10.
 constexpr double kMostGyroBias = 8.0 / kDegPerRad;  // [rad/s]
@@ -76,6 +78,15 @@ class Window
   }
 
   [[nodiscard]] const MotionWindow& motionWindow() const { return window_; }
+
+  /** Magnitude of the mean specific force [m/s^2]. */
+  [[nodiscard]] double meanForce() const
+  {
+    double duration = 0.0;
+    for (std::size_t i = 0; i < all_.samples.size(); ++i)
+      duration += all_.duration(i);
+    return integratedForce(all_).norm() / duration;
+  }
 
   [[nodiscard]] NavState guess() const { return firstGuess(all_, parameters_.initialization); }
 
@@ -245,11 +256,13 @@ MotionStart startInMotion(
 
   NavState x0 = window.guess();
   MotionStart result;
-  if (!isFinite(x0) || !(x0.g.norm() > 0.0))
+  const double force = window.meanForce();
+  if (!isFinite(x0) || !(std::abs(force - p.gravity) < kMostForceError))
   {
-    result.message =
-        "no start in motion: the mean specific force has no direction; the accelerometer must "
-        "deliver m/s^2 with gravity";
+    result.message = mrpt::format(
+        "no start in motion: the mean specific force is %.2f m/s^2, not %.2f +- %g; the "
+        "accelerometer must deliver m/s^2 with gravity (imu.accel_unit)",
+        force, p.gravity, kMostForceError);
     return result;
   }
   PriorWidth width{kFirstVelocityStd, kFirstTiltStd};

@@ -190,6 +190,25 @@ TEST(OdometryStart, AStartInMotionNamesTheModeThatTakesIt)
   }
 }
 
+// In feet, or without gravity: a start in motion would follow it for hundreds of metres.
+TEST(OdometryStart, AForceThatIsNotGravityIsNoStart)
+{
+  for (const double factor : {3.28, 0.02})
+  {
+    RoomRecording wrong = roomForStart();
+    for (ImuSample& sample : wrong.imu)
+      sample.accel *= factor;
+    OdometryOptions parameters = roomParameters();
+    parameters.imu.accel_unit = AccelUnit::Si;
+    Odometry odometry(parameters);
+    const Results results = runInOrder(odometry, wrong);
+    EXPECT_EQ(countOf(results, ScanStatus::Initializing), results.size()) << factor;
+    ASSERT_FALSE(results.empty());
+    const std::string& why = results.front().message;
+    EXPECT_NE(why.find("no start in motion: the mean specific force"), std::string::npos) << why;
+  }
+}
+
 TEST(OdometryStart, ClocksThatAreAnHourApartAreNamed)
 {
   RoomRecording apart = roomForStart();
