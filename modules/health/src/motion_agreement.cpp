@@ -18,10 +18,6 @@ namespace
 using Square6 = Eigen::Matrix<double, 6, 6>;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kFewestTurns = 90.0;
-// Of the sums, per turn: the mounting in use may be estimated along the way, so that what was seen
-// a minute ago counts less.
-constexpr double kForgetting = 0.998;
 // Turns of less than this, root mean square, are mostly noise [rad].
 constexpr double kLeastTurn = 0.004;
 constexpr double kLeastCorrelation = 0.95;
@@ -119,7 +115,7 @@ void MotionAgreement::add(
   const Mat3& R_scan = scan.T_world_imu.R;
   // As the gyro measured it: the filter's bias takes in what a wrong scale does in a long turn.
   const Vec3 inertial = logSO3(before.R.transpose() * predicted.x.R) + seconds * before.gyro_bias;
-  if (R_last_scan_) addTurn(inertial, logSO3(R_last_scan_->transpose() * R_scan));
+  if (R_last_scan_) turns_.add(logSO3(R_last_scan_->transpose() * R_scan), inertial);
   R_last_scan_ = R_scan;
   changes_.add(before, seconds, predicted.x, scan.T_world_imu.p, scan.position_std);
 }
@@ -147,40 +143,27 @@ double MotionAgreement::unexplainedInnovation() const
   return largerMedian(unexplained_);
 }
 
-void MotionAgreement::addTurn(const Vec3& inertial, const Vec3& scans)
-{
-  products_ = kForgetting * products_ + scans * inertial.transpose();
-  inertial_sum_ = kForgetting * inertial_sum_ + inertial;
-  scan_sum_ = kForgetting * scan_sum_ + scans;
-  inertial_squares_ = kForgetting * inertial_squares_ + inertial.squaredNorm();
-  scan_squares_ = kForgetting * scan_squares_ + scans.squaredNorm();
-  turns_ = kForgetting * turns_ + 1.0;
-}
-
 std::optional<MotionAgreement::Turns> MotionAgreement::turns() const
 {
-  if (turns_ < kFewestTurns) return std::nullopt;
-  const double n = turns_;
-  const Mat3 products = products_ - scan_sum_ * inertial_sum_.transpose() / n;
-  Turns turns;
-  turns.inertial_squares = inertial_squares_ - inertial_sum_.squaredNorm() / n;
-  turns.scan_squares = scan_squares_ - scan_sum_.squaredNorm() / n;
-  if (!(turns.inertial_squares > n * kLeastTurn * kLeastTurn) || !(turns.scan_squares > 0.0))
+  if (!turns_.enough()) return std::nullopt;
+  const double inertial_squares = turns_.inertialSquares(), scan_squares = turns_.scanSquares();
+  if (!(inertial_squares > turns_.count() * kLeastTurn * kLeastTurn) || !(scan_squares > 0.0))
     return std::nullopt;
   // Wahba's problem.
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      turns_.products(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1.0 : 1.0;
   const Vec3 signs(1.0, 1.0, sign);
   // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
   const Vec3 sizes = svd.singularValues();
+  Turns turns;
   turns.strengths = sizes.cwiseProduct(signs);
   turns.axes = svd.matrixV();
   turns.from_scans = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
   const double common = turns.strengths.sum();
-  if (common < kLeastCorrelation * std::sqrt(turns.inertial_squares * turns.scan_squares))
-    return std::nullopt;
-  const double left_over = turns.inertial_squares + turns.scan_squares - 2.0 * common;
-  turns.variance = std::max(left_over, 0.0) / (3.0 * n);
+  if (common < kLeastCorrelation * std::sqrt(inertial_squares * scan_squares)) return std::nullopt;
+  const double left_over = inertial_squares + scan_squares - 2.0 * common;
+  turns.variance = std::max(left_over, 0.0) / (3.0 * turns_.count());
   return turns;
 }
 
@@ -202,9 +185,9 @@ std::optional<GyroScale> MotionAgreement::gyroScale() const
   if (!seen) return std::nullopt;
   GyroScale scale;
   const double common = seen->strengths.sum();
-  scale.lower = common / seen->scan_squares;
-  scale.upper = seen->inertial_squares / common;
-  scale.std = std::sqrt(seen->variance / seen->scan_squares);
+  scale.lower = common / turns_.scanSquares();
+  scale.upper = turns_.inertialSquares() / common;
+  scale.std = std::sqrt(seen->variance / turns_.scanSquares());
   return scale;
 }
 

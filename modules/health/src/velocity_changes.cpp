@@ -10,9 +10,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kFewestChanges = 90.0;
-// Of the sums, per change: about the last minute counts.
-constexpr double kForgettingChanges = 0.998;
 // Weak directions of a scan would drown the rest [m].
 constexpr double kKnownPositionStd = 0.01;
 // Smaller changes, root mean square per axis, are mostly bias and tilt [m/s].
@@ -31,16 +28,8 @@ void VelocityChanges::add(
     interval.mean_gain = (predicted.p - before.p) / seconds - before.v;
     interval.gain = predicted.v - before.v;
     if (last_)
-    {
-      const Vec3 scans = interval.by_scans - last_->by_scans;
-      const Vec3 inertial = last_->gain - last_->mean_gain + interval.mean_gain;
-      product_ = kForgettingChanges * product_ + scans.dot(inertial);
-      inertial_squares_ = kForgettingChanges * inertial_squares_ + inertial.squaredNorm();
-      scan_squares_ = kForgettingChanges * scan_squares_ + scans.squaredNorm();
-      inertial_sum_ = kForgettingChanges * inertial_sum_ + inertial;
-      scan_sum_ = kForgettingChanges * scan_sum_ + scans;
-      changes_ = kForgettingChanges * changes_ + 1.0;
-    }
+      changes_.add(
+          interval.by_scans - last_->by_scans, last_->gain - last_->mean_gain + interval.mean_gain);
     last_ = interval;
   }
   last_position_ = position;
@@ -52,19 +41,18 @@ void VelocityChanges::restart()
   last_.reset();
 }
 
-/** Linear regression: the accelerometer's noise is small beside that of the scans. Without the
- * means, which a wrong tilt adds to. */
+/** Linear regression: the accelerometer's noise is small beside that of the scans. A wrong tilt
+ * adds the same to all changes, which their means take out. */
 std::optional<RangeScale> VelocityChanges::scale() const
 {
-  if (changes_ < kFewestChanges) return std::nullopt;
-  const double n = changes_;
-  const double product = product_ - inertial_sum_.dot(scan_sum_) / n;
-  const double inertial = inertial_squares_ - inertial_sum_.squaredNorm() / n;
-  const double scans = scan_squares_ - scan_sum_.squaredNorm() / n;
-  if (!(inertial > 3.0 * n * kLeastChange * kLeastChange)) return std::nullopt;
+  if (!changes_.enough()) return std::nullopt;
+  const double product = changes_.products().trace();
+  const double inertial = changes_.inertialSquares();
+  if (!(inertial > 3.0 * changes_.count() * kLeastChange * kLeastChange)) return std::nullopt;
   RangeScale scale;
   scale.scale = product / inertial;
-  const double variance = std::max(0.0, scans - scale.scale * product) / (3.0 * n);
+  const double left_over = changes_.scanSquares() - scale.scale * product;
+  const double variance = std::max(0.0, left_over) / (3.0 * changes_.count());
   scale.std = std::sqrt(variance / inertial);
   return scale;
 }

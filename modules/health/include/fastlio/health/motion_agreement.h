@@ -9,6 +9,7 @@
 
 #include <fastlio/filter/state.h>
 #include <fastlio/filter/update.h>
+#include <fastlio/health/paired_vectors.h>
 #include <fastlio/health/velocity_changes.h>
 #include <fastlio/interface/scan_result.h>
 
@@ -55,18 +56,15 @@ class MotionAgreement
   [[nodiscard]] std::optional<RangeScale> rangeScale() const { return changes_.scale(); }
 
  private:
-  /** The turns of the last minute, without their means: the bias of the gyro does not
-   * matter. */
+  /** The turns of the last minute. */
   struct Turns
   {
     Mat3 from_scans = Mat3::Identity();  //!< rotation that takes turns of the scans to the gyro's
     Mat3 axes = Mat3::Identity();        //!< its right singular vectors: axes of the gyro's turns
     Vec3 strengths = Vec3::Zero();       //!< of the turns about them, signed [rad^2]
-    double inertial_squares = 0.0, scan_squares = 0.0;  //!< sums [rad^2]
-    double variance = 0.0;  //!< of what one component of a turn leaves over [rad^2]
+    double variance = 0.0;               //!< of what one component of a turn leaves over [rad^2]
   };
   [[nodiscard]] std::optional<Turns> turns() const;
-  void addTurn(const Vec3& inertial, const Vec3& scans);
 
   using Window = std::array<double, kWindow>;
 
@@ -82,11 +80,7 @@ class MotionAgreement
   std::size_t corrections_ = 0;
   VelocityChanges changes_;
   std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
-  // Sums over the turns between scans, for Wahba's problem.
-  Mat3 products_ = Mat3::Zero();
-  Vec3 inertial_sum_ = Vec3::Zero(), scan_sum_ = Vec3::Zero();
-  double inertial_squares_ = 0.0, scan_squares_ = 0.0;
-  double turns_ = 0.0;
+  PairedVectors turns_;              // between scans [rad]
 };
 
 }  // namespace fastlio

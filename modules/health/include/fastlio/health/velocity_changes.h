@@ -7,6 +7,7 @@
 #pragma once
 
 #include <fastlio/filter/state.h>
+#include <fastlio/health/paired_vectors.h>
 #include <fastlio/interface/scan_result.h>
 
 #include <optional>
@@ -41,9 +42,7 @@ class VelocityChanges
 
   std::optional<Vec3> last_position_;
   std::optional<Interval> last_;
-  // Sums over the changes.
-  double product_ = 0.0, inertial_squares_ = 0.0, scan_squares_ = 0.0, changes_ = 0.0;
-  Vec3 inertial_sum_ = Vec3::Zero(), scan_sum_ = Vec3::Zero();
+  PairedVectors changes_;  // [m/s]
 };
 
 }  // namespace fastlio

@@ -1,0 +1,43 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+/** \file paired_vectors.h What two sensors saw of the same motion, over about the last minute. */
+#pragma once
+
+#include <fastlio/math/so3.h>
+
+namespace fastlio
+{
+/** Sums over pairs of vectors, without their means: what is constant in one of the two, as a bias,
+ * does not matter. What is older counts less. */
+class PairedVectors
+{
+ public:
+  void add(const Vec3& scans, const Vec3& inertial);
+
+  /** Do the sums hold pairs enough to compare anything? */
+  [[nodiscard]] bool enough() const;
+  /** How many pairs count. */
+  [[nodiscard]] double count() const { return count_; }
+  /** Sum of scans * inertial^T. */
+  [[nodiscard]] Mat3 products() const;
+  /** Sums of squared norms. */
+  [[nodiscard]] double scanSquares() const { return scans_.centred(count_); }
+  [[nodiscard]] double inertialSquares() const { return inertial_.centred(count_); }
+
+ private:
+  struct Sums
+  {
+    void add(const Vec3& vector);
+    [[nodiscard]] double centred(double count) const;
+
+    Vec3 sum = Vec3::Zero();
+    double squares = 0.0;
+  };
+
+  Sums scans_, inertial_;
+  Mat3 products_ = Mat3::Zero();
+  double count_ = 0.0;
+};
+
+}  // namespace fastlio
