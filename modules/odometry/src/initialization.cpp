@@ -161,8 +161,6 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
 {
   const QueuedScan& oldest = scans.front();
   if (oldest.span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
-  // The search for rest looks back by its duration.
-  imu.forgetBefore(oldest.span.begin_ns - toNanoseconds(parameters_.initialization.duration));
   const std::string gap = inertialGap(scans, imu);
   if (!gap.empty()) return waitOrDrop(true, gap);
 
@@ -179,13 +177,16 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
             duration));
   MotionStart start = startInMotion(scans, count, imu, parameters_);
   if (start.state) return startedInMotion(start, oldest.span.latestStart());
-  return refuse(start, scans, count);
+  return refuse(start, scans, count, imu);
 }
 
 /** The next scans would be refused for the same reason. */
 StartDecision StartFinder::refuse(
-    const MotionStart& start, const ScanQueue& scans, std::size_t count)
+    const MotionStart& start, const ScanQueue& scans, std::size_t count, ImuBuffer& imu)
 {
+  // The search for rest looks back by its duration.
+  imu.forgetBefore(
+      scans.front().span.begin_ns - toNanoseconds(parameters_.initialization.duration));
   refused_until_ns_ = scans[count / kRefusedParts].span.end_ns;
   refusal_ = start.message;
   return waitOrDrop(true, refusal_);
@@ -223,8 +224,7 @@ StartDecision StartFinder::confirmRest(
   const bool moves = start.speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
   if (!moves) return at_rest;
   if (start.state) return startedInMotion(start, begin_ns);
-  imu.forgetBefore(span.begin_ns - toNanoseconds(parameters_.initialization.duration));
-  return refuse(start, scans, count);
+  return refuse(start, scans, count, imu);
 }
 
 }  // namespace fastlio

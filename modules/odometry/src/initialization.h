@@ -48,7 +48,7 @@ class StartFinder
   [[nodiscard]] StartDecision confirmRest(
       StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision refuse(
-      const MotionStart& start, const ScanQueue& scans, std::size_t count);
+      const MotionStart& start, const ScanQueue& scans, std::size_t count, ImuBuffer& imu);
 
   OdometryOptions parameters_;
   std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below
