@@ -22,11 +22,12 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kMinScans = 4;
-constexpr int kPasses = 8;  // at most
+// At most. A narrow view of a fast platform needs ten to fifteen.
+constexpr int kPasses = 16;
 // Of the downsampling, for these scans: few points make no planes in a map of few scans.
 constexpr int kWindowPoints = 10000;
 // A start in motion knows its velocity so well; else the next scans would not match [m/s].
-constexpr double kMaxVelocityStd = 0.5;
+constexpr double kMaxVelocityStd = 0.3;
 // Normals are known to about so much; what leaks over to a direction that no plane faces is no
 // information.
 constexpr double kNormalStd = 0.015;  // [rad]
@@ -133,11 +134,10 @@ class Window
   void describeStart(
       const FilterState& end, const std::vector<StampedPose>& poses, Pass& pass) const
   {
-    const InitializationOptions& p = parameters_.initialization;
     const StampedPose& first = poses.front();
     MotionFitPrior prior;
     prior.gyro_bias = end.x.gyro_bias;
-    prior.g = p.gravity * end.x.g.normalized();
+    prior.g = parameters_.initialization.gravity * end.x.g.normalized();
     prior.gravity_std = kGravityStd;
     const Inputs between =
         inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
@@ -151,7 +151,8 @@ class Window
     x.accel_bias.setZero();
     x = propagatedBack(x, first_scan_);
     const Mat3 R_imu_world = x.R.transpose();
-    pass.start = startState(R_imu_world * x.g, R_imu_world * x.v, x.gyro_bias, p);
+    pass.start =
+        startState(R_imu_world * x.g, R_imu_world * x.v, x.gyro_bias, parameters_.initialization);
   }
 
   static void describeEnd(const FilterState& end, Pass& pass)
@@ -159,6 +160,11 @@ class Window
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(end.P.block<3, 3>(kVelocity, kVelocity));
     pass.velocity_std = std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
     pass.least_known = end.x.R.transpose() * eigen.eigenvectors().col(2);
+    // What the scans leave open is anything, up to tens of m/s, and the next pass, which begins
+    // with it, would not find back: there the velocity goes as far as its prior admits.
+    const Vec3 direction = pass.start.R * pass.least_known;
+    const double ratio = pass.velocity_std / kFirstVelocityStd, share = ratio * ratio;
+    pass.start.v -= share / (1.0 + share) * direction.dot(pass.start.v) * direction;
   }
 
   const ScanQueue& scans_;
@@ -273,7 +279,7 @@ MotionStart startInMotion(
   {
     x0 = pass.start;
     pass = window.run(window.prior(x0, width), pass_parameters, false);
-    agreed = agree(x0, pass.start);
+    agreed = pass.velocity_std < kMaxVelocityStd && agree(x0, pass.start);
     pass.start = damped(x0, pass.start, p);
     width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
     width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
@@ -282,7 +288,8 @@ MotionStart startInMotion(
   result.velocity_std = pass.velocity_std;
   result.message = refusal(pass, agreed);
   if (!result.message.empty()) return result;
-  result.state = window.prior(pass.start, {kLeastVelocityStd, kLeastTiltStd});
+  width = {std::max(kLeastVelocityStd, pass.velocity_std), kLeastTiltStd};
+  result.state = window.prior(pass.start, width);
   result.motion_window = window.motionWindow();
   return result;
 }
