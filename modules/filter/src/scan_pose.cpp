@@ -69,6 +69,15 @@ ScanPoseJacobian scanPoseJacobian(const NavState& x, const CompensatedWith& comp
   return J;
 }
 
+StateVector hiddenByTimeOffset(const NavState& x, const CompensatedWith& compensation)
+{
+  StateVector change = StateVector::Zero();
+  change.segment<3>(kAttitude) = -compensation.angular_rate;
+  change.segment<3>(kPosition) = -velocityOf(x, compensation);
+  change[kTimeOffset] = 1.0;
+  return change;
+}
+
 Matrix6 scanPoseCovariance(const FilterState& s, const CompensatedWith& compensation)
 {
   const Eigen::Matrix<double, 6, kStateDim> B = scanPoseJacobian(s.x, compensation);

@@ -58,6 +58,23 @@ TEST(ScanPose, OfABodyAtRestDoesNotDependOnTheTimeOffset)
   EXPECT_EQ(difference(scanPose(x, c), before).norm(), 0.0);
 }
 
+TEST(ScanPose, DoesNotShowAWrongTimeOffsetThatTheBodyPoseHides)
+{
+  Random random(44);
+  for (const bool moves : {true, false})
+  {
+    const NavState x = random.state();
+    CompensatedWith c = compensationNear(random, x, 0.0);
+    c.moves = moves;
+    if (!moves) c.angular_rate.setZero();
+    const StateVector hidden = hiddenByTimeOffset(x, c);
+    EXPECT_EQ(hidden[kTimeOffset], 1.0);
+    EXPECT_LT((scanPoseJacobian(x, c) * hidden).norm(), 1e-12);
+    const StateVector step = 1e-3 * hidden;
+    EXPECT_LT(difference(scanPose(boxplus(x, step), c), scanPose(x, c)).norm(), 1e-9);
+  }
+}
+
 TEST(ScanPose, JacobianIsTheDerivative)
 {
   constexpr double kStep = 1e-6;

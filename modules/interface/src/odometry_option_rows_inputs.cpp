@@ -156,8 +156,7 @@ OptionTable<CalibrationOptions> calibrationRows()
       {"calibration.estimate_time_offset", "",
        valueAs<BooleanValue>(&CalibrationOptions::estimate_time_offset),
        "true: the time offset between LiDAR and IMU is part of the state, starting at "
-       "lidar.time_offset; not in runs that start in motion or with another map.type than planes, "
-       "which keep it as given",
+       "lidar.time_offset; with another map.type than planes it stays as given",
        OptionTier::Main},
       {"calibration.extrinsic_rotation_std", "deg",
        number(&CalibrationOptions::extrinsic_rotation_std, 0.0, 180.0, kRadPerDeg),

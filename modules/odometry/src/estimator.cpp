@@ -82,7 +82,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   insertIntoMap(work, result);  // eq. 21
   result.statistics.map_points = map_.surfaces().pointCount();
   widenAfterFirstScan(result.status);
-  releaseTimeOffset(result, deskewed.surfaces.size());
+  releaseTimeOffset(result, deskewed);
   changeMode(result.status);
 
   timings_.total = total.milliseconds();
@@ -250,23 +250,25 @@ void Estimator::widenAfterFirstScan(ScanStatus status)
     state_.filter.P += window->covariance_after_first_scan;
 }
 
-// From then on the offset is uncertain. A map that is still sparse could be made to fit a wrong
-// one, and so could one that was created in motion: in a steady rotation nothing distinguishes it
-// from heading. Maps that do not know the errors that neighbouring matches share are too sure of
+// From then on the offset is uncertain. At rest the map becomes dense first: one that is still
+// sparse could be made to fit a wrong offset. A start in motion cannot wait: scans that are matched
+// with a wrong offset leave errors in velocity, biases and map that no later scan takes for those
+// of the offset. Maps that do not know the errors that neighbouring matches share are too sure of
 // it.
-void Estimator::releaseTimeOffset(const ScanResult& result, std::size_t points)
+void Estimator::releaseTimeOffset(const ScanResult& result, const DeskewedScan& scan)
 {
   const CalibrationOptions& p = options_.calibration;
-  double& variance = state_.filter.P(kTimeOffset, kTimeOffset);
+  FilterState& filter = state_.filter;
   const FilterRun& run = this->run();
-  const bool released = variance != 0.0;
-  if (!p.estimate_time_offset || released || run.motion_window) return;
-  if (!map_.surfaces().knowsSharedErrors()) return;
-  if (result.status != ScanStatus::Tracking || !run.consistent) return;
-  if (static_cast<double>(result.statistics.points_effective) <
-      kTimeOffsetInlierRatio * static_cast<double>(points))
-    return;
-  variance = p.time_offset_std * p.time_offset_std;
+  const bool released = filter.P(kTimeOffset, kTimeOffset) != 0.0;
+  if (!p.estimate_time_offset || released || !map_.surfaces().knowsSharedErrors()) return;
+  const auto matched = static_cast<double>(result.statistics.points_effective);
+  const bool in_dense_map =
+      result.status == ScanStatus::Tracking && run.consistent &&
+      matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size());
+  if (!in_dense_map && !(run.motion_window && result.status == ScanStatus::FirstScan)) return;
+  const StateVector shift = p.time_offset_std * hiddenByTimeOffset(filter.x, scan.compensation);
+  filter.P += shift * shift.transpose();
 }
 
 }  // namespace fastlio

@@ -156,7 +156,7 @@ class Estimator
   void useMap(LocalMap map);
   void insertIntoMap(const Work& work, const ScanResult& result);
   void widenAfterFirstScan(ScanStatus status);
-  void releaseTimeOffset(const ScanResult& result, std::size_t points);
+  void releaseTimeOffset(const ScanResult& result, const DeskewedScan& scan);
 
   const OdometryOptions options_;
   std::shared_ptr<const Workers> workers_;

@@ -40,6 +40,12 @@ struct CompensatedWith
 [[nodiscard]] ScanPoseJacobian scanPoseJacobian(
     const NavState& x, const CompensatedWith& compensation);
 
+/** The change of the state, per second of the time offset, that leaves the scan pose where it is:
+ * B times it is zero. A scan that was matched with an offset that is wrong put the body where it
+ * was by as much earlier or later, so attitude and position are wrong along with the offset. */
+[[nodiscard]] StateVector hiddenByTimeOffset(
+    const NavState& x, const CompensatedWith& compensation);
+
 /** Covariance of the scan pose, B P B^T. Body pose and calibration are often known much worse, each
  * for itself, than where together they put the scan. */
 [[nodiscard]] Matrix6 scanPoseCovariance(const FilterState& s, const CompensatedWith& compensation);
