@@ -18,6 +18,10 @@ constexpr double kFarthestNeighbor = 1.0;  // [m]
 constexpr double kMaxThicknessRatio = 0.2;
 // A sensor so far away sees all points of a group from one direction.
 constexpr double kFar = 1e4;  // [m]
+// Points without a surface of their own join all the same. Without them, a wide voxel would take
+// the floor below a bush for all that it holds. From a corner of the cube no wall, floor or ceiling
+// is seen edge-on.
+const Vec3 kSeenFromACorner(1.0, 1.0, 1.0);
 
 /** The directions to faces, edges and corners of a cube, without their opposites: every normal is
  * within 28 degrees of one of them. */
@@ -97,8 +101,8 @@ void insertSavedPoints(const WorldPoints& points, SurfaceMap& map)
   std::vector<WorldPoints> groups(directions.size());
   for (std::size_t i = 0; i < index.size(); ++i)
   {
-    const Vec3 normal = normalAt(index, i);
-    if (normal.isZero()) continue;
+    Vec3 normal = normalAt(index, i);
+    if (normal.isZero()) normal = kSeenFromACorner;
     const Vec3 p = pointOf(index, i);
     WorldPoints& group = groups[nearestDirection(directions, normal)];
     group.x.push_back(static_cast<float>(p.x()));

@@ -30,7 +30,8 @@ struct SavedMap
 };
 
 /** Adds points of unknown viewpoints to a map: each is taken as seen along the normal of the
- * surface that its neighbours make. Points without such a surface are left out. */
+ * surface that its neighbours make. Points without such a surface join, too: where they lie, a wide
+ * voxel holds more than one plane. */
 void insertSavedPoints(const WorldPoints& points, SurfaceMap& map);
 
 }  // namespace fastlio
