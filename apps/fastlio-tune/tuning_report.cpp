@@ -17,7 +17,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr PlotRectangle kWide{0, 0, 900, 300};
 constexpr PlotRectangle kHalf{0, 0, 440, 280};
 // Sets that are far worse would leave no height for those that matter.
 constexpr double kHighestRatio = 3.0;
@@ -88,7 +87,7 @@ std::string courseFigure(const std::vector<double>& ratios)
   }
   panel.series = {best};
   return figureHtml(
-      panel, kWide, "Course of the search",
+      panel, kHalf, "Course of the search",
       legendOf(panel, {{"a set", kEach}, {"best so far", kBest}}),
       "Geometric means over the recordings. Set 0 is the base, set 1 has the defaults of the "
       "searched keys." +
@@ -266,7 +265,7 @@ std::string toPage(
                "Keys", "<p>Effect: " + htmlText(effectsTitle(command)) + ".</p>\n" +
                            keysTable(inputs, result) + paragraphs({atBaseText(result)}) +
                            "<br/>\n<div class=\"grid-of\">\n" + figures + "</div>\n") +
-           sectionHtml("Search", courseFigure(ratios)) +
+           sectionHtml("Search", "<div class=\"grid-of\">\n" + courseFigure(ratios) + "</div>\n") +
            (result.failures.empty() ? "" : sectionHtml("Failures", paragraphs(result.failures)))});
 }
 }  // namespace fastlio

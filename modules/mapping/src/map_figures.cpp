@@ -16,7 +16,7 @@ namespace fastlio
 {
 namespace
 {
-constexpr PlotRectangle kFlat{0, 0, 640, 260};
+constexpr PlotRectangle kFlat{0, 0, 480, 220};
 const char* const kBefore = "var(--s2)";
 const char* const kAfter = "var(--s1)";
 const char* const kAccepted = "var(--good)";

@@ -11,8 +11,8 @@
 
 namespace fastlio
 {
-/** Place of a figure on the page [px]. */
-constexpr PlotRectangle kWideFigure{0.0, 0.0, 640.0, 420.0};
+/** Place of a figure on the page [px]. Wider ones would have text that is too small on a phone. */
+constexpr PlotRectangle kWideFigure{0.0, 0.0, 480.0, 340.0};
 
 /** The map with the corrected paths; empty without points. */
 [[nodiscard]] std::string mapSectionHtml(const MapAccount& account);

@@ -146,6 +146,17 @@ TEST(MapReport, SessionsAreToldApart)
   EXPECT_FALSE(has(figureOf(html, "Surfaces seen twice"), "odometry</span>"));
 }
 
+/** A phone is 400 pixels wide: the text of a figure of 640 would be 7 pixels high there. */
+TEST(MapReport, FiguresCanBeReadOnAPhone)
+{
+  const std::string html = mapReportHtml(accountOf(twoSessions()));
+  const std::string box = "viewBox=\"0 0 ";
+  int figures = 0;
+  for (auto at = html.find(box); at != std::string::npos; at = html.find(box, at + 1), ++figures)
+    EXPECT_LE(std::stod(html.substr(at + box.size())), 480.0);
+  EXPECT_GE(figures, 4);
+}
+
 /** Points of the map and all poses, not the places of the submaps alone. */
 TEST(MapReport, ShowsTheMapWithTheWholePath)
 {
