@@ -106,7 +106,11 @@ bool isZoneOfPlace(const std::string& crs)
 
 std::string unplacedReason(const GnssOutcome& gnss, const std::string& crs)
 {
-  if (!gnss.used || !isZoneOfPlace(crs)) return {};
+  if (!gnss.used)
+    return crs.empty() ? ""
+                       : "the map stays in its own frame and --crs has no effect, as neither GNSS "
+                         "nor control points give its place on the earth: give --control-points";
+  if (!isZoneOfPlace(crs)) return {};
   try
   {
     (void)utmCodeAt(gnss.datum);

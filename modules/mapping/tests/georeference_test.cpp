@@ -60,6 +60,14 @@ TEST(Georeference, BeyondTheZonesOfUtmTheMapHasNoPlace)
   EXPECT_EQ(unplacedReason({}, ""), "");
 }
 
+/** The owner of the map asks for coordinates, and would not see that they are missing. */
+TEST(Georeference, SaysThatASystemIsOfNoUseWithoutAPlace)
+{
+  for (const char* crs : {"EPSG:25832", "utm"})
+    EXPECT_NE(unplacedReason({}, crs).find("--control-points"), std::string::npos) << crs;
+  EXPECT_EQ(unplacedReason(gnssAt(48.1, 11.6), "EPSG:25832"), "");
+}
+
 /** One height is wrong by what the geoid differs from the ellipsoid. */
 TEST(Georeference, SaysWhichControlPointsWereLeftOut)
 {

@@ -37,8 +37,9 @@ struct Georeference
 [[nodiscard]] std::optional<Georeference> georeference(
     const GnssOutcome& gnss, const std::string& control_points, const std::string& crs);
 
-/** Why GNSS that was used gives no place: it lies beyond the UTM zones, and \a crs names nothing
- * else. In a sentence; empty: it does. */
+/** Why a map without control points has no place: its GNSS lies beyond the UTM zones, and \a crs
+ * names nothing else; or there is none, although \a crs asks for it. In a sentence; empty: it has
+ * one, or nobody asked. */
 [[nodiscard]] std::string unplacedReason(const GnssOutcome& gnss, const std::string& crs);
 
 /** How well the control points fit, and which were left out, in a sentence. Empty without any. */
