@@ -61,8 +61,10 @@ void addInputOptions(CLI::App& app, EvalCommand& c)
   app.final_callback(
       [&c]
       {
-        if (c.reference.empty()) throw CLI::RequiredError("reference");
-        if (c.estimates.empty()) throw CLI::RequiredError("estimate");
+        if (c.reference.empty())
+          throw CLI::RequiredError("a reference (fastlio-eval truth.tum trajectory.tum)");
+        if (c.estimates.empty())
+          throw CLI::RequiredError("an estimate (fastlio-eval truth.tum trajectory.tum)");
       });
   auto* times =
       app.add_option(

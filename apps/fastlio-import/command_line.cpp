@@ -129,8 +129,7 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
   app.add_option(
          "input", arguments.input_files,
          "Recording, a file or a folder; several are parts of one recording, in this order")
-      ->type_name("PATH")
-      ->required();
+      ->type_name("PATH");
   app.add_flag(
       "--list", arguments.list,
       "Print the topics, what is taken and why, and what the times of points mean; write nothing");
@@ -144,6 +143,8 @@ std::variant<ImportArguments, int> parseCommandLine(int argc, const char* const*
   addVersion(app, FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
   const auto checks = [&arguments]
   {
+    if (arguments.input_files.empty())
+      throw CLI::RequiredError("a recording (fastlio-import walk.bag -o walk.rawlog)");
     if (!arguments.list && arguments.output.path.empty())
       throw CLI::RequiredError("--output (or --list)");
     if (!(arguments.trajectory + arguments.run).empty() && !isMcapName(arguments.output.path))

@@ -147,8 +147,10 @@ void setTask(TuneCommand& c, const Tasks& tasks)
       throw CLI::ValidationError("job store '" + c.runner.store + "' is not there");
     return;
   }
-  if (c.files.space.empty()) throw CLI::RequiredError("a search space (SPACE.yaml)");
-  if (c.files.recordings.empty()) throw CLI::RequiredError("recordings");
+  if (c.files.space.empty())
+    throw CLI::RequiredError("a search space (fastlio-tune space.yaml walk.rawlog)");
+  if (c.files.recordings.empty())
+    throw CLI::RequiredError("a recording (fastlio-tune space.yaml walk.rawlog)");
   if (c.runner.store.empty()) c.runner.store = c.files.output + ".sqlite";
   if (c.files.report.empty())
     c.files.report = std::filesystem::path(c.files.output).replace_extension(".html").string();

@@ -17,7 +17,17 @@
 
 namespace fastlio
 {
-/** The first argument left when all options have been read, and the option that is most like it. */
+/** The option that begins like \a seen, or the most similar one. Empty: it is like none. */
+inline std::string similarOption(const std::string& seen, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+    if (seen.size() > 2 && name.rfind(seen, 0) == 0) return name;
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const std::string nearest(nearestName(seen, views));
+  return 2 * editDistance(seen, nearest) < seen.size() ? nearest : "";
+}
+
+/** The first argument left when all options have been read, and the option that is like it. */
 inline std::string unknownOptionText(const CLI::App& app)
 {
   const std::vector<std::string> left = app.remaining(true);
@@ -26,9 +36,10 @@ inline std::string unknownOptionText(const CLI::App& app)
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames())
       names.push_back("--" + name);
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  return app.get_name() + ": unknown option '" + printable(seen) + "'; did you mean '" +
-         std::string(nearestName(seen, views)) + "'? --help lists all options";
+  const std::string similar = similarOption(seen, names);
+  return app.get_name() + ": unknown option '" + printable(seen) + "'" +
+         (similar.empty() ? ". " : "; did you mean '" + similar + "'? ") +
+         "--help lists all options";
 }
 
 /** Prints what \a error says: help, the version, or what is wrong with the command line.

@@ -93,11 +93,26 @@ TEST_P(SameWords, AnUnknownOptionNamesTheNearest)
   EXPECT_EQ(result.output.find(GetParam().name), 0U) << result.output;
 }
 
+TEST_P(SameWords, AnUnknownOptionThatIsLikeNoneNamesNone)
+{
+  const ProcessResult result = run({"--qqq", "nothing"});
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_EQ(result.output.find("did you mean"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("--help"), std::string::npos) << result.output;
+}
+
+TEST_P(SameWords, TheBeginningOfAnOptionIsEnoughToNameIt)
+{
+  const ProcessResult result = run({"--vers", "nothing"});
+  EXPECT_NE(result.output.find("did you mean '--version'"), std::string::npos) << result.output;
+}
+
 TEST_P(SameWords, WithoutAnythingNothingHappens)
 {
   const ProcessResult result = run({});
   EXPECT_NE(result.exit_status, 0);
-  EXPECT_FALSE(result.output.empty());
+  EXPECT_NE(result.output.find(GetParam().name), std::string::npos) << "no example in\n"
+                                                                    << result.output;
   EXPECT_EQ(result.output.find("--input-rawlog is required"), std::string::npos) << result.output;
 }
 

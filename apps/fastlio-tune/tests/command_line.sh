@@ -15,7 +15,7 @@ expect() { # STATUS TEXT COMMAND...
 printf 'lidar:\n  min_rnge: [1]\n' >"$dir/bad.yaml"
 printf 'lidar:\n  min_range: [0.5, 1]\n' >"$dir/good.yaml"
 expect 0 'Exit status' "$tune" --help
-expect 1 'recordings' "$tune" "$dir/good.yaml"
+expect 1 'a recording' "$tune" "$dir/good.yaml"
 expect 1 'lidar.min_range' "$tune" "$dir/bad.yaml" "$dir/a.rawlog"
 expect 1 'a.rawlog' "$tune" "$dir/good.yaml" "$dir/a.rawlog" -o "$dir/o.yaml"
 # Folders may be recordings: whether one is shows before the runs.

@@ -154,7 +154,7 @@ const Scenario& findScenario(std::string_view name)
   }
   throw std::invalid_argument(
       "There is no scenario '" + std::string(name) + "'. Did you mean '" +
-      std::string(nearestName(name, names)) + "'?");
+      std::string(nearestName(name, names)) + "'? fastlio-sim --list lists all.");
 }
 
 SimulationSettings defaultSettings(std::string_view scenario)
