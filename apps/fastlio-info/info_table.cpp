@@ -215,8 +215,10 @@ std::string toTable(const RecordingSurvey& survey)
   std::string text;
   for (const std::string& file : survey.files)
     text += file + "\n";
-  for (const ReadProblem& problem : survey.problems)
-    text += "trouble: " + sentenceOf(problem) + "\n";
+  // Where nothing can be read, the last line names the problems.
+  if (!survey.sensors.empty())
+    for (const ReadProblem& problem : survey.problems)
+      text += "trouble: " + sentenceOf(problem) + "\n";
   for (const SurveyedSensor& sensor : survey.sensors)
     text += "\n" + sensorText(sensor);
   for (const SurveyedLidar& lidar : survey.lidars)

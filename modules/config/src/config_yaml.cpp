@@ -9,6 +9,7 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/survey/lidar_models.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -205,6 +206,17 @@ std::string fileText(const std::string& path)
   return text;
 }
 
+/** Where a preset is that was named as if its file lay here. */
+std::string presetText(const std::string& path)
+{
+  const std::filesystem::path file(path);
+  for (const Preset& preset : presetTable())
+    if (file.stem() == preset.name && !std::filesystem::exists(file))
+      return " The preset of this name is params/" + std::string(preset.name) +
+             ".yaml of the sources, or of /usr/share/mrpt_fastlio where the package is installed.";
+  return {};
+}
+
 YamlText parsedFile(const std::string& path)
 {
   try
@@ -217,7 +229,7 @@ YamlText parsedFile(const std::string& path)
   }
   catch (const std::runtime_error& e)
   {
-    throw std::runtime_error(path + ": " + e.what() + ".");
+    throw std::runtime_error(path + ": " + e.what() + "." + presetText(path));
   }
 }
 }  // namespace

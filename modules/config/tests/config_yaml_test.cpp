@@ -196,6 +196,10 @@ TEST(ConfigYaml, FileErrorsNameTheFile)
   const std::string missing = messageOf<std::runtime_error>(
       [] { (void)loadConfigFromFile("/nonexistent/parameters.yaml"); });
   expectContains(missing, "/nonexistent/parameters.yaml: cannot be read");
+  EXPECT_EQ(missing.find("preset"), std::string::npos) << missing;
+  const std::string preset =
+      messageOf<std::runtime_error>([] { (void)loadConfigFromFile("velodyne_vlp16"); });
+  expectContains(preset, "params/velodyne_vlp16.yaml");
   (void)messageOf<std::runtime_error>([] { (void)loadConfigFromFile("/"); });
   expectContains(fileProblem("map:\n radius: 1\n  bad: 2\n"), ".yaml: is not valid YAML");
   expectContains(fileProblem("map:\n  radius: -1\n"), "FileErrorsNameTheFile.yaml: 1 problem");

@@ -40,7 +40,7 @@ std::string hintFor(ReadProblemKind kind)
   switch (kind)
   {
     case ReadProblemKind::NotFound:
-      return "Check the path and the permissions.";
+      return "Check the path.";
     case ReadProblemKind::NotARawlog:
       return "Give an MRPT rawlog (.rawlog), or a recording of a format that docs/import.md lists.";
     case ReadProblemKind::Truncated:
@@ -89,7 +89,7 @@ NextObject ObjectReader::next()
   {
     finished_ = true;  // unless the file can be opened
     if (const auto problem = recordingProblem(path_))
-      return makeProblem(ReadProblemKind::NotFound, "", "the file " + *problem);
+      return makeProblem(ReadProblemKind::NotFound, "", *problem);
     try
     {
       stream_ = std::make_unique<ObjectStream>(path_);

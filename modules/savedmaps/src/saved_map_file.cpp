@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -42,7 +43,10 @@ constexpr std::size_t kMostMaps = 1000;                     // of a CMultiMetric
 std::string beginningOf(const std::string& path)
 {
   if (const auto problem = inputFileProblem(path))
-    failMap(path, *problem + ": check the path given to --map-in");
+    failMap(
+        path, *problem + (std::filesystem::is_directory(path)
+                              ? ": give a map to --map-in, such as map.planes of a run"
+                              : ": check the path given to --map-in"));
   constexpr std::size_t kEnough = 256;
   return headOf(path, kEnough);
 }
@@ -223,7 +227,9 @@ SavedMap fromArchive(const std::string& path)
     if (header->class_name == "mrpt::maps::CMultiMetricMap") return fromSeveral(stream, *header);
     const auto object = readMap(stream, header->class_name);
     if (std::dynamic_pointer_cast<mrpt::maps::CMetricMap>(object)) return fromMap(object);
-    throw std::runtime_error("holds a " + printable(header->class_name) + ", not a map");
+    throw std::runtime_error(
+        "holds a " + printable(header->class_name) +
+        ", not a map; give a PLY, a PCD or an archive with a map");
   }
   catch (const std::exception& e)
   {

@@ -152,6 +152,7 @@ TEST(SavedMapFile, SaysWhatIsWrong)
   const TemporaryFolder folder;
   EXPECT_NE(messageOf(folder.file("absent")).find("does not exist"), std::string::npos);
   EXPECT_NE(messageOf(folder.path()).find("is a folder"), std::string::npos);
+  EXPECT_NE(messageOf(folder.path()).find("map.planes"), std::string::npos);
   text(folder.file("junk"), "hello");
   EXPECT_NE(messageOf(folder.file("junk")).find("neither PLY nor PCD"), std::string::npos);
   archive(mrpt::obs::CObservationComment(), folder.file("comment"));

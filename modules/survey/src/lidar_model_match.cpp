@@ -81,7 +81,9 @@ std::string appearanceText(const LidarAppearance& lidar)
 PresetMatch fittingPreset(const LidarAppearance& lidar)
 {
   if (const Preset* model = namedModel(lidar.label))
-    return {model, "the label or model '" + printable(lidar.label) + "' names it", true};
+    return {
+        model, "the label or the data name it ('" + wordIn(lowerCase(lidar.label), *model) + "')",
+        true};
   const Preset* alike = nullptr;
   for (const Preset& preset : presetTable())
   {

@@ -115,7 +115,7 @@ TEST_F(SensorSelectionTest, SaysWhatIsMissingAndWhatThereIs)
 
   const std::string unreadable = failureOf<std::runtime_error>(
       [] { (void)selectSensors(surveySensors({"/nonexistent.rawlog"}, {}), {}); });
-  EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: the file does not exist")) << unreadable;
+  EXPECT_TRUE(contains(unreadable, "/nonexistent.rawlog: does not exist")) << unreadable;
 
   EXPECT_THROW((void)select(recording(1), {"(", ""}), std::invalid_argument);
 }
