@@ -14,7 +14,7 @@ namespace
 {
 constexpr const char* kDescription =
     "Looks at a recording without running the odometry on it: sensors, rates, gaps, what the times "
-    "of points mean, units and noise of the IMU at rest, time offset and mounting of the LiDAR by "
+    "of points mean, units and noise of the IMU at rest, time offset and rotation of the LiDAR by "
     "the motion that both see, and what fastlio-replay would do.";
 constexpr const char* kFooter = R"(Exit status:
   0  fastlio-replay can run on the recording; the last line says whether it is damaged
@@ -37,7 +37,7 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
       ->type_name("FILE");
   app.add_option(
          "-c,--config", arguments.config_file,
-         "YAML parameters that fastlio-replay would get (labels, times of points, mounting)")
+         "YAML parameters that fastlio-replay would get (labels, times of points, poses)")
       ->type_name("FILE");
   app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
       ->type_name("KEY=VALUE")

@@ -192,13 +192,13 @@ std::string motionText(const RecordingSurvey& survey)
   text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
   return text +
          line(
-             "mounting",
-             motion.rotation_known
-                 ? format(
-                       "the given rotation differs by %.1f deg from the one that both motions "
-                       "show",
-                       kDegPerRad * survey.rotation_error)
-                 : std::string("the motion turns about one axis only: not observable"));
+             "rotation", motion.rotation_known
+                             ? format(
+                                   "the given rotation of the LiDAR differs by %.1f deg from the "
+                                   "one that both motions "
+                                   "show",
+                                   kDegPerRad * survey.rotation_error)
+                             : std::string("the motion turns about one axis only: not observable"));
 }
 
 std::string listText(const char* title, const std::vector<std::string>& sentences)

@@ -69,7 +69,7 @@ std::string speedText(const RunSummary& run)
 std::string degenerateText(const DegenerateDirections& open)
 {
   const Vec3& axis = open.weakest.axis;
-  return std::to_string(open.scans) + " scans did not see a " +
+  return std::to_string(open.scans) + (open.scans == 1 ? " scan" : " scans") + " did not see a " +
          (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
          fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) +
          "]: there the pose is inertial only, and its covariance grows";

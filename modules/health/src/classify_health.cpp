@@ -77,7 +77,7 @@ void considerMatches(const ScanStatistics& s, ScanHealth& health)
       {
         return mrpt::format(
             "the residuals are %.1f times what their noise explains, more than %g: "
-            "wrong pose, extrinsic, time offset or point times?",
+            "is the pose of the LiDAR, a clock or the time of the points wrong?",
             s.normalized_innovation, kMaxInnovation);
       });
   if (s.constraints.unconstrained > 0) return;
@@ -162,8 +162,8 @@ void considerMotion(const ScanStatistics& s, const HealthContext& context, ScanH
         [&]
         {
           return mrpt::format(
-              "scans and inertial data show a mounting of the LiDAR that is %.1f +- %.1f deg off "
-              "the one in use, surely more than %.1f",
+              "scans and inertial data show a LiDAR that is turned by %.1f +- %.1f deg from the "
+              "pose in use, surely more than %.1f",
               kDegPerRad * s.mounting_error->angle, kDegPerRad * s.mounting_error->std,
               kDegPerRad * context.max_mounting_error);
         });

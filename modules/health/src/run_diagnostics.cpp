@@ -82,7 +82,8 @@ void RunDiagnostics::considerMounting(const ScanResult& result)
   report(
       result.stamp_ns,
       mrpt::format(
-          "the mounting of the LiDAR seems to be wrong by %.1f deg or more: turned by (%.1f, %.1f, "
+          "the LiDAR seems to be turned by %.1f deg or more from its given pose: turned by (%.1f, "
+          "%.1f, "
           "%.1f) deg about the axes of the IMU it would explain what both sensors see; check the "
           "sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu, or run "
           "fastlio-calibrate",

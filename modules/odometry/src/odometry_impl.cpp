@@ -213,7 +213,7 @@ void Odometry::Impl::judgeOwnBody(const ScanResult& result, const Pose& T_imu_li
   diagnostics_.report(
       result.stamp_ns,
       mrpt::format(
-          "the LiDAR sees what carries it: returns %.1f to %.1f m away move with it, around the "
+          "the LiDAR sees what carries it: returns %.2f to %.2f m away move with it, around the "
           "azimuth %.0f deg in its frame; they are left out from here on",
           place->nearest, place->farthest, kDegPerRad * place->azimuth));
 }

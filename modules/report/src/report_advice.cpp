@@ -23,7 +23,8 @@ const std::vector<AdviceRow>& adviceRows()
       {HealthCause::Lost,
        {"The scans have not corrected the pose for too long, or the filter took a step that is "
         "no number. The pose cannot be trusted.",
-        "Look at the cause in the seconds before. Check mounting, units and clocks with "
+        "Look at the cause in the seconds before. Check the pose of the LiDAR, units and clocks "
+        "with "
         "fastlio-info."}},
       {HealthCause::NoMatch,
        {"The scan did not correct the predicted pose: too few points match the map.",
@@ -32,7 +33,7 @@ const std::vector<AdviceRow>& adviceRows()
       {HealthCause::FewMatches,
        {"Far fewer points match the map than in the scans before: the pose is off, or "
         "something covers the LiDAR.",
-        "Look at the point times and the mounting of the LiDAR. Avoid people and objects close "
+        "Look at the times of the points and the pose of the LiDAR. Avoid people and objects close "
         "around the sensor."}},
       {HealthCause::LargeResidual,
        {"The points lie farther from the surfaces of the map than their noise explains.",
@@ -49,7 +50,8 @@ const std::vector<AdviceRow>& adviceRows()
         "range, or fasten it on a damper."}},
       {HealthCause::Bias,
        {"An estimated bias of the inertial sensor has run far away: it explains something else.",
-        "Check the mounting, the units of the inertial sensor (imu.accel_unit, imu.gyro_unit) "
+        "Check the pose of the LiDAR, the units of the inertial sensor (imu.accel_unit, "
+        "imu.gyro_unit) "
         "and the clocks of both sensors."}},
       {HealthCause::ScanTiming,
        {"There is a long time without a scan.",

@@ -33,12 +33,14 @@ std::string figureOf(
 
 std::string mapFigures(const MapViews& views)
 {
-  std::string note =
-      "The saved map has " + countText(views.points) + " points. Colours show the height.";
+  // A run that only localises saves none.
+  std::string note = views.points == 0 ? "The saved map has no points."
+                                       : "The saved map has " + countText(views.points) +
+                                             " points. Colours show the height.";
   if (!views.problem.empty()) note = "The map is not complete: " + htmlText(views.problem);
   const std::string seen_along = views.side_axis == "x" ? "y" : "x";
-  std::string side_note =
-      "Seen along " + seen_along + ". Where points are denser, the colour is stronger.";
+  std::string side_note = "Seen along " + seen_along + ".";
+  if (views.points > 0) side_note += " Where points are denser, the colour is stronger.";
   if (views.side.y_stretch > 1.0)
     side_note += " Heights are drawn " + fixedText(views.side.y_stretch, 0) +
                  " times as large as distances along " + views.side_axis + ".";

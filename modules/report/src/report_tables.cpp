@@ -150,9 +150,9 @@ std::string calibrationHtml(const RunSummary& run)
   if (run.statistics.poses() == 0) return "<p>No scan has a pose.</p>\n";
   const CalibrationCheck& check = run.statistics.calibration();
   return tableOf(
-             {{"Extrinsic rotation, error [deg]",
+             {{"Pose of the LiDAR, error of rotation [deg]",
                vectorText(kDegPerRad * check.rotation, kDegPerRad * check.rotation_std, 3)},
-              {"Extrinsic translation, error [m]",
+              {"Pose of the LiDAR, error of place [m]",
                vectorText(check.translation, check.translation_std, 4)},
               {"Innovations over their covariance", fixedText(check.innovation_scale, 3)},
               {"Beams: common range error [m]", fixedText(check.range_offset, 4)},
@@ -161,7 +161,7 @@ std::string calibrationHtml(const RunSummary& run)
               {"Sides: common range error [m]", fixedText(check.side_range_offset, 4)}}) +
          "<p class=\"note\">How wrong the calibration in use seems to be by the innovations of the "
          "whole run, with three standard deviations. An error beyond them deserves a look at the "
-         "mounting.</p>\n";
+         "pose of the LiDAR.</p>\n";
 }
 
 std::string diagnosticsHtml(const RunSummary& run)

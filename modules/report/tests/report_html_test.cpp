@@ -257,5 +257,22 @@ TEST(ReportHtml, WithoutTheMapTheRestIsThere)
   expectGoodPage(html);
   EXPECT_TRUE(has(html, "The map is not complete: the disk is full"));
 }
+
+/** With --no-map-update no point is saved. */
+TEST(ReportHtml, WithoutPointsNothingIsSaidOfTheirColours)
+{
+  const TemporaryFolder folder;
+  ExportTarget target;
+  target.directory = folder.path();
+  ExporterSet set;
+  set.add(makeReportExporter(target), folder.file("report.html"));
+  for (const ScanResult& scan : walk(20))
+    set.onScan(scan);
+  (void)set.finish(testing::goodRun(), OutputMap());
+  const std::string html = contentOf(folder.file("report.html"));
+  EXPECT_TRUE(has(html, "The saved map has no points.")) << html;
+  EXPECT_FALSE(has(html, "Colours show the height"));
+  EXPECT_FALSE(has(html, "Where points are denser"));
+}
 }  // namespace
 }  // namespace fastlio

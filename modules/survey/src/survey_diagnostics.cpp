@@ -87,7 +87,8 @@ void reportImu(
     if (must_rest)
       warn(
           survey,
-          "The platform is never at rest for a second: start in motion (initialization.mode: auto).");
+          "The platform is never at rest for a second: start in motion (initialization.mode: "
+          "auto).");
     else
       survey.notes.push_back(
           "The platform is never at rest for a second: the odometry starts in motion.");
@@ -149,7 +150,7 @@ void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
   if (motion.rotation_known && angle > kOddRotation)
     warn(
         survey, mrpt::format(
-                    "The given mounting of LiDAR and IMU is %.0f deg off the one that both motions "
+                    "The given poses turn the LiDAR by %.0f deg from what both motions "
                     "show; check sensorPose, input.T_vehicle_lidar and input.T_vehicle_imu.",
                     angle));
 }
