@@ -166,6 +166,8 @@ StartDecision StartFinder::decideInMotion(const ScanQueue& scans, ImuBuffer& imu
 
   const double duration = parameters_.initialization.motion_duration;
   const std::size_t count = motionWindow(scans, imu, duration);
+  // What remains at the end is too short. Why all before was refused says more.
+  if (count == 0 && at_end && !refusal_.empty()) return waitOrDrop(true, refusal_);
   if (count == 0)
     return waitOrDrop(
         at_end,

@@ -200,6 +200,17 @@ bool hasKnownMounting(const SensorSummary& sensor)
   return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
 }
 
+/** What the times say by themselves, where a configured unit contradicts it; else empty. */
+std::string contradictedUnit(const SensorSummary& sensor, const LidarPlan& plan)
+{
+  const PointTimeFinding alone =
+      findPointTimes(sensor.point_times, {PointTimeUnit::Auto, plan.finding.reading.reference});
+  if (alone.verdict != PointTimeVerdict::Found || alone.reading.unit == plan.finding.reading.unit)
+    return {};
+  return ". input.point_time_unit says so; without it, " + alone.evidence +
+         "; check the configured unit";
+}
+
 LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters)
 {
   LidarPlan plan;
@@ -215,6 +226,11 @@ LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters
   {
     case PointTimeVerdict::Found:
       plan.timing.reading = plan.finding.reading;
+      if (const std::string contradicted = contradictedUnit(sensor, plan); !contradicted.empty())
+      {
+        plan.loud = true;
+        plan.text += contradicted;
+      }
       break;
     case PointTimeVerdict::Instantaneous:
       if (parameters.missing_point_times == MissingPointTimes::Clockwise ||

@@ -103,6 +103,23 @@ TEST_F(InputPlanTest, AFactoryMountingIsForRecordingsWithoutPoses)
   EXPECT_TRUE(firstScan(bare, plan(bare, sensors)).T_imu_lidar.p.isApprox(Vec3(1, 0, 0), 1e-12));
 }
 
+/** A unit that is a thousand times too small would end the motion compensation without a word. */
+TEST(LidarPlan, AUnitThatContradictsTheTimesIsSaidAloud)
+{
+  SensorSummary sensor;
+  for (int i = 0; i < 20; ++i)
+    sensor.point_times.push_back(
+        {1'700'000'000'000'000'000 + i * 100'000'000LL, 1000, 0.0, 0.0999, 1e-9});
+  SensorOptions options;
+  EXPECT_FALSE(planLidar(sensor, options).loud);
+  options.point_time_unit = PointTimeUnit::Seconds;
+  EXPECT_FALSE(planLidar(sensor, options).loud);
+  options.point_time_unit = PointTimeUnit::Milliseconds;
+  const LidarPlan plan = planLidar(sensor, options);
+  EXPECT_TRUE(plan.loud);
+  EXPECT_NE(plan.text.find("input.point_time_unit"), std::string::npos) << plan.text;
+  EXPECT_NE(plan.text.find("read as s a scan lasts 0.0999 s"), std::string::npos) << plan.text;
+}
 }  // namespace
 
 TEST_F(InputPlanTest, UnitIsFoundAndUsed)
