@@ -14,6 +14,7 @@
 #include <fastlio/options/printable.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/point_cloud_conversion.h>
+#include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -222,6 +223,7 @@ ImportStatus runImport(const ImportArguments& arguments)
   requireGivenOnce(arguments.input_files);
   failingWith(ImportStatus::Unusable, [&] { requireReadableRecordings(arguments.input_files); });
   if (!arguments.list) requireHarmlessOutput(arguments);
+  if (!arguments.merge) requireInOrder(arguments.input_files);
   const ImportPlan plan = planImport(arguments);
   if (arguments.list)
   {

@@ -81,8 +81,8 @@ make_files() {
   cp run_a/trajectory.tum other.tum
   cp run_a/covariance.csv .
   "$example_recordings" walk.rawlog .
-  fastlio-import walk_1.rawlog -o drive_0.mcap >log.txt
-  fastlio-import walk_2.rawlog -o drive_1.mcap >log.txt
+  fastlio-import part1.rawlog -o drive_0.mcap >log.txt
+  fastlio-import part2.rawlog -o drive_1.mcap >log.txt
 }
 
 # Each command of a page.

@@ -144,19 +144,6 @@ TEST_F(ImportProgram, ListTellsTopicsReasonsAndTimesAndWritesNothing)
     EXPECT_TRUE(contains(result.output, text)) << text << "\n" << result.output;
 }
 
-TEST_F(ImportProgram, SeveralInputsOfSeveralFormatsAreOneRecording)
-{
-  const auto all = messages();
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  const auto cdr = messages({}, Wire::Cdr);
-  const auto result = import(
-      {file("first.bag", bagOf({all.begin(), middle})),
-       file("second.mcap", mcapOf({cdr.begin() + (middle - all.begin()), cdr.end()})), "-o",
-       out()});
-  ASSERT_EQ(result.exit_status, 0) << result.output;
-  EXPECT_EQ(readAll({out()}).seconds.size(), all.size());
-}
-
 TEST_F(ImportProgram, ATruncatedInputIsWrittenAsFarAsItGoesWithStatusThree)
 {
   const std::string whole = bagOf(messages(), {"none", 20, true});
@@ -273,22 +260,5 @@ TEST_F(ImportProgram, ATopicThatNothingMatchesListsWhatThereIs)
   }
 }
 
-TEST_F(ImportProgram, ASecondImuOfTheSameLabelGetsAnother)
-{
-  const std::string first = file("a.bag", bagOf(messages()));
-  const std::string second = file("b.mcap", mcapOf(messages({}, Wire::Cdr)));
-  const auto result = import({"--merge", first, second, "-o", out()});
-  ASSERT_EQ(result.exit_status, 0) << result.output;
-  EXPECT_TRUE(contains(result.output, "b.mcap' is written as '/imu_2'")) << result.output;
-  std::map<std::string, std::size_t> counts;
-  for (const std::string& label : readAll({out()}).labels)
-    ++counts[label];
-  EXPECT_EQ(counts["/imu"], messages().size() - 30);
-  EXPECT_EQ(counts["/imu_2"], counts["/imu"]);
-  const auto chosen =
-      import({"--merge", first, second, "-o", out(), "--overwrite", "--imu-topic", "/imu_2"});
-  EXPECT_EQ(chosen.exit_status, 0) << chosen.output;
-  EXPECT_FALSE(contains(chosen.output, "/imu:")) << chosen.output;
-}
 }  // namespace
 }  // namespace fastlio::testing

@@ -1,0 +1,75 @@
+// mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Several inputs of the program: the parts of one recording, or recorded at the same time.
+
+#include "import_fixture.h"
+#include "rawlog_reading.h"
+#include "ros2_writers.h"
+
+#include <filesystem>
+#include <map>
+
+namespace fastlio::testing
+{
+namespace
+{
+class SeveralInputs : public ImportFixture
+{
+ protected:
+  /** Clouds at 10 Hz, and an IMU. */
+  static std::vector<TopicMessage> messages(const TimeField& time = {}, Wire wire = Wire::Ros1)
+  {
+    return messagesOf(recording(30), wire, time);
+  }
+};
+
+TEST_F(SeveralInputs, SeveralInputsOfSeveralFormatsAreOneRecording)
+{
+  const auto all = messages();
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  const auto cdr = messages({}, Wire::Cdr);
+  const auto result = import(
+      {file("first.bag", bagOf({all.begin(), middle})),
+       file("second.mcap", mcapOf({cdr.begin() + (middle - all.begin()), cdr.end()})), "-o",
+       out()});
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_EQ(readAll({out()}).seconds.size(), all.size());
+}
+
+/** Else the rawlog would go back in time in the middle. */
+TEST_F(SeveralInputs, PartsThatDoNotFollowEachOtherAreRefused)
+{
+  const auto all = messages();
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  const std::string first = file("first.bag", bagOf({all.begin(), middle}));
+  const std::string second = file("second.bag", bagOf({middle, all.end()}));
+  const std::string whole = file("whole.bag", bagOf(all));
+  const auto back = import({second, first, "-o", out()});
+  EXPECT_EQ(back.exit_status, 1) << back.output;
+  EXPECT_TRUE(contains(back.output, "in the order of time")) << back.output;
+  const auto at_once = import({whole, second, "-o", out()});
+  EXPECT_EQ(at_once.exit_status, 1) << at_once.output;
+  EXPECT_TRUE(contains(at_once.output, "--merge")) << at_once.output;
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(SeveralInputs, ASecondImuOfTheSameLabelGetsAnother)
+{
+  const std::string first = file("a.bag", bagOf(messages()));
+  const std::string second = file("b.mcap", mcapOf(messages({}, Wire::Cdr)));
+  const auto result = import({"--merge", first, second, "-o", out()});
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+  EXPECT_TRUE(contains(result.output, "b.mcap' is written as '/imu_2'")) << result.output;
+  std::map<std::string, std::size_t> counts;
+  for (const std::string& label : readAll({out()}).labels)
+    ++counts[label];
+  EXPECT_EQ(counts["/imu"], messages().size() - 30);
+  EXPECT_EQ(counts["/imu_2"], counts["/imu"]);
+  const auto chosen =
+      import({"--merge", first, second, "-o", out(), "--overwrite", "--imu-topic", "/imu_2"});
+  EXPECT_EQ(chosen.exit_status, 0) << chosen.output;
+  EXPECT_FALSE(contains(chosen.output, "/imu:")) << chosen.output;
+}
+}  // namespace
+}  // namespace fastlio::testing
