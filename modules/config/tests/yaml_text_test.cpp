@@ -56,6 +56,14 @@ std::string repeated(const std::string& text, std::size_t times)
     all += text;
   return all;
 }
+
+TEST(Setting, BlanksAroundItsSignDoNotCount)
+{
+  Config config;
+  EXPECT_EQ(applySetting(" map.voxel_size =\t0.3 ", config), "map.voxel_size");
+  EXPECT_EQ(config.odometry.map.voxel_size, 0.3);
+  EXPECT_THROW((void)applySetting("map.voxel_size = ", config), std::invalid_argument);
+}
 }  // namespace
 
 TEST(YamlText, BytesThatAreNoTextAreRefused)
