@@ -175,11 +175,12 @@ void notePoses(
         "of LiDAR and IMU.");
 }
 
-/** LiDARs that could be used and are not. */
+/** LiDARs that could be used and are not. A single cloud is none, as the map of a run in an MCAP.
+ */
 void noteUnused(InputPlan& plan, const SensorSelection& selection)
 {
   for (const SensorSummary& sensor : selection.ignored)
-    if (sensor.kind == SensorKind::Lidar && sensor.usable)
+    if (sensor.kind == SensorKind::Lidar && sensor.usable && sensor.observations > 1)
       plan.notes.push_back(
           "LiDAR '" + printable(sensor.label) +
           "' is not used; lidar_2.sensor_label (and lidar_3, lidar_4) lets its points join.");

@@ -69,7 +69,8 @@ std::string reasonFor(const SensorSurvey& survey, SensorKind kind, const std::st
            "IMU -o BOTH.rawlog";
   if (!pattern.empty())
     return std::string("No usable ") + nameOf(kind) + " has a label that matches '" +
-           fastlio::printable(pattern) + "'. Give another " + flagOf(kind) + ".";
+           fastlio::printable(pattern) + "': the whole label must match. Give another " +
+           flagOf(kind) + ".";
   return std::string("No ") + nameOf(kind) + " of the recording can be used.";
 }
 

@@ -103,6 +103,27 @@ TEST_F(InputPlanTest, AFactoryMountingIsForRecordingsWithoutPoses)
   EXPECT_TRUE(firstScan(bare, plan(bare, sensors)).T_imu_lidar.p.isApprox(Vec3(1, 0, 0), 1e-12));
 }
 
+TEST(InputPlan, ASingleCloudIsNoFurtherLidar)
+{
+  SensorSelection selection;
+  selection.lidar.times_by_sensor = true;
+  SensorSummary other;
+  other.label = "/other";
+  other.kind = SensorKind::Lidar;
+  other.usable = true;
+  const auto notes = [&](std::size_t observations)
+  {
+    other.observations = observations;
+    selection.ignored = {other};
+    std::string all;
+    for (const std::string& note : planInput(selection, {}, {}).notes)
+      all += note;
+    return all;
+  };
+  EXPECT_NE(notes(2).find("LiDAR '/other' is not used"), std::string::npos);
+  EXPECT_EQ(notes(1).find("/other"), std::string::npos);
+}
+
 /** A unit that is a thousand times too small would end the motion compensation without a word. */
 TEST(LidarPlan, AUnitThatContradictsTheTimesIsSaidAloud)
 {
