@@ -57,7 +57,9 @@ void RunStatistics::add(const ScanResult& result)
   health_.add(result);
   compute_ms_ += result.milliseconds.total;
   if (hasPose(result.status)) addPose(result);
-  if (result.statistics.constraints.unconstrained > 0) addDegenerateDirections(result);
+  // Matches of a search for the start say nothing about the run.
+  if (result.status != ScanStatus::Initializing && result.statistics.constraints.unconstrained > 0)
+    addDegenerateDirections(result);
   if (result.status == ScanStatus::Initializing)
     not_initialized_ = trouble;
   else if (
