@@ -75,7 +75,7 @@ const std::vector<ChartSpec>& runCharts()
        "[mm]",
        "Distance of the matched points from the map, RMS.",
        {{"", "var(--s1)", kResidualChannel}}},
-      {"Normalized innovation",
+      {"Normalised innovation",
        "[-]",
        "About 1 when the noise is as assumed; above 3 the scan is in trouble.",
        {{"", "var(--s1)", kInnovationChannel}}},
