@@ -121,8 +121,7 @@ void write(const std::string& path, const std::string& content)
 Config withPreset(
     ConfigFile given, const CalibrationRecording& first, const CalibrateArguments& arguments)
 {
-  const SensorPatterns patterns = patternsOf(given.config.sensors);
-  const SensorSelection selection = selectSensors(surveySensors(first.files, patterns), patterns);
+  const SensorSelection selection = sensorsIn(first.files, given.config.sensors);
   const auto is_given = [&given](std::string_view key)
   { return given.lines.count(std::string(key)) > 0; };
   const auto use = takePreset(selection, is_given, given.config);

@@ -64,13 +64,9 @@ std::vector<std::string> sensorTexts(const RunSetup& setup)
 
 OutputMapOptions outputMapOptions(const RunSetup& setup)
 {
-  constexpr double kPointsPerMillion = 1e6;
-  const ExportOptions& output = setup.config.exporters;
-  OutputMapOptions options;
-  options.spacing = setup.config.odometry.map.output_spacing;
-  options.tile_size = output.tile_size;
-  options.points_in_memory = static_cast<std::size_t>(output.map_memory * kPointsPerMillion);
-  options.directory = setup.arguments.output_directory;
+  OutputMapOptions options = outputMapOptions(
+      setup.config.exporters, setup.config.odometry.map.output_spacing,
+      setup.arguments.output_directory);
   if (setup.saved_map) options.origin = setup.saved_map->origin;
   return options;
 }

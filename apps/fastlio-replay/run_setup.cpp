@@ -34,14 +34,6 @@ namespace
 {
 constexpr double kLargestPoseNumber = 1e7;  // beyond the coordinates of any grid, UTM for instance
 
-std::string joined(const std::vector<std::string>& names)
-{
-  std::string list;
-  for (const auto& name : names)
-    list += (list.empty() ? "" : ",") + name;
-  return list;
-}
-
 /** A configuration and what changed it. */
 struct Loaded
 {
@@ -85,7 +77,7 @@ Loaded loadConfiguration(const ReplayArguments& arguments)
   if (arguments.threads) set("threads", "--threads", odometry.threads, *arguments.threads);
   if (arguments.no_map_update) set("map.update", "--no-map-update", odometry.map.update, false);
   if (!arguments.exporters.empty())
-    set("output.exporters", "--export", exporters, joined(arguments.exporters));
+    set("output.exporters", "--export", exporters, joined(arguments.exporters, ","));
   const auto names = splitAtCommas(exporters);
   if (arguments.imu_rate)
     set("output.imu_rate", "--imu-rate", odometry.imu_rate, true);
@@ -138,9 +130,7 @@ auto checked(Step step)
 /** The sensors of the recording. \exception Failure none can be used */
 SensorSelection sensorsOf(const ReplayArguments& arguments, const Config& config)
 {
-  const SensorPatterns patterns = patternsOf(config.sensors);
-  return checked(
-      [&] { return selectSensors(surveySensors(arguments.input_files, patterns), patterns); });
+  return checked([&] { return sensorsIn(arguments.input_files, config.sensors); });
 }
 
 /** Takes in the preset of the LiDAR that the recording names. \return its name and a note */
@@ -196,10 +186,6 @@ std::string calibrateFirst(const std::vector<std::string>& files, Config& config
          (trial.worthUsing() ? "" : " The run keeps what was given.");
 }
 
-OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
-{
-  return {name, name == "imu" ? Pose{} : T_vehicle_imu.inverse()};
-}
 }  // namespace
 
 std::string dumpedConfig(const ReplayArguments& arguments)

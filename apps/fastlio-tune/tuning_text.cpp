@@ -5,6 +5,7 @@
 
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <cmath>
 #include <filesystem>
@@ -59,11 +60,9 @@ std::string effectsTitle(const TuneCommand& command)
 
 std::string atBaseText(const TuningResult& result)
 {
-  std::string keys;
-  for (const std::string& key : result.at_base)
-    keys += (keys.empty() ? "" : ", ") + key;
-  if (keys.empty()) return keys;
-  return "at the base's value, as the effect may be chance and nothing gets worse: " + keys;
+  if (result.at_base.empty()) return {};
+  return "at the base's value, as the effect may be chance and nothing gets worse: " +
+         joined(result.at_base);
 }
 
 std::string conclusionText(const TuneCommand& command, const TuningResult& result)

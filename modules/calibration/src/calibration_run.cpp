@@ -71,7 +71,7 @@ class RunFollower
 
 DecodeAheadSource openedSource(const CalibrationRecording& recording, const Config& config)
 {
-  SensorSelection selection = sensorsIn(recording, config);
+  SensorSelection selection = sensorsIn(recording.files, config.sensors);
   const InputPlan plan = planInput(selection, config.sensors, config.odometry.lidar);
   return {RawlogSource(recording.files), ObservationBridge(std::move(selection), plan.bridge)};
 }

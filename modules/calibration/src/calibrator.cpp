@@ -22,7 +22,7 @@ constexpr double kFittedPart = 0.6;
 
 Rig rigIn(const CalibrationRecording& recording, const Config& config)
 {
-  const SensorSelection selection = sensorsIn(recording, config);
+  const SensorSelection selection = sensorsIn(recording.files, config.sensors);
   return rigOf(config, selection, planInput(selection, config.sensors, config.odometry.lidar));
 }
 

@@ -29,7 +29,7 @@ struct RigSensors
 
 RigSensors sensorsOf(const CalibrationRecording& recording, const Config& config)
 {
-  const SensorSelection selection = sensorsIn(recording, config);
+  const SensorSelection selection = sensorsIn(recording.files, config.sensors);
   const SensorSummary& lidar = selection.lidar;
   RigSensors sensors;
   sensors.lidar = lidar.class_name;
@@ -63,12 +63,6 @@ std::string differences(const RigSensors& first, const RigSensors& other)
   return text;
 }
 }  // namespace
-
-SensorSelection sensorsIn(const CalibrationRecording& recording, const Config& config)
-{
-  const SensorPatterns patterns = patternsOf(config.sensors);
-  return selectSensors(surveySensors(recording.files, patterns), patterns);
-}
 
 void requireOneRig(const std::vector<CalibrationRecording>& recordings, const Config& config)
 {

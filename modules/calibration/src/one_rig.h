@@ -11,10 +11,6 @@
 
 namespace fastlio
 {
-/** The sensors of a recording that a calibration uses. */
-[[nodiscard]] SensorSelection sensorsIn(
-    const CalibrationRecording& recording, const Config& config);
-
 /** Compares the LiDAR and the poses of LiDAR and IMU with those of the first recording.
  * \exception std::runtime_error they differ; names both recordings and what differs */
 void requireOneRig(const std::vector<CalibrationRecording>& recordings, const Config& config);

@@ -137,6 +137,18 @@ std::vector<std::string> outputFileNames(
   std::vector<std::string> files;
   for (const ExporterKind& kind : wantedKinds(options, kinds))
     for (const std::string_view file : {kind.file, kind.second_file})
+OutputMapOptions outputMapOptions(
+    const ExportOptions& parameters, double spacing, const std::string& directory)
+{
+  constexpr double kPerMillion = 1e6;
+  OutputMapOptions options;
+  options.spacing = spacing;
+  options.tile_size = parameters.tile_size;
+  options.points_in_memory = static_cast<std::size_t>(parameters.map_memory * kPerMillion);
+  options.directory = directory;
+  return options;
+}
+
       if (!file.empty()) files.emplace_back(file);
   return files;
 }

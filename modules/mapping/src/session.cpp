@@ -14,8 +14,7 @@ Session::Session(
     const std::function<bool(std::string_view)>& is_given)
     : name_(std::move(name)), files_(std::move(files)), config_(std::move(config))
 {
-  const SensorPatterns patterns = patternsOf(config_.sensors);
-  selection_ = selectSensors(surveySensors(files_, patterns), patterns);
+  selection_ = sensorsIn(files_, config_.sensors);
   if (const auto preset = takePreset(selection_, is_given, config_)) notes_.push_back(preset->text);
   plan_ = planInput(selection_, config_.sensors, config_.odometry.lidar);
   notes_.insert(notes_.end(), plan_.notes.begin(), plan_.notes.end());

@@ -44,4 +44,12 @@ std::vector<std::string_view> splitAtCommas(std::string_view text)
   return parts;
 }
 
+std::string joined(const std::vector<std::string>& parts, std::string_view separator)
+{
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    text.append(i == 0 ? std::string_view() : separator).append(parts[i]);
+  return text;
+}
+
 }  // namespace fastlio

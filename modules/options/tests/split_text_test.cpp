@@ -24,6 +24,9 @@ TEST(SplitText, PartsAreBetweenCommas)
   EXPECT_EQ(splitAtCommas("a, b c ,\td\r"), (Parts{"a", "b c", "d"}));
   EXPECT_EQ(splitAtCommas(",a,"), (Parts{"", "a", ""}));
   EXPECT_EQ(splitAtCommas(""), (Parts{""}));
+  EXPECT_EQ(joined({"", "a", ""}, ","), ",a,");
+  EXPECT_EQ(joined({"a", "b"}), "a, b");
+  EXPECT_EQ(joined({}), "");
 }
 }  // namespace
 }  // namespace fastlio

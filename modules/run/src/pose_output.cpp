@@ -15,6 +15,11 @@ bool hasPose(ScanStatus status)
   return status == ScanStatus::FirstScan || status == ScanStatus::Tracking ||
          status == ScanStatus::PredictionOnly;
 }
+OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
+{
+  return {name, name == "imu" ? Pose{} : T_vehicle_imu.inverse()};
+}
+
 
 PoseEstimate poseEstimateOf(const FilterState& filter, const Pose& T_imu_body)
 {

@@ -195,6 +195,12 @@ SensorPatterns patternsOf(const SensorOptions& sensors)
   return patterns;
 }
 
+SensorSelection sensorsIn(const std::vector<std::string>& files, const SensorOptions& sensors)
+{
+  const SensorPatterns patterns = patternsOf(sensors);
+  return selectSensors(surveySensors(files, patterns), patterns);
+}
+
 bool hasKnownMounting(const SensorSummary& sensor)
 {
   const Pose& T = sensor.T_vehicle_sensor;

@@ -58,6 +58,12 @@ struct ExporterKind
  * standard ones, and imu_rate with output.imu_rate. The summary is always written, as the last.
  * \exception std::invalid_argument an unknown name (the message lists those that there are)
  * \exception std::runtime_error a file cannot be opened */
+/** The map that is collected for the exporters of a run.
+ * \param spacing least distance of points (map.output_spacing) [m]
+ * \param directory of the run's files */
+[[nodiscard]] OutputMapOptions outputMapOptions(
+    const ExportOptions& parameters, double spacing, const std::string& directory);
+
 [[nodiscard]] ExporterSet makeExporters(
     const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
 

@@ -1,10 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file split_text.h Parts of a line; they point into its text. */
+/** \file split_text.h Parts of a line, which point into its text, and parts as one text. */
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,5 +20,9 @@ namespace fastlio
 
 /** The parts between commas, trimmed: one more than there are commas. */
 [[nodiscard]] std::vector<std::string_view> splitAtCommas(std::string_view text);
+
+/** The parts one behind the other. \param separator between each two */
+[[nodiscard]] std::string joined(
+    const std::vector<std::string>& parts, std::string_view separator = ", ");
 
 }  // namespace fastlio

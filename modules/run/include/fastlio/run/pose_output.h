@@ -27,6 +27,9 @@ struct PoseEstimate
 /** True for scans whose pose belongs into a trajectory: initialised and not diverged. */
 [[nodiscard]] bool hasPose(ScanStatus status);
 
+/** \param name "vehicle" or "imu" */
+[[nodiscard]] OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu);
+
 /** T_world_body = T_world_imu T_imu_body, with the covariance carried over to first order:
  * dtheta_body = R_imu_body^T dtheta_imu, dp_body = dp_imu - R_world_imu [p_imu_body]x dtheta_imu.
  */

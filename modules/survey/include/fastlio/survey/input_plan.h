@@ -48,6 +48,12 @@ struct InputPlan
 /** The labels that options ask for. */
 [[nodiscard]] SensorPatterns patternsOf(const SensorOptions& sensors);
 
+/** The sensors of a recording that options ask for.
+ * \param files its parts, in order
+ * \exception std::exception as surveySensors() and selectSensors() */
+[[nodiscard]] SensorSelection sensorsIn(
+    const std::vector<std::string>& files, const SensorOptions& sensors);
+
 /** Whether the recording says where the sensor is mounted. */
 [[nodiscard]] bool hasKnownMounting(const SensorSummary& sensor);
 
