@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "../shared/common_options.h"
 #include "../shared/parsing.h"
 
 #include <CLI/CLI.hpp>
@@ -36,19 +37,10 @@ std::variant<CalibrateArguments, int> parseCommandLine(int argc, const char* con
   CalibrateArguments arguments;
   app.add_option("input,--input-rawlog", arguments.recordings, "Recordings of the same rig")
       ->type_name("FILE");
-  auto* join =
-      app.add_flag("--join", arguments.join, "The files are parts of one recording, in this order");
-  app.add_flag(
-         "--no-join", arguments.no_join,
-         "Each file is a recording of its own, also one that continues another")
-      ->excludes(join);
-  app.add_option(
-         "-c,--config", arguments.config_file,
-         "Parameters of the rig (YAML), to begin with; calibration.*_std are what is known before")
-      ->type_name("FILE.yaml");
-  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  addJoinOptions(app, arguments.joining);
+  addParameterOptions(
+      app, arguments.parameters,
+      "Parameters of the rig (YAML), to begin with; calibration.*_std are what is known before");
   app.add_option(
          "-o,--output", arguments.output,
          "Where the parameters with the calibration are written, for fastlio-replay -c")

@@ -4,6 +4,9 @@
 /** \file command_line.h Options of fastlio-calibrate. */
 #pragma once
 
+#include "../shared/given_parameters.h"
+#include <fastlio/survey/recording_parts.h>
+
 #include <string>
 #include <variant>
 #include <vector>
@@ -22,10 +25,8 @@ enum class CalibrateStatus
 struct CalibrateArguments
 {
   std::vector<std::string> recordings;
-  bool join = false;                  //!< the files are parts of one recording
-  bool no_join = false;               //!< none of them is a part of another
-  std::vector<std::string> settings;  //!< KEY=VALUE, over the file
-  std::string config_file;            //!< empty: defaults
+  Joining joining = Joining::ByStamps;
+  ParameterOptions parameters;
   std::string output = "calibration.yaml";
   bool overwrite = false;  //!< also an output that the program has not written
   std::string json;        //!< empty: none; "-": instead of the table

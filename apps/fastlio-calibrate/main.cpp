@@ -5,23 +5,21 @@
 
 #include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
+#include "../shared/terminal_line.h"
 #include "command_line.h"
 #include <fastlio/calibration/calibration_report.h>
-#include <fastlio/config/config_yaml.h>
 #include <fastlio/config/presets.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/own_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/json_text.h>
 #include <fastlio/survey/input_plan.h>
-#include <fastlio/survey/recording_parts.h>
 #include <fastlio/survey/sensor_selection.h>
 
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <unistd.h>
 
 namespace
 {
@@ -33,9 +31,8 @@ void requireHarmlessOutputs(const CalibrateArguments& arguments)
   std::vector<FileUse> inputs, outputs{{arguments.output, "--output"}};
   for (const std::string& file : arguments.recordings)
     inputs.push_back({file, "recording"});
-  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
-  if (!arguments.json.empty() && arguments.json != "-")
-    outputs.push_back({arguments.json, "--json"});
+  inputs.push_back({arguments.parameters.config_file, "--config"});
+  if (arguments.json != "-") outputs.push_back({arguments.json, "--json"});
   requireDistinctFiles(inputs, outputs);
   if (!arguments.overwrite)
     requireOwnFile(arguments.output, {"fastlio-calibrate", kCalibrationMark});
@@ -51,23 +48,13 @@ std::vector<CalibrationRecording> recordingsOf(const CalibrateArguments& argumen
 {
   const auto nameOf = [](const std::string& file)
   { return std::filesystem::path(file).filename().string(); };
-  const Joining joining = arguments.join      ? Joining::Always
-                          : arguments.no_join ? Joining::Never
-                                              : Joining::ByStamps;
   std::vector<CalibrationRecording> recordings;
-  for (const RecordingParts& parts : partsOf(arguments.recordings, joining))
+  for (const RecordingParts& parts : partsOf(arguments.recordings, arguments.joining))
   {
     if (!parts.pauses.empty()) say(arguments, describe(parts));
     recordings.push_back({nameOf(parts.files.front()), parts.files});
   }
   return recordings;
-}
-
-/** A line that is overwritten, on terminals only. */
-CalibrationProgress progressOf(const CalibrateArguments& arguments)
-{
-  if (arguments.quiet || isatty(STDERR_FILENO) == 0) return {};
-  return [](const std::string& what) { std::cerr << "\r\033[K" << what << std::flush; };
 }
 
 Json trialJson(const CalibrationTrial& trial)
@@ -134,12 +121,13 @@ CalibrateStatus calibrate(const CalibrateArguments& arguments, ConfigFile given)
   requireReadableRecordings(arguments.recordings);
   const std::vector<CalibrationRecording> recordings = recordingsOf(arguments);
   const Config config = withPreset(std::move(given), recordings.front(), arguments);
-  const CalibrationProgress progress = progressOf(arguments);
-  const Calibrator calibrator(recordings, config, arguments.passes, progress);
+  TerminalLine line(!arguments.quiet);
+  const Calibrator calibrator(
+      recordings, config, arguments.passes, [&line](const std::string& what) { line.show(what); });
   const RigEstimate estimate = calibrator.calibrate();
   std::optional<CalibrationTrial> trial;
   if (arguments.trial) trial = calibrator.tryOut();
-  if (progress) std::cerr << "\r\033[K";
+  line.clear();
   for (const std::string& problem : estimate.problems)
     std::cerr << "fastlio-calibrate: " << problem << " (the rest is used)\n";
   const Config calibrated = calibrator.configWith(estimate);
@@ -163,11 +151,7 @@ CalibrateStatus run(const CalibrateArguments& arguments)
 {
   requireDifferentRecordings(arguments.recordings);
   requireHarmlessOutputs(arguments);
-  ConfigFile given;
-  if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);
-  for (const std::string& setting : arguments.settings)
-    given.lines[applySetting(setting, given.config)] = 0;
-  validate(given.config);
+  ConfigFile given = givenParameters(arguments.parameters);
   return failingWith(
       CalibrateStatus::Usage, CalibrateStatus::Unusable,
       [&] { return calibrate(arguments, std::move(given)); });

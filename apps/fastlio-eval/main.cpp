@@ -63,12 +63,9 @@ void requireHarmlessOutputs(
   std::vector<fastlio::FileUse> inputs = {{command.reference.string(), "--reference"}};
   for (const fastlio::EstimateFile& estimate : estimates)
     inputs.push_back({estimate.file.string(), "--estimate"});
-  if (!command.kitti.times_file.empty())
-    inputs.push_back({command.kitti.times_file.string(), "--kitti-times"});
-  std::vector<fastlio::FileUse> outputs;
-  if (!command.json_path.empty() && command.json_path != "-")
-    outputs.push_back({command.json_path, "--json"});
-  if (!command.svg_path.empty()) outputs.push_back({command.svg_path.string(), "--plot"});
+  inputs.push_back({command.kitti.times_file.string(), "--kitti-times"});
+  std::vector<fastlio::FileUse> outputs = {{command.svg_path.string(), "--plot"}};
+  if (command.json_path != "-") outputs.push_back({command.json_path, "--json"});
   fastlio::requireDistinctFiles(inputs, outputs);
   fastlio::requirePictureName(command.svg_path);
 }

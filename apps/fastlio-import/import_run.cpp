@@ -5,6 +5,7 @@
 
 #include "../shared/failure.h"
 #include "../shared/readable_recordings.h"
+#include "../shared/terminal_line.h"
 #include "import_inputs.h"
 #include "mcap_output.h"
 #include "topic_list.h"
@@ -25,7 +26,6 @@
 #include <iostream>
 #include <set>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace fastlio
 {
@@ -69,12 +69,13 @@ class Import
 
   void run(ImportInputs& source)
   {
-    const bool progress = !arguments_.quiet && isatty(STDERR_FILENO) == 1;
-    for (int last = -1; auto observation = source.next();)
+    TerminalLine line(!arguments_.quiet);
+    while (const auto observation = source.next())
     {
       if (isWanted(*observation)) write(converted(observation));
-      if (progress) show(source.progress(), last);
+      if (line.isShown()) line.showShare("importing", source.progress().share());
     }
+    line.clear();
     files_ = output_->finish();
   }
 
@@ -115,16 +116,6 @@ class Import
     const std::int64_t stamp_ns = toNanoseconds(observation->timestamp);
     if (written.observations++ == 0) written.first_ns = stamp_ns;
     written.last_ns = stamp_ns;
-  }
-
-  static void show(const ReadProgress& progress, int& last)
-  {
-    const auto percent = static_cast<int>(
-        100 * progress.bytes_read / std::max<std::uint64_t>(progress.bytes_total, 1));
-    if (percent == last) return;
-    last = percent;
-    std::cerr << "\rimporting " << percent << " % " << (percent >= 100 ? "\r              \r" : "")
-              << std::flush;
   }
 
   const ImportArguments& arguments_;
@@ -181,7 +172,7 @@ void requireHarmlessOutput(const ImportArguments& arguments)
   std::vector<FileUse> inputs;
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "input"});
-  if (!arguments.trajectory.empty()) inputs.push_back({arguments.trajectory, "--trajectory"});
+  inputs.push_back({arguments.trajectory, "--trajectory"});
   const std::string first = RawlogParts::pathOfPart(arguments.output, 0);
   for (const char* name : {"covariance.csv", "trajectory.tum", "map.ply", "timing.csv"})
     if (!arguments.run.empty()) inputs.push_back({arguments.run + "/" + name, "--run"});

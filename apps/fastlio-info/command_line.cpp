@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 
+#include "../shared/common_options.h"
 #include "../shared/parsing.h"
 
 #include <CLI/CLI.hpp>
@@ -35,13 +36,9 @@ std::variant<InfoArguments, int> parseCommandLine(int argc, const char* const* a
          "input,--input-rawlog", arguments.input_files,
          "Recording; several are parts of one, in this order")
       ->type_name("FILE");
-  app.add_option(
-         "-c,--config", arguments.config_file,
-         "YAML parameters that fastlio-replay would get (labels, times of points, poses)")
-      ->type_name("FILE");
-  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  addParameterOptions(
+      app, arguments.parameters,
+      "YAML parameters that fastlio-replay would get (labels, times of points, poses)");
   app.add_option(
          "--json", arguments.json_path,
          "Write everything as JSON to FILE, or with '-' instead of the table")

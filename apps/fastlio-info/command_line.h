@@ -4,6 +4,8 @@
 /** \file command_line.h Options of fastlio-info. */
 #pragma once
 
+#include "../shared/given_parameters.h"
+
 #include <string>
 #include <variant>
 #include <vector>
@@ -20,10 +22,9 @@ enum class InfoStatus
 struct InfoArguments
 {
   std::vector<std::string> input_files;
-  std::string config_file;            //!< empty: defaults
-  std::string json_path;              //!< empty: none; "-": instead of the table
-  std::string new_config;             //!< where to write a parameter file; empty: nowhere
-  std::vector<std::string> settings;  //!< KEY=VALUE, over the file
+  ParameterOptions parameters;
+  std::string json_path;   //!< empty: none; "-": instead of the table
+  std::string new_config;  //!< where to write a parameter file; empty: nowhere
   bool check_motion = true;
   bool quiet = false;  //!< no table: only the exit status and the files that are asked for
 };

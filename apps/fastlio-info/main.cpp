@@ -5,10 +5,10 @@
  */
 
 #include "../shared/failure.h"
+#include "../shared/terminal_line.h"
 #include "command_line.h"
 #include "config_proposal.h"
 #include "info_report.h"
-#include <fastlio/config/config_yaml.h>
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/survey/recording_parts.h>
@@ -16,28 +16,10 @@
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace
 {
 using namespace fastlio;
-
-/** On a terminal only: the table may be redirected, the progress goes to standard error. */
-SurveyOptions optionsOf(const InfoArguments& arguments)
-{
-  SurveyOptions options;
-  options.check_motion = arguments.check_motion;
-  if (arguments.quiet || isatty(STDERR_FILENO) == 0) return options;
-  options.progress = [last = -1](double fraction) mutable
-  {
-    const int percent = static_cast<int>(100.0 * fraction);
-    if (percent == last) return;
-    last = percent;
-    std::cerr << "\rreading " << percent << " %  " << (fraction >= 1.0 ? "\r             \r" : "")
-              << std::flush;
-  };
-  return options;
-}
 
 void write(const InfoArguments& arguments, const RecordingSurvey& survey)
 {
@@ -59,12 +41,11 @@ void requireHarmlessOutput(const InfoArguments& arguments)
         "--write-config: '" + arguments.new_config +
         "' is there already; give another name, or remove it");
   std::vector<FileUse> inputs, outputs;
-  if (!arguments.new_config.empty()) outputs.push_back({arguments.new_config, "--write-config"});
-  if (!arguments.json_path.empty() && arguments.json_path != "-")
-    outputs.push_back({arguments.json_path, "--json"});
+  outputs.push_back({arguments.new_config, "--write-config"});
+  if (arguments.json_path != "-") outputs.push_back({arguments.json_path, "--json"});
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "recording"});
-  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
+  inputs.push_back({arguments.parameters.config_file, "--config"});
   requireDistinctFiles(inputs, outputs);
 }
 
@@ -73,13 +54,14 @@ InfoStatus run(const InfoArguments& arguments)
   requireGivenOnce(arguments.input_files);
   requireInOrder(arguments.input_files);
   requireHarmlessOutput(arguments);
-  Config config;
-  if (!arguments.config_file.empty()) config = loadConfigFromFile(arguments.config_file);
-  for (const std::string& setting : arguments.settings)
-    applySetting(setting, config);
-  validate(config);
+  const Config config = givenParameters(arguments.parameters).config;
+  TerminalLine line(!arguments.quiet);
+  SurveyOptions options;
+  options.check_motion = arguments.check_motion;
+  options.progress = [&line](double share) { line.showShare("reading", share); };
   const RecordingSurvey survey =
-      surveyRecording(arguments.input_files, config.sensors, config.odometry, optionsOf(arguments));
+      surveyRecording(arguments.input_files, config.sensors, config.odometry, options);
+  line.clear();
   write(arguments, survey);
   if (!arguments.new_config.empty() && survey.unusable.empty())
     writeFileAtomically(arguments.new_config, proposedConfig(survey, config));

@@ -71,8 +71,7 @@ std::vector<BatchRun> runsOf(const ReplayArguments& arguments)
     return runs;
   }
   requireGivenOnce(arguments.input_files);
-  const auto recordings =
-      partsOf(arguments.input_files, arguments.no_join ? Joining::Never : Joining::ByStamps);
+  const auto recordings = partsOf(arguments.input_files, arguments.joining);
   // One run needs no folders below that of the user.
   const bool in_folders = recordings.size() > 1 && !arguments.output_directory.empty();
   for (const RecordingParts& recording : recordings)

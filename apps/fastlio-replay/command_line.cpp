@@ -4,6 +4,7 @@
 #include "command_line.h"
 
 #include "../shared/choices.h"
+#include "../shared/common_options.h"
 #include "../shared/parsing.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/nearest_name.h>
@@ -64,12 +65,7 @@ void addInputOptions(
          "Recordings: rawlogs, bags, MCAP, captures, folders (docs/import.md); of several, each "
          "gets a run of its own, but those that follow each other in time are one recording")
       ->type_name("RECORDING");
-  auto* join = app.add_flag(
-      "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
-  app.add_flag(
-         "--no-join", arguments.no_join,
-         "Each recording gets a run of its own, also one that continues another")
-      ->excludes(join);
+  addJoinOptions(app, arguments.joining);
   app.add_option(
          "--set", arguments.settings,
          "Set a parameter as the configuration file would, and over it; may be repeated")
@@ -216,7 +212,7 @@ void requireOutput(const ReplayArguments& arguments)
  * --input-rawlog parts of one. */
 void joinInputs(ReplayArguments& arguments, const std::vector<std::string>& positional)
 {
-  arguments.batch = !arguments.join && positional.size() > 1;
+  arguments.batch = arguments.joining != Joining::Always && positional.size() > 1;
   if (!positional.empty() && !arguments.input_files.empty())
     throw CLI::ValidationError(
         "--input-rawlog", "is given beside other recordings; give all of them in one way");

@@ -4,6 +4,8 @@
 /** \file command_line.h The arguments of fastlio-replay. */
 #pragma once
 
+#include <fastlio/survey/recording_parts.h>
+
 #include <mrpt/system/COutputLogger.h>
 
 #include <cstddef>
@@ -19,10 +21,9 @@ struct ReplayArguments
 {
   std::string config_file;                        //!< empty: all have their defaults
   std::vector<std::string> input_files;           //!< recordings, in order
-  bool join = false;                              //!< they are parts of one
+  Joining joining = Joining::ByStamps;            //!< which of them are parts of one
   bool batch = false;                             //!< they are recordings of their own, or parts
   bool in_order = false;                          //!< the parts are known to follow each other
-  bool no_join = false;                           //!< none of them is a part of another
   std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none

@@ -31,13 +31,12 @@ std::vector<std::string> namesInFolder(const ReplayArguments& arguments, const C
 std::vector<FileUse> inputsOf(const ReplayArguments& arguments)
 {
   std::vector<FileUse> inputs;
-  inputs.reserve(arguments.input_files.size() + 2);
+  inputs.reserve(arguments.input_files.size() + 3);
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "--input-rawlog"});
-  if (!arguments.config_file.empty()) inputs.push_back({arguments.config_file, "--config"});
-  if (!arguments.map_in.empty()) inputs.push_back({arguments.map_in, "--map-in"});
-  const std::string reference = referenceFor(arguments.reference, arguments.input_files);
-  if (!reference.empty()) inputs.push_back({reference, "--reference"});
+  inputs.push_back({arguments.config_file, "--config"});
+  inputs.push_back({arguments.map_in, "--map-in"});
+  inputs.push_back({referenceFor(arguments.reference, arguments.input_files), "--reference"});
   return inputs;
 }
 
@@ -48,8 +47,7 @@ std::vector<FileUse> outputsOf(
   outputs.reserve(names.size() + 1);
   for (const std::string& name : names)
     outputs.push_back({(fs::path(arguments.output_directory) / name).string(), "--output-dir"});
-  if (!arguments.output_tum_path.empty())
-    outputs.push_back({arguments.output_tum_path, "--output-tum-path"});
+  outputs.push_back({arguments.output_tum_path, "--output-tum-path"});
   return outputs;
 }
 

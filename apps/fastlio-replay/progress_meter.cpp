@@ -9,8 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
-#include <unistd.h>
 
 namespace fastlio
 {
@@ -19,7 +17,6 @@ namespace
 constexpr double kBarPeriod = 0.2;    // [s]
 constexpr double kLinePeriod = 10.0;  // [s]
 constexpr std::size_t kBarLength = 30;
-constexpr const char* kEraseLine = "\r\033[K";
 
 /** Minutes and seconds, hours when there are some. */
 std::string durationText(double seconds)
@@ -44,9 +41,7 @@ std::string progressText(const Progress& progress, double elapsed_seconds)
 }
 
 ProgressMeter::ProgressMeter(mrpt::system::COutputLogger& logger)
-    : logger_(logger),
-      on_terminal_(
-          isatty(STDERR_FILENO) != 0 && logger.getMinLoggingLevel() <= mrpt::system::LVL_INFO)
+    : logger_(logger), bar_(logger.getMinLoggingLevel() <= mrpt::system::LVL_INFO)
 {
 }
 
@@ -54,24 +49,20 @@ void ProgressMeter::update(const Progress& progress)
 {
   const auto now = Clock::now();
   const std::chrono::duration<double> since_shown = now - last_shown_;
-  if (since_shown.count() < (on_terminal_ ? kBarPeriod : kLinePeriod)) return;
+  if (since_shown.count() < (bar_.isShown() ? kBarPeriod : kLinePeriod)) return;
   last_shown_ = now;
   const std::chrono::duration<double> elapsed = now - start_;
   const std::string text = progressText(progress, elapsed.count());
-  if (!on_terminal_)
-  {
-    logger_.logStr(mrpt::system::LVL_INFO, text);
-    return;
-  }
   const double done = std::clamp(progress.done, 0.0, 1.0);
-  std::cerr << kEraseLine << mrpt::system::progress(done, kBarLength) << " " << text << std::flush;
-  drawn_ = true;
+  if (bar_.isShown())
+    bar_.show(mrpt::system::progress(done, kBarLength) + " " + text);
+  else
+    logger_.logStr(mrpt::system::LVL_INFO, text);
 }
 
 void ProgressMeter::clear()
 {
-  if (drawn_) std::cerr << kEraseLine << std::flush;
-  drawn_ = false;
+  bar_.clear();
 }
 
 }  // namespace fastlio

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include "../shared/terminal_line.h"
+
 #include <mrpt/system/COutputLogger.h>
 
 #include <chrono>
@@ -36,8 +38,7 @@ class ProgressMeter
   using Clock = std::chrono::steady_clock;
 
   mrpt::system::COutputLogger& logger_;
-  bool on_terminal_;
-  bool drawn_ = false;
+  TerminalLine bar_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_shown_ = start_;
 };

@@ -35,12 +35,6 @@ std::vector<InputFile> inputFiles(const std::vector<std::string>& paths)
   return files;
 }
 
-double shareOf(const ReadProgress& progress)
-{
-  if (progress.bytes_total == 0) return 0.0;
-  return static_cast<double>(progress.bytes_read) / static_cast<double>(progress.bytes_total);
-}
-
 std::vector<std::string> sentences(const std::vector<ReadProblem>& problems)
 {
   std::vector<std::string> texts;
@@ -179,7 +173,7 @@ void ReplayRun::checkEnd()
 
 bool ReplayRun::feed(DecodedInput input)
 {
-  input_share_ = shareOf(input.progress);
+  input_share_ = input.progress.share();
   if (auto* scan = std::get_if<LidarScan>(&input.data)) return feedScan(std::move(*scan));
   const bool skipping = scans_seen_ < setup_.arguments.skip_first_n;
   if (!skipping) odometry_.addImu(std::get<ImuSample>(input.data));

@@ -5,6 +5,7 @@
 
 #include "../shared/failure.h"
 #include "../shared/parsing.h"
+#include "../shared/terminal_line.h"
 #include "command_line.h"
 #include <fastlio/simulation/recording.h>
 
@@ -13,19 +14,11 @@
 #include <exception>
 #include <iostream>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace
 {
 constexpr int kExitOk = 0;
 constexpr int kExitError = 1;
-
-/** A line that is overwritten, on terminals only. */
-void showProgress(std::size_t done, std::size_t total)
-{
-  std::cerr << "\r  " << done << " / " << total << " sweeps" << (done == total ? "\n" : "")
-            << std::flush;
-}
 
 void simulate(const fastlio::SimCommand& command)
 {
@@ -34,10 +27,13 @@ void simulate(const fastlio::SimCommand& command)
       command.output_dir.empty() ? "simulated_" + command.scenario : command.output_dir;
   fastlio::requireRecordingPlace(directory, command.overwrite);
   const fastlio::Simulation simulation(fastlio::settingsOf(command));
-  const bool progress = !command.quiet && isatty(STDERR_FILENO) == 1;
+  fastlio::TerminalLine line(!command.quiet);
   const fastlio::RecordingFiles files = fastlio::writeRecording(
-      simulation, directory, progress ? showProgress : fastlio::RecordingProgress{},
+      simulation, directory,
+      [&line](std::size_t done, std::size_t total)
+      { line.show(std::to_string(done) + " / " + std::to_string(total) + " sweeps"); },
       command.overwrite);
+  line.clear();
   if (command.quiet) return;
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   std::cout << "Simulated '" << command.scenario << "': " << simulation.settings().duration

@@ -144,19 +144,18 @@ std::string idOf(const TuneCommand& command, const SearchInputs& inputs)
 
 void requireHarmlessOutputs(const TuneCommand& command, const SearchInputs& inputs)
 {
-  std::vector<FileUse> read = {{command.files.space, "search space"}};
-  if (!command.files.base.empty()) read.push_back({command.files.base, "--config"});
+  std::vector<FileUse> read = {
+      {command.files.space, "search space"}, {command.files.base, "--config"}};
   for (const RecordingInput& recording : inputs.recordings)
   {
     read.push_back({recording.path, "recording"});
-    if (!recording.truth.empty()) read.push_back({recording.truth, "--truth"});
+    read.push_back({recording.truth, "--truth"});
   }
-  std::vector<FileUse> written = {
-      {command.files.output, "--output"},
-      {command.files.report, "--report"},
-      {command.runner.store, "--store"}};
-  if (!command.files.json.empty()) written.push_back({command.files.json, "--json"});
-  requireDistinctFiles(read, written);
+  requireDistinctFiles(
+      read, {{command.files.output, "--output"},
+             {command.files.report, "--report"},
+             {command.runner.store, "--store"},
+             {command.files.json, "--json"}});
 }
 }  // namespace
 

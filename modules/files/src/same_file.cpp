@@ -81,6 +81,7 @@ std::string withLinksFollowed(const std::string& path)
 bool isSameFile(const std::string& a, const std::string& b)
 {
   std::error_code ignored;
+  if (a.empty() || b.empty()) return false;
   if (fs::exists(a, ignored) != fs::exists(b, ignored)) return false;
   const auto identity = identityOf(a);
   return identity && identity == identityOf(b);

@@ -41,6 +41,7 @@ TEST(SameFile, FilesThatAreNotThereYetAreTheirPlaces)
     EXPECT_TRUE(isSameFile(folder.file("later"), folder.file(name))) << name;
   EXPECT_FALSE(isSameFile(folder.file("later"), folder.file("never")));
   EXPECT_FALSE(isSameFile("/dev/null", "/dev/null"));  // swallows everything, holds nothing
+  EXPECT_FALSE(isSameFile("", "")) << "the folder at hand is none that anybody has named";
 }
 
 TEST(SameFile, WhatIsBelowAFolder)

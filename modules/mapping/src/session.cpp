@@ -51,9 +51,7 @@ SessionPass Session::run(
     }
     while (const auto result = pass.stopped ? std::nullopt : odometry.next())
       take(*result);
-    const ReadProgress& read = input->progress;
-    if (progress && read.bytes_total > 0)
-      progress(static_cast<double>(read.bytes_read) / static_cast<double>(read.bytes_total));
+    if (progress) progress(input->progress.share());
   }
   source.stop();
   while (const auto result = pass.stopped ? std::nullopt : odometry.flush())

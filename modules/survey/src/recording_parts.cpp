@@ -80,9 +80,7 @@ Opening openingOf(const std::string& file)
   for (const SensorSummary& sensor : survey.sensors)
     if (sensor.kind != SensorKind::Other)
       opening.sensors.insert(sensor.class_name + " " + sensor.label);
-  const ReadProgress progress = source.progress();
-  const double share = static_cast<double>(progress.bytes_read) /
-                       static_cast<double>(std::max<std::uint64_t>(progress.bytes_total, 1));
+  const double share = source.progress().share();
   const double seconds = toSeconds(covered->second - covered->first);
   opening.first_ns = covered->first;
   const double likely =

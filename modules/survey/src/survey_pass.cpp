@@ -21,8 +21,7 @@ namespace
 
 void report(const SurveyProgress& progress, const ReadProgress& read)
 {
-  if (progress && read.bytes_total > 0)
-    progress(static_cast<double>(read.bytes_read) / static_cast<double>(read.bytes_total));
+  if (progress) progress(read.share());
 }
 
 /** Takes observations in the order of the files. */

@@ -12,7 +12,7 @@ namespace fastlio
 /** A file and what it is to the user, for example "--input-rawlog". */
 struct FileUse
 {
-  std::string path;
+  std::string path;  //!< empty: there is none
   std::string role;
 };
 
@@ -21,7 +21,8 @@ struct FileUse
 [[nodiscard]] std::string withLinksFollowed(const std::string& path);
 
 /** Whether both paths lead to the same file: device and inode of files that are there (hard and
- * symbolic links), the canonical path of those that are not yet. Devices are not files. */
+ * symbolic links), the canonical path of those that are not yet. Devices are not files, and neither
+ * is an empty path. */
 [[nodiscard]] bool isSameFile(const std::string& a, const std::string& b);
 
 /** Whether the path leads to something below the folder. */

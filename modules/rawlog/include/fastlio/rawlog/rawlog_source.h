@@ -21,6 +21,13 @@ struct ReadProgress
 {
   std::uint64_t bytes_read = 0;  //!< of the files as they lie on disk
   std::uint64_t bytes_total = 0;
+
+  /** The part that has been read, 0 to 1. */
+  [[nodiscard]] double share() const
+  {
+    return bytes_total > 0 ? static_cast<double>(bytes_read) / static_cast<double>(bytes_total)
+                           : 0.0;
+  }
 };
 
 struct RawlogSourceOptions
