@@ -35,32 +35,17 @@ bool isTied(const MappingResult& result, std::size_t session)
 ExitStatus statusOf(const BuiltMap& map, const std::vector<std::string>& output_problems)
 {
   if (!output_problems.empty()) return ExitStatus::OutputFailed;
-  const auto rank = [](ExitStatus status)
-  {
-    switch (status)
-    {
-      case ExitStatus::InputBroken:
-        return 3;
-      case ExitStatus::OdometryFailed:
-        return 2;
-      case ExitStatus::Degraded:
-        return 1;
-      default:
-        return 0;
-    }
-  };
   ExitStatus worst = ExitStatus::Ok;
   for (std::size_t i = 0; i < map.sessions.size(); ++i)
   {
     const SessionOutcome& session = map.sessions[i];
-    if (!isInMap(map, i) && rank(worst) < rank(ExitStatus::Degraded)) worst = ExitStatus::Degraded;
+    if (!isInMap(map, i)) worst = graver(worst, ExitStatus::Degraded);
     RunSummary summary;
     summary.statistics = session.statistics;
     summary.diagnostics = session.diagnostics;
     for (const ReadProblem& problem : session.pass.problems)
       summary.input_problems.push_back(problem.message);
-    const ExitStatus status = exitStatusOf(summary);
-    if (rank(status) > rank(worst)) worst = status;
+    worst = graver(worst, exitStatusOf(summary));
   }
   return worst;
 }

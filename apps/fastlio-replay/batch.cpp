@@ -5,45 +5,16 @@
 
 #include "../shared/run_names.h"
 #include <fastlio/files/same_file.h>
-#include <fastlio/run/run_summary.h>
-#include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/core/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <iterator>
 
 namespace fastlio
 {
 namespace
 {
-struct StatusText
-{
-  int status;
-  const char* text;
-};
-
-/** From the gravest to the least. */
-constexpr std::array<StatusText, 8> kStatuses = {
-    {{static_cast<int>(ExitStatus::Interrupted), "interrupted"},
-     {static_cast<int>(ExitStatus::OutputFailed), "outputs incomplete"},
-     {static_cast<int>(ExitStatus::Usage), "not run: usage"},
-     {static_cast<int>(ExitStatus::InputUnusable), "input unusable"},
-     {static_cast<int>(ExitStatus::InputBroken), "input damaged"},
-     {static_cast<int>(ExitStatus::OdometryFailed), "diverged"},
-     {static_cast<int>(ExitStatus::Degraded), "degraded"},
-     {static_cast<int>(ExitStatus::Ok), "ok"}}};
-
-std::size_t rankOf(int status)
-{
-  const auto* const found = std::find_if(
-      kStatuses.begin(), kStatuses.end(),
-      [status](const StatusText& s) { return s.status == status; });
-  return static_cast<std::size_t>(std::distance(kStatuses.begin(), found));
-}
-
 /** "walk", "walk-2", ... for recordings of the same name in different folders. */
 std::string folderIn(
     const std::string& parent, const std::string& recording, const std::vector<BatchRun>& before)
@@ -92,22 +63,10 @@ std::string batchTable(const std::vector<BatchRun>& runs)
 {
   std::string table = mrpt::format("\n%-32s %-20s %s\n", "recording", "status", "folder");
   for (const BatchRun& run : runs)
-  {
-    const std::size_t rank = rankOf(run.status);
     table += mrpt::format(
         "%-32s %-20s %s\n", recordingName(run.arguments.input_files.front()).c_str(),
-        rank < kStatuses.size() ? kStatuses[rank].text : "?",
-        run.arguments.output_directory.c_str());
-  }
+        wordsOf(run.status), run.arguments.output_directory.c_str());
   return table;
-}
-
-int worstStatus(const std::vector<BatchRun>& runs)
-{
-  const auto worst = std::min_element(
-      runs.begin(), runs.end(),
-      [](const BatchRun& a, const BatchRun& b) { return rankOf(a.status) < rankOf(b.status); });
-  return worst->status;
 }
 
 }  // namespace fastlio

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "command_line.h"
+#include <fastlio/run/run_summary.h>
 
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct BatchRun
 {
   ReplayArguments arguments;
   std::string note = {};  //!< what the user should know before it; empty: nothing
-  int status = 0;
+  ExitStatus status = ExitStatus::Ok;
 };
 
 /** The runs that a command line asks for: one, or one for each recording. Files that follow each
@@ -27,9 +28,5 @@ struct BatchRun
 
 /** A row per run: recording, how it ended, folder. */
 [[nodiscard]] std::string batchTable(const std::vector<BatchRun>& runs);
-
-/** The gravest status: interrupted, not written, wrong usage, unusable, truncated,
- * diverged, degraded, ok. */
-[[nodiscard]] int worstStatus(const std::vector<BatchRun>& runs);
 
 }  // namespace fastlio

@@ -23,18 +23,18 @@ namespace
 {
 using namespace fastlio;
 
-int report(const RunSummary& summary, mrpt::system::COutputLogger& logger)
+ExitStatus report(const RunSummary& summary, mrpt::system::COutputLogger& logger)
 {
   const ExitStatus status = exitStatusOf(summary);
   const auto level = status == ExitStatus::Ok ? mrpt::system::LVL_WARN : mrpt::system::LVL_ERROR;
   for (const auto& sentence : troubleSentences(summary))
     logger.logStr(level, sentence);
   if (logger.getMinLoggingLevel() <= mrpt::system::LVL_WARN) std::cout << reportText(summary);
-  return static_cast<int>(status);
+  return status;
 }
 
 /** Once the run has begun, nothing is blamed on the command line any more. */
-int execute(ReplayRun& run, mrpt::system::COutputLogger& logger)
+ExitStatus execute(ReplayRun& run, mrpt::system::COutputLogger& logger)
 {
   try
   {
@@ -46,13 +46,13 @@ int execute(ReplayRun& run, mrpt::system::COutputLogger& logger)
   }
 }
 
-int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
+ExitStatus replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
 {
   if (!arguments.dump_config.empty())
   {
     std::cout << dumpedConfig(arguments) << std::flush;
     if (!std::cout) throw Failure(ExitStatus::OutputFailed, "standard output cannot be written");
-    return static_cast<int>(ExitStatus::Ok);
+    return ExitStatus::Ok;
   }
   RunSetup setup = setUpRun(arguments);
   std::istringstream sensors(describe(setup.selection));
@@ -69,19 +69,19 @@ int replay(const ReplayArguments& arguments, mrpt::system::COutputLogger& logger
 }
 
 /** A run without outputs gets a folder of its own. */
-int runNamed(ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
+ExitStatus runNamed(ReplayArguments& arguments, mrpt::system::COutputLogger& logger)
 {
   const bool own_folder = arguments.dump_config.empty() && arguments.output_directory.empty() &&
                           arguments.output_tum_path.empty();
   if (own_folder) arguments.output_directory = freeRunFolder(arguments.input_files.front());
-  const int status = replay(arguments, logger);
+  const ExitStatus status = replay(arguments, logger);
   if (!own_folder || !std::filesystem::is_directory(arguments.output_directory)) return status;
   if (const auto problem = linkLatest(arguments.output_directory))
     logger.logStr(mrpt::system::LVL_WARN, *problem);
   return status;
 }
 
-int logged(BatchRun& run)
+ExitStatus logged(BatchRun& run)
 {
   ReplayArguments& arguments = run.arguments;
   mrpt::system::COutputLogger logger("fastlio-replay");
@@ -89,31 +89,28 @@ int logged(BatchRun& run)
   if (!run.note.empty()) logger.logStr(mrpt::system::LVL_INFO, run.note);
   try
   {
-    return runNamed(arguments, logger);
+    return failingWith(ExitStatus::Usage, [&] { return runNamed(arguments, logger); });
   }
   catch (const Failure& e)
   {
     logger.logStr(mrpt::system::LVL_ERROR, e.what());
-    return e.status();
-  }
-  catch (const std::exception& e)
-  {
-    logger.logStr(mrpt::system::LVL_ERROR, failureText(e));
-    return static_cast<int>(ExitStatus::Usage);
+    return static_cast<ExitStatus>(e.status());
   }
 }
 
 /** One run, or one for each recording. */
-int all(const ReplayArguments& arguments)
+ExitStatus all(const ReplayArguments& arguments)
 {
   std::vector<BatchRun> runs = runsOf(arguments);
+  ExitStatus worst = ExitStatus::Ok;
   for (std::size_t i = 0; i < runs.size(); ++i)
   {
     runs[i].status = logged(runs[i]);
-    if (runs[i].status == static_cast<int>(ExitStatus::Interrupted)) runs.resize(i + 1);
+    worst = graver(worst, runs[i].status);
+    if (worst == ExitStatus::Interrupted) runs.resize(i + 1);
   }
   if (runs.front().arguments.batch && !arguments.quiet) std::cout << batchTable(runs);
-  return worstStatus(runs);
+  return worst;
 }
 }  // namespace
 
@@ -122,7 +119,7 @@ try
 {
   const auto parsed = parseCommandLine(argc, argv);
   if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  return all(std::get<ReplayArguments>(parsed));
+  return static_cast<int>(all(std::get<ReplayArguments>(parsed)));
 }
 catch (const std::bad_alloc&)
 {

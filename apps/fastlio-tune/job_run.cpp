@@ -7,6 +7,7 @@
 #include <fastlio/evaluation/evaluate.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/run/run_summary.h>
 #include <fastlio/tuning/run_measures.h>
 
 #include <chrono>
@@ -101,11 +102,19 @@ std::vector<std::string> wordsOf(const Job& job, const fs::path& folder)
 /** The state that an exit status of fastlio-replay stands for. */
 RunState stateOf(int status)
 {
-  if (status == 0) return RunState::Complete;
-  if (status == 3) return RunState::Truncated;
-  if (status == 4) return RunState::Lost;
-  if (status == 6) return RunState::Degraded;
-  return RunState::Failed;
+  switch (static_cast<ExitStatus>(status))
+  {
+    case ExitStatus::Ok:
+      return RunState::Complete;
+    case ExitStatus::InputBroken:
+      return RunState::Truncated;
+    case ExitStatus::OdometryFailed:
+      return RunState::Lost;
+    case ExitStatus::Degraded:
+      return RunState::Degraded;
+    default:
+      return RunState::Failed;
+  }
 }
 
 /** Adds the errors against the truth. */

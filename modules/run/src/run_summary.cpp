@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 
 namespace fastlio
@@ -16,6 +17,30 @@ constexpr std::array<std::string_view, 7> kNoLoss = {
     "imu_samples",          "scans",         "points",
     "other_sensors",        "scans_skipped", "scans_with_synthetic_point_times",
     "points_without_return"};  // a beam into the sky has none
+
+struct StatusRow
+{
+  ExitStatus status;
+  const char *name, *words;
+};
+
+/** From the gravest to the least. */
+constexpr std::array<StatusRow, 9> kStatuses = {
+    {{ExitStatus::Interrupted, "interrupted", "interrupted"},
+     {ExitStatus::OutputFailed, "output_failed", "outputs incomplete"},
+     {ExitStatus::Usage, "usage", "not run: usage"},
+     {ExitStatus::InputUnusable, "input_unusable", "input unusable"},
+     {ExitStatus::InputBroken, "input_broken", "input damaged"},
+     {ExitStatus::OdometryFailed, "odometry_failed", "diverged"},
+     {ExitStatus::Degraded, "degraded", "degraded"},
+     {ExitStatus::Ok, "ok", "ok"},
+     {static_cast<ExitStatus>(-1), "unknown", "unknown"}}};
+
+const StatusRow* rowOf(ExitStatus status)
+{
+  const auto is_it = [status](const StatusRow& row) { return row.status == status; };
+  return std::find_if(kStatuses.begin(), std::prev(kStatuses.end()), is_it);
+}
 }  // namespace
 
 bool isLost(const RunStatistics& statistics)
@@ -35,26 +60,17 @@ ExitStatus exitStatusOf(const RunSummary& summary)
 
 const char* toString(ExitStatus status)
 {
-  switch (status)
-  {
-    case ExitStatus::Ok:
-      return "ok";
-    case ExitStatus::Usage:
-      return "usage";
-    case ExitStatus::InputUnusable:
-      return "input_unusable";
-    case ExitStatus::InputBroken:
-      return "input_broken";
-    case ExitStatus::OdometryFailed:
-      return "odometry_failed";
-    case ExitStatus::OutputFailed:
-      return "output_failed";
-    case ExitStatus::Degraded:
-      return "degraded";
-    case ExitStatus::Interrupted:
-      return "interrupted";
-  }
-  return "unknown";
+  return rowOf(status)->name;
+}
+
+const char* wordsOf(ExitStatus status)
+{
+  return rowOf(status)->words;
+}
+
+ExitStatus graver(ExitStatus a, ExitStatus b)
+{
+  return std::min(rowOf(a), rowOf(b))->status;
 }
 
 std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)

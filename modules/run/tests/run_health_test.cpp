@@ -28,6 +28,11 @@ TEST(ExitStatus, IsThatOfTheGravestTrouble)
   EXPECT_EQ(exitStatusOf(run), ExitStatus::OutputFailed);
   run.interrupted = true;
   EXPECT_EQ(exitStatusOf(run), ExitStatus::Interrupted);
+  EXPECT_EQ(graver(ExitStatus::Degraded, ExitStatus::InputBroken), ExitStatus::InputBroken);
+  EXPECT_EQ(graver(ExitStatus::Usage, ExitStatus::OutputFailed), ExitStatus::OutputFailed);
+  EXPECT_EQ(graver(ExitStatus::Ok, ExitStatus::Ok), ExitStatus::Ok);
+  EXPECT_STREQ(wordsOf(ExitStatus::InputBroken), "input damaged");
+  EXPECT_STREQ(toString(static_cast<ExitStatus>(7)), "unknown");
   EXPECT_EQ(static_cast<int>(ExitStatus::Interrupted), 130);
 }
 

@@ -81,6 +81,13 @@ enum class ExitStatus : int
 /** "ok", "input_broken", ... */
 [[nodiscard]] const char* toString(ExitStatus status);
 
+/** In a word or two, for a table of runs: "ok", "input damaged", ... */
+[[nodiscard]] const char* wordsOf(ExitStatus status);
+
+/** Of several runs, from the gravest: interrupted, output failed, usage, input unusable, input
+ * broken, odometry failed, degraded, ok. \return the one that comes first */
+[[nodiscard]] ExitStatus graver(ExitStatus a, ExitStatus b);
+
 /** Seconds of recording per second of wall clock; 0 when nothing was processed. */
 [[nodiscard]] double realTimeFactor(const RunSummary& summary);
 
