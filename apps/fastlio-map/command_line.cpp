@@ -3,13 +3,14 @@
 
 #include "command_line.h"
 
+#include "../shared/common_options.h"
 #include "../shared/parsing.h"
+#include "map_outputs.h"
+#include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/run/run_summary.h>
 
 #include <CLI/CLI.hpp>
 #include <mrpt/system/os.h>
-
-#include <algorithm>
 
 namespace fastlio
 {
@@ -38,13 +39,9 @@ constexpr const char* kExits =
 
 std::string fileHelp()
 {
-  constexpr std::size_t kNameWidth = 12, kFileWidth = 21;
-  const auto padded = [](const std::string& text, std::size_t width)
-  { return text + std::string(width - std::min(width, text.size()), ' '); };
   std::string text = "Files (--export):\n";
   for (const MapFileKind& kind : mapFileKinds())
-    text += "  " + padded(kind.name, kNameWidth) + padded(kind.file, kFileWidth) + kind.content +
-            (kind.standard ? "" : " *") + "\n";
+    text += fileHelpLine(kind.name, kind.file, kind.content, kind.standard);
   return text +
          "\nThose with * are written when they are named. With several runs, the files of each one "
          "have\n"
@@ -66,16 +63,8 @@ void addOptions(CLI::App& app, MapArguments& arguments)
          "Recordings, or folders that fastlio-replay has written (their recording and parameters); "
          "of several, all show the same place")
       ->type_name("RUN");
-  auto* join = app.add_flag(
-      "--join", arguments.join, "The recordings are parts of one, in this order: a single run");
-  app.add_flag(
-         "--no-join", arguments.no_join,
-         "Each recording is a run of its own, also one that continues another")
-      ->excludes(join);
-  app.add_option("-c,--config", arguments.config_file, "Parameters (YAML)")->type_name("FILE.yaml");
-  app.add_option("--set", arguments.settings, "Set a parameter over the file; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  addJoinOptions(app, arguments.joining);
+  addParameterOptions(app, arguments.parameters, "Parameters (YAML)");
   app.add_option(
          "-o,--output-dir", arguments.output_directory,
          "Folder for all files; default: a new one, named after the first run")
@@ -118,28 +107,6 @@ void addOptions(CLI::App& app, MapArguments& arguments)
   addVersion(app, MRPT_FASTLIO_VERSION, mrpt::system::MRPT_getVersion());
 }
 }  // namespace
-
-const std::vector<MapFileKind>& mapFileKinds()
-{
-  static const std::vector<MapFileKind> kinds = {
-      {"trajectory", "trajectory.tum", "corrected pose at each scan's end (TUM)", true},
-      {"states", "states.csv", "the whole state and its standard deviations", true},
-      {"covariance", "covariance.csv", "corrected pose and its 6x6 covariance", true},
-      {"ply", "map.ply", "map: points with intensity and time (PLY)", true},
-      {"pcd", "map.pcd", "the same as PCD", false},
-      {"text", "map.txt", "the same as text", false},
-      {"las", "map.las", "the same as LAS 1.4, in projected coordinates where the place is known",
-       false},
-      {"metricmap", "map.metricmap", "map for MRPT programs", false},
-      {"planes", "map.planes", "map of planes, for fastlio-replay --map-in", true},
-      {"simplemap", "keyframes.simplemap", "keyframes with their raw scans, of one run", false},
-      {"graph", "poses.graph", "pose graph with the closures, for MRPT", true},
-      {"g2o", "poses.g2o", "the same for g2o", true},
-      {"report", "report.html", "page that shows what was closed, and what was not", true},
-      {"summary", "summary.json", "submaps, closures with their evidence, files", true},
-  };
-  return kinds;
-}
 
 std::variant<MapArguments, int> parseCommandLine(int argc, const char* const* argv)
 {

@@ -4,6 +4,9 @@
 /** \file command_line.h The arguments of fastlio-map. */
 #pragma once
 
+#include "../shared/given_parameters.h"
+#include <fastlio/survey/recording_parts.h>
+
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,11 +16,9 @@ namespace fastlio
 /** The command line as given. */
 struct MapArguments
 {
-  std::vector<std::string> runs;       //!< recordings, or folders of runs
-  bool join = false;                   //!< the recordings are parts of one
-  bool no_join = false;                //!< none of them is a part of another
-  std::string config_file;             //!< empty: defaults
-  std::vector<std::string> settings;   //!< KEY=VALUE, over the file
+  std::vector<std::string> runs;  //!< recordings, or folders of runs
+  Joining joining = Joining::ByStamps;
+  ParameterOptions parameters;
   std::string output_directory;        //!< empty: one named after the first run
   std::vector<std::string> exporters;  //!< names of files; empty: the standard ones
   std::string frame = "vehicle";       //!< or "imu"
@@ -30,18 +31,6 @@ struct MapArguments
   bool overwrite = false;
   bool quiet = false;
 };
-
-/** A file that fastlio-map can write. */
-struct MapFileKind
-{
-  const char* name;     //!< for --export
-  const char* file;     //!< NAME stands for the session where there are several
-  const char* content;  //!< for people
-  bool standard;
-};
-
-/** All of them. */
-[[nodiscard]] const std::vector<MapFileKind>& mapFileKinds();
 
 /** The arguments, or the exit status to end with. */
 [[nodiscard]] std::variant<MapArguments, int> parseCommandLine(int argc, const char* const* argv);

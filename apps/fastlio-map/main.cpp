@@ -6,6 +6,7 @@
 #include "../shared/failure.h"
 #include "../shared/interruption.h"
 #include "../shared/run_names.h"
+#include "../shared/terminal_line.h"
 #include "command_line.h"
 #include "map_account.h"
 #include "map_outputs.h"
@@ -21,7 +22,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <unistd.h>
 
 namespace
 {
@@ -39,9 +39,8 @@ RunFolderPlan folderPlan(
   std::vector<FileUse> used, made;
   for (const std::string& input : inputs)
     used.push_back({input, "recording"});
-  if (!arguments.config_file.empty()) used.push_back({arguments.config_file, "--config"});
-  if (!arguments.control_points.empty())
-    used.push_back({arguments.control_points, "--control-points"});
+  used.push_back({arguments.parameters.config_file, "--config"});
+  used.push_back({arguments.control_points, "--control-points"});
   for (const std::string& name : files.names())
     made.push_back(
         {(std::filesystem::path(arguments.output_directory) / name).string(), "--output-dir"});
@@ -52,19 +51,11 @@ RunFolderPlan folderPlan(
   return plan;
 }
 
-/** A line that is overwritten, on terminals only. */
-PassHooks hooksOf(bool quiet)
+PassHooks hooksOf(TerminalLine& line)
 {
   PassHooks hooks;
   hooks.interrupted = [] { return interrupted(); };
-  if (quiet || isatty(STDERR_FILENO) == 0) return hooks;
-  hooks.progress = [last = -1](const std::string& what, double share) mutable
-  {
-    const int percent = static_cast<int>(100.0 * share);
-    if (percent == last) return;
-    last = percent;
-    std::cerr << "\r\033[K" << what << ": " << percent << " %" << std::flush;
-  };
+  hooks.progress = [&line](const std::string& what, double share) { line.showShare(what, share); };
   return hooks;
 }
 
@@ -182,7 +173,8 @@ ExitStatus run(const MapArguments& arguments)
   auto place = checked([&] { return georeference({}, arguments.control_points, arguments.crs); });
   const auto folder = claimedFolder(plan);
   catchInterruptions();
-  const PassHooks hooks = hooksOf(arguments.quiet);
+  TerminalLine line(!arguments.quiet);
+  const PassHooks hooks = hooksOf(line);
   const auto workers = std::make_shared<const Workers>(arguments.threads);
   const auto store =
       std::make_shared<SubmapStore>(submapStoreOptions(arguments, sessions.front().config()));
@@ -202,8 +194,9 @@ ExitStatus run(const MapArguments& arguments)
   for (std::size_t i = 0; i < sessions.size(); ++i)
     if (isInMap(map, i))
       endIfInterrupted(!outputs->add(sessions[i], i, map.result, moving.get(), hooks));
-  outputs->finish(map.result, MapOutputs::frameOf(sessions.front(), arguments.frame), place);
-  if (hooks.progress) std::cerr << "\r\033[K";
+  outputs->finish(
+      map.result, outputFrameOf(arguments.frame, sessions.front().plan().T_vehicle_imu), place);
+  line.clear();
   MapAccount account = accountOf(arguments, recordings, sessions, map, *outputs, *store);
   account.place = place;
   const std::string on_earth =

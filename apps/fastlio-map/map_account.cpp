@@ -41,7 +41,7 @@ MapAccount accountOf(
   return {
       MRPT_FASTLIO_VERSION,
       recordings,
-      arguments.config_file.empty() ? "defaults" : arguments.config_file,
+      arguments.parameters.config_file.empty() ? "defaults" : arguments.parameters.config_file,
       map,
       std::nullopt,
       std::move(agreeing),

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 
 namespace fastlio
@@ -17,18 +16,6 @@ namespace fastlio
 namespace
 {
 namespace fs = std::filesystem;
-
-constexpr double kPerMillion = 1e6;
-
-OutputMapOptions mapOptions(const MapArguments& arguments, const Config& config)
-{
-  OutputMapOptions options;
-  options.spacing = config.odometry.map.output_spacing;
-  options.tile_size = config.exporters.tile_size;
-  options.points_in_memory = static_cast<std::size_t>(config.exporters.map_memory * kPerMillion);
-  options.directory = arguments.output_directory;
-  return options;
-}
 
 ExportTarget targetOf(const MapFiles& files, const Session& session, const OutputFrame& frame)
 {
@@ -39,6 +26,11 @@ ExportTarget targetOf(const MapFiles& files, const Session& session, const Outpu
   target.recording = {session.files(), session.selection(), session.plan().bridge};
   target.time_offset = session.config().odometry.lidar.time_offset;
   return target;
+}
+
+bool isOfSession(const MapFileKind& kind)
+{
+  return kind.of == MapFileKind::Of::Session;
 }
 
 /** A motion between poses of the IMU as that between poses of a body on it. */
@@ -79,10 +71,32 @@ GraphContent graphOf(const MappingResult& result, const Pose& T_imu_body)
 }
 }  // namespace
 
-bool isOfSession(const std::string& kind)
+const std::vector<MapFileKind>& mapFileKinds()
 {
-  static const std::set<std::string> kinds = {"trajectory", "states", "covariance", "simplemap"};
-  return kinds.count(kind) > 0;
+  using Of = MapFileKind::Of;
+  static const std::vector<MapFileKind> kinds = {
+      {"trajectory", "trajectory.tum", "corrected pose at each scan's end (TUM)", true,
+       Of::Session},
+      {"states", "states.csv", "the whole state and its standard deviations", true, Of::Session},
+      {"covariance", "covariance.csv", "corrected pose and its 6x6 covariance", true, Of::Session},
+      {"ply", "map.ply", "map: points with intensity and time (PLY)", true, Of::Map,
+       makePlyMapExporter},
+      {"pcd", "map.pcd", "the same as PCD", false, Of::Map, makePcdMapExporter},
+      {"text", "map.txt", "the same as text", false, Of::Map, makeTextMapExporter},
+      {"las", "map.las", "the same as LAS 1.4, in projected coordinates where the place is known",
+       false, Of::Map},
+      {"metricmap", "map.metricmap", "map for MRPT programs", false, Of::Map,
+       makeMetricMapExporter},
+      {"planes", "map.planes", "map of planes, for fastlio-replay --map-in", true, Of::Result,
+       makePlanesExporter},
+      {"simplemap", "keyframes.simplemap", "keyframes with their raw scans, of one run", false,
+       Of::Session},
+      {"graph", "poses.graph", "pose graph with the closures, for MRPT", true, Of::Result},
+      {"g2o", "poses.g2o", "the same for g2o", true, Of::Result},
+      {"report", "report.html", "page that shows what was closed, and what was not", true, Of::Map},
+      {"summary", "summary.json", "submaps, closures with their evidence, files", true, Of::Result},
+  };
+  return kinds;
 }
 
 bool isMapFileName(const std::string& name)
@@ -93,7 +107,7 @@ bool isMapFileName(const std::string& name)
     if (name == kind.file) return true;
     // One of several sessions: "trajectory.walk.tum".
     const std::string start = file.stem().string() + ".";
-    return isOfSession(kind.name) && seen.extension() == file.extension() &&
+    return isOfSession(kind) && seen.extension() == file.extension() &&
            seen.stem().string().size() > start.size() && name.rfind(start, 0) == 0;
   };
   return std::any_of(mapFileKinds().begin(), mapFileKinds().end(), is_of);
@@ -120,14 +134,14 @@ bool MapFiles::wants(const std::string& kind) const
 
 bool MapFiles::wantsMap() const
 {
-  const std::vector<std::string> kinds = {"ply", "pcd", "text", "las", "metricmap", "report"};
   return std::any_of(
-      kinds.begin(), kinds.end(), [this](const std::string& kind) { return wants(kind); });
+      kinds_.begin(), kinds_.end(),
+      [](const MapFileKind& kind) { return kind.of == MapFileKind::Of::Map; });
 }
 
 std::string MapFiles::nameOf(const MapFileKind& kind, std::size_t session) const
 {
-  if (!isOfSession(kind.name) || sessions_.size() < 2) return kind.file;
+  if (!isOfSession(kind) || sessions_.size() < 2) return kind.file;
   const std::string file = kind.file;
   const std::size_t dot = file.rfind('.');
   return file.substr(0, dot) + "." + sessions_.at(session) + file.substr(dot);
@@ -145,14 +159,14 @@ std::vector<std::string> MapFiles::names() const
 {
   std::vector<std::string> names;
   for (const MapFileKind& kind : kinds_)
-    for (std::size_t session = 0; session < (isOfSession(kind.name) ? sessions_.size() : 1);
-         ++session)
+    for (std::size_t session = 0; session < (isOfSession(kind) ? sessions_.size() : 1); ++session)
       names.push_back(nameOf(kind, session));
   return names;
 }
 
 SubmapStoreOptions submapStoreOptions(const MapArguments& arguments, const Config& config)
 {
+  constexpr double kPerMillion = 1e6;
   return {
       static_cast<std::size_t>(config.exporters.submap_memory * kPerMillion),
       arguments.output_directory};
@@ -160,17 +174,14 @@ SubmapStoreOptions submapStoreOptions(const MapArguments& arguments, const Confi
 
 MapOutputs::MapOutputs(
     const MapArguments& arguments, const MapFiles& files, const std::vector<Session>& sessions)
-    : plan_(files), frame_(arguments.frame), map_(mapOptions(arguments, sessions.front().config()))
+    : plan_(files),
+      frame_(arguments.frame),
+      map_(outputMapOptions(
+          sessions.front().config().exporters,
+          sessions.front().config().odometry.map.output_spacing, arguments.output_directory))
 {
-  const auto add = [&](const char* kind, std::unique_ptr<Exporter> (*make)(const std::string&))
-  {
-    if (files.wants(kind)) of_map_.add(make(files.path(kind)), files.path(kind));
-  };
-  add("ply", makePlyMapExporter);
-  add("pcd", makePcdMapExporter);
-  add("text", makeTextMapExporter);
-  add("metricmap", makeMetricMapExporter);
-  add("planes", makePlanesExporter);
+  for (const MapFileKind& kind : files.wanted())
+    if (kind.make != nullptr) of_map_.add(kind.make(files.path(kind.name)), files.path(kind.name));
   if (files.wants("planes"))
   {
     VoxelPlaneOptions options;
@@ -179,17 +190,12 @@ MapOutputs::MapOutputs(
   }
 }
 
-OutputFrame MapOutputs::frameOf(const Session& session, const std::string& frame)
-{
-  return {frame, frame == "imu" ? Pose{} : session.plan().T_vehicle_imu.inverse()};
-}
-
 bool MapOutputs::add(
     const Session& session, std::size_t number, const MappingResult& result, MovingObjects* moving,
     const PassHooks& hooks)
 {
   ExporterSet& of_session = of_sessions_.emplace_back();
-  const OutputFrame frame = frameOf(session, frame_);
+  const OutputFrame frame = outputFrameOf(frame_, session.plan().T_vehicle_imu);
   const auto path = [&](const char* kind) { return plan_.path(kind, number); };
   if (plan_.wants("trajectory"))
     of_session.add(makeTumExporter(path("trajectory"), frame), path("trajectory"));

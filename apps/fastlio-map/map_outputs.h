@@ -22,6 +22,26 @@
 
 namespace fastlio
 {
+/** A file that fastlio-map can write. */
+struct MapFileKind
+{
+  const char* name;     //!< for --export
+  const char* file;     //!< of several sessions, each one's has its name: "trajectory.walk.tum"
+  const char* content;  //!< for people
+  bool standard;
+  enum class Of
+  {
+    Session,  //!< there is one for each
+    Map,      //!< of the points of the map
+    Result    //!< of the poses, or of everything
+  } of;
+  /** Nothing: no exporter writes it. */
+  std::unique_ptr<Exporter> (*make)(const std::string& path) = nullptr;
+};
+
+/** All of them. */
+[[nodiscard]] const std::vector<MapFileKind>& mapFileKinds();
+
 /** Which files a command line asks for. */
 class MapFiles
 {
@@ -30,6 +50,7 @@ class MapFiles
 
   [[nodiscard]] bool wants(const std::string& kind) const;
   [[nodiscard]] bool wantsMap() const;
+  [[nodiscard]] const std::vector<MapFileKind>& wanted() const { return kinds_; }
   /** Path of a file of the whole map, or of a session. */
   [[nodiscard]] std::string path(const std::string& kind, std::size_t session = 0) const;
   /** Names of all files, without the folder. */
@@ -40,11 +61,8 @@ class MapFiles
 
   std::string directory_;
   std::vector<std::string> sessions_;
-  std::vector<MapFileKind> kinds_;  //!< wanted
+  std::vector<MapFileKind> kinds_;
 };
-
-/** Whether there is one file of a kind for each session. */
-[[nodiscard]] bool isOfSession(const std::string& kind);
 
 /** Whether a run of the program, of whatever sessions, writes a file of this name. */
 [[nodiscard]] bool isMapFileName(const std::string& name);
@@ -60,9 +78,6 @@ class MapOutputs
   /** Opens the files. \exception std::runtime_error one cannot be opened */
   MapOutputs(
       const MapArguments& arguments, const MapFiles& files, const std::vector<Session>& sessions);
-
-  /** The body of a session whose poses are written. */
-  [[nodiscard]] static OutputFrame frameOf(const Session& session, const std::string& frame);
 
   /** Puts the scans of one session in their places. \param moving what is left out of the map;
    * null: nothing \return false: interrupted */

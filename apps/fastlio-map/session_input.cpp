@@ -8,7 +8,6 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/rawlog/recording_formats.h>
-#include <fastlio/survey/recording_parts.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -92,10 +91,7 @@ std::vector<RecordingParts> recordingsOf(const MapArguments& arguments)
       [](const std::string& run) { return !isRunFolder(run); });
   if (files.empty()) return {};
   requireGivenOnce(files);
-  const Joining joining = arguments.join      ? Joining::Always
-                          : arguments.no_join ? Joining::Never
-                                              : Joining::ByStamps;
-  return partsOf(files, joining);
+  return partsOf(files, arguments.joining);
 }
 
 void makeNamesUnique(std::vector<RunInput>& inputs)
@@ -144,15 +140,10 @@ std::vector<Session> openSessions(
   std::vector<Session> sessions;
   for (const RunInput& input : inputs)
   {
-    ConfigFile given;
-    if (input.parameters) given.config = *input.parameters;
-    if (!arguments.config_file.empty()) given = readConfigFile(arguments.config_file);
-    for (const std::string& setting : arguments.settings)
-      given.lines[applySetting(setting, given.config)] = 0;
+    ConfigFile given = givenParameters(arguments.parameters, input.parameters.value_or(Config{}));
     given.config.odometry.threads = arguments.threads;
-    validate(given.config);
     // The parameters of a run hold the values of the preset already.
-    const bool all_given = input.parameters && arguments.config_file.empty();
+    const bool all_given = input.parameters && arguments.parameters.config_file.empty();
     sessions.emplace_back(
         input.name, input.files, given.config,
         [&](std::string_view key) { return all_given || given.lines.count(std::string(key)) > 0; });

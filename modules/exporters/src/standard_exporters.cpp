@@ -119,24 +119,24 @@ const std::vector<ExporterKind>& exporterKinds()
   return kinds;
 }
 
-std::string exporterHelp()
+std::string fileHelpLine(
+    std::string_view name, std::string_view file, std::string_view content, bool standard)
 {
   constexpr std::size_t kNameWidth = 12, kFileWidth = 21;
   const auto padded = [](std::string_view text, std::size_t width)
   { return std::string(text) + std::string(width - std::min(width, text.size()), ' '); };
+  return "  " + padded(name, kNameWidth) + padded(file, kFileWidth) + std::string(content) +
+         (standard ? "" : " *") + "\n";
+}
+
+std::string exporterHelp()
+{
   std::string text;
   for (const auto& kind : exporterKinds())
-    text += "  " + padded(kind.name, kNameWidth) + padded(kind.file, kFileWidth) +
-            std::string(kind.content) + (kind.standard ? "" : " *") + "\n";
+    text += fileHelpLine(kind.name, kind.file, kind.content, kind.standard);
   return text;
 }
 
-std::vector<std::string> outputFileNames(
-    const ExportTarget& options, const std::vector<ExporterKind>& kinds)
-{
-  std::vector<std::string> files;
-  for (const ExporterKind& kind : wantedKinds(options, kinds))
-    for (const std::string_view file : {kind.file, kind.second_file})
 OutputMapOptions outputMapOptions(
     const ExportOptions& parameters, double spacing, const std::string& directory)
 {
@@ -149,6 +149,12 @@ OutputMapOptions outputMapOptions(
   return options;
 }
 
+std::vector<std::string> outputFileNames(
+    const ExportTarget& options, const std::vector<ExporterKind>& kinds)
+{
+  std::vector<std::string> files;
+  for (const ExporterKind& kind : wantedKinds(options, kinds))
+    for (const std::string_view file : {kind.file, kind.second_file})
       if (!file.empty()) files.emplace_back(file);
   return files;
 }

@@ -51,19 +51,23 @@ struct ExporterKind
 [[nodiscard]] std::string referenceFor(
     const std::string& given, const std::vector<std::string>& recordings);
 
-/** Lines for --help: name, file and content of each format. */
+/** A line for --help on a file that a program can write. \param standard false: only when named */
+[[nodiscard]] std::string fileHelpLine(
+    std::string_view name, std::string_view file, std::string_view content, bool standard);
+
+/** Such a line for each of exporterKinds(). */
 [[nodiscard]] std::string exporterHelp();
 
-/** The exporters that the options name, of \a kinds (a program may add its own); without names the
- * standard ones, and imu_rate with output.imu_rate. The summary is always written, as the last.
- * \exception std::invalid_argument an unknown name (the message lists those that there are)
- * \exception std::runtime_error a file cannot be opened */
 /** The map that is collected for the exporters of a run.
  * \param spacing least distance of points (map.output_spacing) [m]
  * \param directory of the run's files */
 [[nodiscard]] OutputMapOptions outputMapOptions(
     const ExportOptions& parameters, double spacing, const std::string& directory);
 
+/** The exporters that the options name, of \a kinds (a program may add its own); without names the
+ * standard ones, and imu_rate with output.imu_rate. The summary is always written, as the last.
+ * \exception std::invalid_argument an unknown name (the message lists those that there are)
+ * \exception std::runtime_error a file cannot be opened */
 [[nodiscard]] ExporterSet makeExporters(
     const ExportTarget& options, const std::vector<ExporterKind>& kinds = exporterKinds());
 
