@@ -3,9 +3,9 @@
 
 #include "run_results.h"
 
+#include <fastlio/evaluation/run_table.h>
 #include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/map/surface_map.h>
-#include <fastlio/run/run_table.h>
 #include <fastlio/savedmaps/saved_map_file.h>
 
 #include <filesystem>

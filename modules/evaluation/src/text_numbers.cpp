@@ -21,7 +21,8 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::int64_t kMaxSeconds = 9'223'372'035;  // of an int64_t in nanoseconds
+constexpr std::size_t kMostBytes = std::size_t{2} << 30U;  // a run of a week has less
+constexpr std::int64_t kMaxSeconds = 9'223'372'035;        // of an int64_t in nanoseconds
 
 std::string quoted(std::string_view text)
 {
@@ -88,12 +89,16 @@ void failAt(const TextPlace& place, const std::string& message)
 std::vector<DataLine> readDataLines(const std::filesystem::path& file)
 {
   if (const auto problem = inputFileProblem(file.string()))
-    throw std::runtime_error(file.string() + ": " + *problem + "; give a trajectory file");
+    throw std::runtime_error(
+        file.string() + ": " + *problem + "; give a trajectory, or a table of a run");
   std::ifstream in(file, std::ios::binary);
   std::vector<DataLine> lines;
   std::string text;
+  std::size_t bytes = 0;
   for (std::size_t number = 1; readBoundedLine(in, text); ++number)
   {
+    bytes += text.size();
+    if (bytes > kMostBytes) failAt({file, number}, "there is more text than 2 GiB");
     if (text.size() == kLongestLine)
       failAt(
           {file, number},

@@ -29,7 +29,8 @@ struct DataLine
   std::string text;        //!< without the line's end
 };
 
-/** All lines with data; throws std::runtime_error when the file cannot be read or has none. */
+/** All lines with data; throws std::runtime_error when the file cannot be read, has none, or more
+ * than 2 GiB. */
 [[nodiscard]] std::vector<DataLine> readDataLines(const std::filesystem::path& file);
 
 /** A finite number. */

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "one_file_exporter.h"
+#include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/exporters/standard_exporters.h>
+#include <fastlio/options/split_text.h>
 
 namespace fastlio
 {
@@ -16,8 +18,8 @@ std::string covarianceHeader(const std::string& frame)
          frame +
          " frame [rad] (R_true = R Exp(error)),\n"
          "# position error in the world frame [m]; upper triangle, row by row.\n"
-         "stamp_ns,x,y,z,qx,qy,qz,qw" +
-         covarianceNames() + "\n";
+         "stamp_ns,x,y,z,qx,qy,qz,qw," +
+         joined(covarianceColumns(), ",") + "\n";
 }
 }  // namespace
 

@@ -18,8 +18,8 @@ std::string imuRateHeader(const std::string& frame)
          " frame in the world at each inertial sample, predicted from the latest scan before it,\n"
          "# and the covariance of the pose as in covariance.csv. Velocity in the world frame "
          "[m/s].\n"
-         "stamp_ns,x,y,z,qx,qy,qz,qw,vx,vy,vz" +
-         covarianceNames() + "\n";
+         "stamp_ns,x,y,z,qx,qy,qz,qw,vx,vy,vz," +
+         joined(covarianceColumns(), ",") + "\n";
 }
 
 /** Velocity of the body's origin, in the world: v + R (w x p_imu_body). */

@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <array>
-
 namespace fastlio
 {
 bool hasPose(ScanStatus status)
@@ -15,11 +13,11 @@ bool hasPose(ScanStatus status)
   return status == ScanStatus::FirstScan || status == ScanStatus::Tracking ||
          status == ScanStatus::PredictionOnly;
 }
+
 OutputFrame outputFrameOf(const std::string& name, const Pose& T_vehicle_imu)
 {
   return {name, name == "imu" ? Pose{} : T_vehicle_imu.inverse()};
 }
-
 
 PoseEstimate poseEstimateOf(const FilterState& filter, const Pose& T_imu_body)
 {
@@ -33,16 +31,6 @@ PoseEstimate poseEstimateOf(
   J.topLeftCorner<3, 3>() = T_imu_body.R.transpose();
   J.bottomLeftCorner<3, 3>() = -T_world_imu.R * skew(T_imu_body.p);
   return {T_world_imu * T_imu_body, J * imu_covariance * J.transpose()};
-}
-
-std::string covarianceNames()
-{
-  constexpr std::array kAxes = {"rx", "ry", "rz", "px", "py", "pz"};
-  std::string names;
-  for (std::size_t row = 0; row < kAxes.size(); ++row)
-    for (std::size_t col = row; col < kAxes.size(); ++col)
-      names += std::string(",c_") + kAxes[row] + "_" + kAxes[col];
-  return names;
 }
 
 std::string covarianceText(const Matrix6& covariance)

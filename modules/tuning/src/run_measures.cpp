@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/evaluation/run_table.h>
 #include <fastlio/math/time.h>
-#include <fastlio/run/run_table.h>
 #include <fastlio/tuning/run_measures.h>
 
 #include <algorithm>

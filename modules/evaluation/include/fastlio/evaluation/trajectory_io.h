@@ -37,6 +37,9 @@ struct KittiTiming
  */
 [[nodiscard]] Trajectory readCovarianceCsv(const std::filesystem::path& file);
 
+/** The names of these columns, in their order. */
+[[nodiscard]] std::vector<std::string> covarianceColumns();
+
 /** Any of the above, recognised by the first line with data. */
 [[nodiscard]] Trajectory readTrajectory(
     const std::filesystem::path& file, const KittiTiming& timing = {});

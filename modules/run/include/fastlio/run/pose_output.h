@@ -40,10 +40,8 @@ struct PoseEstimate
 [[nodiscard]] PoseEstimate poseEstimateOf(
     const Pose& T_world_imu, const Matrix6& imu_covariance, const Pose& T_imu_body);
 
-/** ",c_rx_rx,...,c_pz_pz": names of the upper triangle of a pose covariance, row by row. */
-[[nodiscard]] std::string covarianceNames();
-
-/** ",v,...": the values in that order, in the shortest text that reads back. */
+/** ",v,...": the upper triangle row by row (covarianceColumns() names it), in the shortest text
+ * that reads back. */
 [[nodiscard]] std::string covarianceText(const Matrix6& covariance);
 
 /** "x,y,z,qx,qy,qz,qw" with the given separator: position with 6 decimals [m], unit quaternion with

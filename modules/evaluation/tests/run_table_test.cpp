@@ -1,11 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "test_files.h"
-#include <fastlio/run/run_table.h>
+#include "temporary_folder.h"
+#include <fastlio/evaluation/run_table.h>
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -19,7 +20,7 @@ class RunTableTest : public ::testing::Test
  protected:
   RunTable tableOf(const std::string& text)
   {
-    testing::write(folder_.file("timing.csv"), text);
+    std::ofstream(folder_.file("timing.csv"), std::ios::binary) << text;
     return RunTable(folder_.file("timing.csv"));
   }
 
@@ -67,14 +68,14 @@ TEST_F(RunTableTest, ErrorsNameFileAndLine)
         errorOf([&] { (void)tableOf("a,b\n\n\n\n1,2,3\n"); }),
         errorOf([&] { (void)tableOf("a,b\n\n\n\n1\n"); })})
   {
-    contains(error, "timing.csv'");
-    contains(error, "line 5:");
+    contains(error, "timing.csv:5:");
   }
-  contains(errorOf([&] { (void)table.text(0, "z"); }), "has no column 'z'");
-  contains(errorOf([&] { (void)tableOf("# nothing\n"); }), "is no table");
+  contains(
+      errorOf([&] { (void)table.text(0, "z"); }),
+      "timing.csv:2: the header line lacks the columns z");
+  contains(errorOf([&] { (void)tableOf("# nothing\n"); }), "holds no data");
   contains(errorOf([&] { (void)RunTable(folder_.file("none.csv")); }), "none.csv");
-  // A line without an end is cut, so that it is no row.
-  contains(errorOf([&] { (void)tableOf("a,b\n" + std::string(20000, '1')); }), "line 2:");
+  contains(errorOf([&] { (void)tableOf("a,b\n" + std::string(20000, '1')); }), "timing.csv:2:");
 }
 
 }  // namespace

@@ -4,11 +4,12 @@
 /** \file run_table.h The CSV files of a run. */
 #pragma once
 
-#include <fastlio/math/so3.h>
+#include <fastlio/math/pose.h>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,18 +21,20 @@ namespace fastlio
 class RunTable
 {
  public:
-  /** A larger file is refused: a run of a week has less. */
-  static constexpr std::size_t kMostBytes = std::size_t{2} << 30U;
-
-  /** \exception std::runtime_error it cannot be read, has no columns, a row has other columns than
-   * the first line, or there are more bytes than kMostBytes */
-  explicit RunTable(const std::string& path);
+  /** \exception std::runtime_error it cannot be read, has no columns, or a row has other columns
+   * than the first line */
+  explicit RunTable(std::filesystem::path file);
 
   /** Number of rows. */
   [[nodiscard]] std::size_t size() const { return lines_.size(); }
   [[nodiscard]] bool has(std::string_view name) const;
+  /** The places of columns in each row. \exception std::runtime_error some are not there; names all
+   * of these */
+  [[nodiscard]] std::vector<std::size_t> columns(const std::vector<std::string>& names) const;
 
-  /** Valid as long as the table. \exception std::runtime_error there is no such column */
+  /** Valid as long as the table. \param column its place in the row */
+  [[nodiscard]] std::string_view text(std::size_t row, std::size_t column) const;
+  /** \exception std::runtime_error there is no such column */
   [[nodiscard]] std::string_view text(std::size_t row, std::string_view name) const;
   /** \exception std::runtime_error there is no such column, or the text is no number */
   [[nodiscard]] double number(std::size_t row, std::string_view name) const;
@@ -40,13 +43,16 @@ class RunTable
   /** \exception std::runtime_error as number() */
   [[nodiscard]] Vec3 vector(std::size_t row, const std::array<std::string_view, 3>& names) const;
 
- private:
-  void add(std::string_view line, std::size_t number);
-  [[nodiscard]] std::size_t column(std::string_view name) const;
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+  /** Where a row, and the names of the columns, stand in the file, from 1. */
+  [[nodiscard]] std::size_t line(std::size_t row) const { return lines_.at(row); }
+  [[nodiscard]] std::size_t headerLine() const { return header_line_; }
 
-  std::string path_;
+ private:
+  void add(std::string_view text, std::size_t line);
+
+  std::filesystem::path file_;
   std::vector<std::string> names_;
+  std::size_t header_line_ = 0;
   std::string cells_;               // of all rows, one behind the other
   std::vector<std::size_t> ends_;   // of the cells
   std::vector<std::size_t> lines_;  // by row: its line in the file
