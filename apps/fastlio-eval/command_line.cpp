@@ -136,23 +136,15 @@ std::string limitNumber(const std::string& text)
                                    : "a limit must be a number, 0 or above, saw '" + text + "'";
 }
 
-void addGateOptions(CLI::App& app, GateLimits& g)
+void addGateOptions(CLI::App& app, GateLimits& limits)
 {
-  const auto add = [&](const char* name, std::optional<double>& limit, const char* text)
-  { app.add_option(name, limit, text)->check(limitNumber)->group("Limits"); };
-  add("--max-ape", g.max_ape, "APE translation RMSE [m]");
-  add("--max-ape-rotation", g.max_ape_rotation, "APE rotation RMSE [deg]");
-  add("--max-rpe", g.max_rpe, "RPE translation RMSE per second [m/s]");
-  add("--max-rpe-rotation", g.max_rpe_rotation, "RPE rotation RMSE per second [deg/s]");
-  add("--max-segment-percent", g.max_segment_percent, "Mean segment translation error [%]");
-  add("--max-drift", g.max_drift, "End-to-end drift [m]");
-  add("--max-drift-percent", g.max_drift_percent, "End-to-end drift [% of the path]");
-  add("--max-nees", g.max_nees, "Mean NEES of the pose (expected: 6)");
-  add("--max-nees-position", g.max_nees_position, "Mean NEES of the position (expected: 3)");
-  add("--max-nees-rotation", g.max_nees_rotation, "Mean NEES of the rotation (expected: 3)");
-  add("--min-coverage", g.min_coverage_percent, "Fraction of the reference's time span [%]");
+  for (const GateKind& kind : gateKinds())
+    app.add_option_function<double>(
+           std::string("--") + kind.name,
+           [&limits, name = kind.name](double limit) { limits[name] = limit; }, kind.text)
+        ->check(limitNumber)
+        ->group("Limits");
 }
-
 }  // namespace
 
 void addOptions(CLI::App& app, EvalCommand& command)

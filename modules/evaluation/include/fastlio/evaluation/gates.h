@@ -6,23 +6,30 @@
 
 #include <fastlio/evaluation/evaluate.h>
 
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace fastlio
 {
-/** Units as users write them. Absent: not checked. */
-struct GateLimits
+/** What a limit may be set on. */
+struct GateKind
 {
-  std::optional<double> max_ape;               //!< APE translation RMSE [m]
-  std::optional<double> max_ape_rotation;      //!< APE rotation RMSE [deg]
-  std::optional<double> max_rpe;               //!< RPE translation RMSE [m/s]
-  std::optional<double> max_rpe_rotation;      //!< RPE rotation RMSE [deg/s]
-  std::optional<double> max_segment_percent;   //!< mean segment error [%]
-  std::optional<double> max_drift;             //!< end-to-end drift [m]
-  std::optional<double> max_drift_percent;     //!< end-to-end drift [% of the path]
-  std::optional<double> max_nees;              //!< mean NEES of the pose (6 when consistent)
-  std::optional<double> max_nees_position;     //!< mean NEES of the position (3 when consistent)
-  std::optional<double> max_nees_rotation;     //!< mean NEES of the rotation (3 when consistent)
-  std::optional<double> min_coverage_percent;  //!< fraction of the reference's time span [%]
+  const char* name;  //!< as the option of the program, without dashes in front: "max-ape"
+  const char* unit;
+  const char* text;     //!< for people
+  const char* missing;  //!< why a report may lack the measure, and what to do
+  /** In the unit; nothing where the report does not have it. */
+  std::optional<double> (*measure)(const EvaluationReport& report);
+  bool is_least = false;  //!< the limit is the least value that passes, not the largest one
 };
+
+/** All of them. */
+[[nodiscard]] const std::vector<GateKind>& gateKinds();
+
+/** Limits by the names of gateKinds(), in their units. */
+using GateLimits = std::map<std::string, double>;
 
 /** One limit and what was measured. */
 struct GateResult
@@ -34,9 +41,9 @@ struct GateResult
   bool passed = false;
 };
 
-/** The limits that are set, in the order above. A measure that is not a number fails.
- * \exception std::invalid_argument a limit is set on something that the report does not have; the
- * message says what is missing */
+/** The limits that are set, in the order of gateKinds(). A measure that is not a number fails.
+ * \exception std::invalid_argument a limit is set on something that the report does not have, or has
+ * a name that is none; the message says what is missing */
 [[nodiscard]] std::vector<GateResult> checkGates(
     const EvaluationReport& report, const GateLimits& limits);
 
