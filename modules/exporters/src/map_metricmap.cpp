@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "one_file_exporter.h"
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/gzip_file.h>
 
@@ -36,42 +37,30 @@ EmptyMap serializedEmptyMap()
   return {bytes.substr(0, header), bytes.substr(header + sizeof(std::uint32_t))};
 }
 
-class MetricMapExporter : public Exporter
+/** As CSimplePointsMap serialises itself, without ever having all points in memory: their number,
+ * then all x, all y, all z. */
+void writeMetricMap(const RunEnd& end, GzipFile& file)
 {
- public:
-  explicit MetricMapExporter(const std::string& path) : file_(path) {}
-
-  [[nodiscard]] bool needsMap() const override { return true; }
-
-  /** As CSimplePointsMap serialises itself, without ever having all points in memory: their number,
-   * then all x, all y, all z. */
-  std::vector<OutputFile> finish(const RunEnd& end) override
-  {
-    if (end.map.size() > std::numeric_limits<std::uint32_t>::max())
-      throw std::runtime_error("map.metricmap cannot hold more than 2^32 points; use map.ply");
-    const EmptyMap empty = serializedEmptyMap();
-    file_.write(empty.before);
-    auto archive = mrpt::serialization::archiveFrom(file_);
-    archive << static_cast<std::uint32_t>(end.map.size());
-    for (const auto column : {&OutputPoints::x, &OutputPoints::y, &OutputPoints::z})
-      end.map.forEachTile(
-          [&](const OutputPoints& tile)
-          {
-            const std::vector<float>& values = tile.*column;
-            archive.WriteBufferFixEndianness(values.data(), values.size());
-          });
-    file_.write(empty.after);
-    return {file_.commit()};
-  }
-
- private:
-  GzipFile file_;
-};
+  if (end.map.size() > std::numeric_limits<std::uint32_t>::max())
+    throw std::runtime_error("map.metricmap cannot hold more than 2^32 points; use map.ply");
+  const EmptyMap empty = serializedEmptyMap();
+  file.write(empty.before);
+  auto archive = mrpt::serialization::archiveFrom(file);
+  archive << static_cast<std::uint32_t>(end.map.size());
+  for (const auto column : {&OutputPoints::x, &OutputPoints::y, &OutputPoints::z})
+    end.map.forEachTile(
+        [&](const OutputPoints& tile)
+        {
+          const std::vector<float>& values = tile.*column;
+          archive.WriteBufferFixEndianness(values.data(), values.size());
+        });
+  file.write(empty.after);
+}
 }  // namespace
 
 std::unique_ptr<Exporter> makeMetricMapExporter(const std::string& path)
 {
-  return std::make_unique<MetricMapExporter>(path);
+  return archiveAtEnd(path, true, writeMetricMap);
 }
 
 }  // namespace fastlio

@@ -29,12 +29,12 @@ class RowExporter : public Exporter
   std::function<std::string(const ScanResult&)> row_;
 };
 
+template <typename File>
 class EndExporter : public Exporter
 {
  public:
   EndExporter(
-      const std::string& path, bool needs_map,
-      std::function<void(const RunEnd&, AtomicFile&)> write)
+      const std::string& path, bool needs_map, std::function<void(const RunEnd&, File&)> write)
       : file_(path), needs_map_(needs_map), write_(std::move(write))
   {
   }
@@ -48,9 +48,9 @@ class EndExporter : public Exporter
   }
 
  private:
-  AtomicFile file_;
+  File file_;
   bool needs_map_;
-  std::function<void(const RunEnd&, AtomicFile&)> write_;
+  std::function<void(const RunEnd&, File&)> write_;
 };
 }  // namespace
 
@@ -64,13 +64,19 @@ std::unique_ptr<Exporter> rowPerScan(
 std::unique_ptr<Exporter> writtenAtEnd(
     const std::string& path, std::function<void(const RunEnd&, AtomicFile&)> write)
 {
-  return std::make_unique<EndExporter>(path, false, std::move(write));
+  return std::make_unique<EndExporter<AtomicFile>>(path, false, std::move(write));
+}
+
+std::unique_ptr<Exporter> archiveAtEnd(
+    const std::string& path, bool needs_map, std::function<void(const RunEnd&, GzipFile&)> write)
+{
+  return std::make_unique<EndExporter<GzipFile>>(path, needs_map, std::move(write));
 }
 
 std::unique_ptr<Exporter> mapFile(
     const std::string& path, std::function<void(const OutputMap&, AtomicFile&)> write)
 {
-  return std::make_unique<EndExporter>(
+  return std::make_unique<EndExporter<AtomicFile>>(
       path, true,
       [write = std::move(write)](const RunEnd& end, AtomicFile& file) { write(end.map, file); });
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <fastlio/exporters/exporter.h>
+#include <fastlio/files/gzip_file.h>
 
 #include <functional>
 #include <memory>
@@ -21,6 +22,10 @@ namespace fastlio
 /** A file that is written when the run is over. */
 [[nodiscard]] std::unique_ptr<Exporter> writtenAtEnd(
     const std::string& path, std::function<void(const RunEnd&, AtomicFile&)> write);
+
+/** The same for an archive of MRPT. \param needs_map whether it holds the map */
+[[nodiscard]] std::unique_ptr<Exporter> archiveAtEnd(
+    const std::string& path, bool needs_map, std::function<void(const RunEnd&, GzipFile&)> write);
 
 /** A file that holds the map. */
 [[nodiscard]] std::unique_ptr<Exporter> mapFile(

@@ -50,13 +50,7 @@ std::string anglesText(const Pose& pose)
 Aligned6 anglesCovariance(const RelativePose& edge)
 {
   constexpr std::array kOrder = {0, 1, 2, 5, 4, 3};
-  const auto m = mrptCovariance(edge.T_a_b, edge.covariance);
-  Aligned6 ordered;
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column)
-      ordered(row, column) =
-          m(kOrder.at(static_cast<std::size_t>(row)), kOrder.at(static_cast<std::size_t>(column)));
-  return ordered;
+  return mrptCovariance(edge.T_a_b, edge.covariance).asEigen()(kOrder, kOrder);
 }
 
 /** g2o's error of an edge: its position in the frame of the measured pose, the vector part of the

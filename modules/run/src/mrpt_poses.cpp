@@ -35,11 +35,7 @@ mrpt::math::CMatrixDouble66 mrptCovariance(const Pose& pose, const Matrix6& cova
   J.topRightCorner<3, 3>() = Mat3::Identity();
   J.bottomLeftCorner<3, 3>() = anglesByRotation(pose);
   const Matrix6 ordered = J * covariance * J.transpose();
-  mrpt::math::CMatrixDouble66 m;
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column)
-      m(row, column) = 0.5 * (ordered(row, column) + ordered(column, row));
-  return m;
+  return mrpt::math::CMatrixDouble66(0.5 * (ordered + ordered.transpose()));
 }
 
 mrpt::poses::CPose3DPDFGaussian toMrptPdf(const Pose& pose, const Matrix6& covariance)
@@ -64,11 +60,9 @@ mrpt::poses::CPosePDFGaussian motionOnGround(const TrackedPose& a, const Tracked
   J.block<2, 3>(0, 3) = R_level_a.topRows<2>();
   J.block<1, 3>(2, 0) = vertical_in_b.transpose();
   const Mat3 covariance = J * relative.covariance * J.transpose();
-  mrpt::math::CMatrixDouble33 m;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column)
-      m(row, column) = 0.5 * (covariance(row, column) + covariance(column, row));
-  return {onGround(b.T_world_body) - ground_a, m};
+  return {
+      onGround(b.T_world_body) - ground_a,
+      mrpt::math::CMatrixDouble33(0.5 * (covariance + covariance.transpose()))};
 }
 
 }  // namespace fastlio
