@@ -183,25 +183,18 @@ std::string inOneLine(std::string text)
   return text;
 }
 
-std::string cell(const std::string& text)
-{
-  return "<td>" + htmlText(text) + "</td>";
-}
-
 std::string recordingsTable(const SearchInputs& inputs, const TuningResult& result)
 {
   const JudgedRuns& base = result.trials.runs.front();
   const JudgedRuns& best = result.trials.runs[result.best];
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (std::size_t r = 0; r < base.size(); ++r)
-    rows += "<tr>" + cell(fileNameOf(inputs.recordings[r].path)) + cell(textOf(base[r])) +
-            cell(textOf(best[r])) + cell(ratioText(base[r], best[r])) +
-            cell(result.left_out.empty() ? "-" : ratioText(base[r], result.left_out[r])) +
-            "</tr>\n";
-  return "<div class=\"wide\"><table>\n<tr><th>recording</th><th>base</th><th>best</th>"
-         "<th>ratio</th><th>left out</th></tr>\n" +
-         rows +
-         "</table></div>\n<p><i>left out</i>: the ratio of the parameters that the other "
+    rows.push_back(
+        {fileNameOf(inputs.recordings[r].path), textOf(base[r]), textOf(best[r]),
+         ratioText(base[r], best[r]),
+         result.left_out.empty() ? "-" : ratioText(base[r], result.left_out[r])});
+  return tableHtml({"recording", "base", "best", "ratio", "left out"}, rows) +
+         "<p><i>left out</i>: the ratio of the parameters that the other "
          "recordings choose. It shows what to expect on a recording that took no part.</p>\n";
 }
 
@@ -209,33 +202,19 @@ std::string keysTable(const SearchInputs& inputs, const TuningResult& result)
 {
   const Candidate& before = result.trials.sets.front().values;
   const Candidate& after = result.trials.sets[result.best].values;
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (std::size_t k = 0; k < inputs.space.size(); ++k)
   {
     const std::string& name = inputs.space[k].key;
     const auto effect = std::find_if(
         result.effects.begin(), result.effects.end(),
         [&name](const KeyEffect& one) { return one.key == name; });
-    std::string size, levels;
-    if (effect != result.effects.end())
-    {
-      size = sizeText(*effect);
-      levels = levelsText(*effect);
-    }
-    rows += "<tr>" + cell(name + unitOf(name)) + cell(before[k]) + cell(after[k]) + cell(size) +
-            cell(levels) + "</tr>\n";
+    const bool has_effect = effect != result.effects.end();
+    rows.push_back(
+        {name + unitOf(name), before[k], after[k], has_effect ? sizeText(*effect) : "",
+         has_effect ? levelsText(*effect) : ""});
   }
-  return "<div class=\"wide\"><table>\n<tr><th>key</th><th>base</th><th>best</th>"
-         "<th>effect</th><th>errors per values</th></tr>\n" +
-         rows + "</table></div>\n";
-}
-
-std::string paragraphs(const std::vector<std::string>& texts)
-{
-  std::string html;
-  for (const std::string& text : texts)
-    if (!text.empty()) html += "<p class=\"note\">" + htmlText(text) + "</p>\n";
-  return html;
+  return tableHtml({"key", "base", "best", "effect", "errors per values"}, rows);
 }
 
 std::string inputText(const TuneCommand& command, const TuningResult& result)
@@ -260,12 +239,12 @@ std::string toPage(
        inOneLine(conclusionText(command, result)), inputText(command, result),
        sectionHtml(
            "Errors, " + nameWithUnit(inputs.measure),
-           recordingsTable(inputs, result) + paragraphs({costText(inputs, result)})) +
+           recordingsTable(inputs, result) + notesHtml({costText(inputs, result)})) +
            sectionHtml(
                "Keys", "<p>Effect: " + htmlText(effectsTitle(command)) + ".</p>\n" +
-                           keysTable(inputs, result) + paragraphs({atBaseText(result)}) +
-                           "<br/>\n<div class=\"grid-of\">\n" + figures + "</div>\n") +
-           sectionHtml("Search", "<div class=\"grid-of\">\n" + courseFigure(ratios) + "</div>\n") +
-           (result.failures.empty() ? "" : sectionHtml("Failures", paragraphs(result.failures)))});
+                           keysTable(inputs, result) + notesHtml({atBaseText(result)}) + "<br/>\n" +
+                           figureGrid(figures)) +
+           sectionHtml("Search", figureGrid(courseFigure(ratios))) +
+           (result.failures.empty() ? "" : sectionHtml("Failures", notesHtml(result.failures)))});
 }
 }  // namespace fastlio

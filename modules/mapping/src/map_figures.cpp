@@ -248,15 +248,15 @@ std::string mapSectionHtml(const MapAccount& account)
   }
   MapViews views = mapViewsOf(overlay, *account.points_map);
   if (!account.points_problem.empty()) views.problem = account.points_problem;
-  return "<div class=\"grid-of\">\n" + mapFigures(views) + "</div>\n";
+  return figureGrid(mapFigures(views));
 }
 
 std::string beforeAndAfterHtml(const MapAccount& account)
 {
-  return "<div class=\"grid-of\">\n" + topFigure(account.map) + heightFigure(account.map) +
-         (account.map.result.corrected ? correctionFigure(account.map) : "") +
-         (account.agreements.empty() ? "" : apartFigure(account)) + wallFigures(account) +
-         "</div>\n";
+  return figureGrid(
+      topFigure(account.map) + heightFigure(account.map) +
+      (account.map.result.corrected ? correctionFigure(account.map) : "") +
+      (account.agreements.empty() ? "" : apartFigure(account)) + wallFigures(account));
 }
 
 }  // namespace fastlio

@@ -4,6 +4,7 @@
 #include "map_figures.h"
 #include <fastlio/math/statistics.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/plot/report_figure.h>
 #include <fastlio/submaps/registration.h>
 
@@ -13,14 +14,6 @@ namespace fastlio
 {
 namespace
 {
-std::string row(const std::vector<std::string>& cells)
-{
-  std::string html = "<tr>";
-  for (const std::string& cell : cells)
-    html += "<td>" + htmlText(cell) + "</td>";
-  return html + "</tr>\n";
-}
-
 /** For people; toString() is for programs. */
 const char* wordsOf(ClosureVerdict verdict)
 {
@@ -50,30 +43,28 @@ const char* wordsOf(ClosureVerdict verdict)
 
 std::string closureTable(const MappingResult& r)
 {
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < r.closures.size(); ++i)
   {
     const Closure& closure = r.closures[i];
-    rows += row(
+    rows.push_back(
         {std::to_string(i), std::to_string(closure.a), std::to_string(closure.b),
          wordsOf(closure.verdict), closure.reason});
   }
   if (rows.empty()) return "<p>No two submaps came near each other.</p>\n";
-  return "<div class=\"wide\"><table>\n<tr><th>number</th><th>submap A</th><th>submap B</th>"
-         "<th>verdict</th><th>why</th></tr>\n" +
-         rows + "</table></div>\n";
+  return tableHtml({"number", "submap A", "submap B", "verdict", "why"}, rows);
 }
 
 std::string sessionTable(const BuiltMap& map)
 {
-  std::string rows;
+  std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < map.sessions.size(); ++i)
   {
     const SessionOutcome& session = map.sessions[i];
     const SessionAnchor anchor =
         i < map.result.anchors.size() ? map.result.anchors[i] : SessionAnchor{};
     const RunStatistics& s = session.statistics;
-    rows += row(
+    rows.push_back(
         {session.name, fixedText(s.duration(), 1) + " s", fixedText(s.pathLength(), 1) + " m",
          std::to_string(s.poses()) + " of " + std::to_string(s.scans()),
          std::to_string(s.health().troubled()),
@@ -82,9 +73,8 @@ std::string sessionTable(const BuiltMap& map)
                              : "found by " + std::to_string(anchor.support) + " of " +
                                    std::to_string(anchor.tried) + " submaps"});
   }
-  return "<div class=\"wide\"><table>\n<tr><th>session</th><th>duration</th><th>path</th>"
-         "<th>scans with a pose</th><th>in trouble</th><th>in the map</th></tr>\n" +
-         rows + "</table></div>\n";
+  return tableHtml(
+      {"session", "duration", "path", "scans with a pose", "in trouble", "in the map"}, rows);
 }
 
 bool isWhole(const MappingResult& r)
@@ -166,18 +156,13 @@ std::string mapReportHtml(const MapAccount& account)
                            : !good                                      ? "warn"
                            : r.accepted() > 0                           ? "good"
                                                                         : "";
-  std::string notes;
-  for (const std::string& note : account.notes)
-    notes += "<p class=\"note\">" + htmlText(note) + "</p>\n";
-  std::string inputs;
-  for (const std::string& input : account.inputs)
-    inputs += (inputs.empty() ? "" : ", ") + input;
+  const std::string inputs = joined(account.inputs);
   const std::string map = mapSectionHtml(account);
   return pageHtml(
       {"Map: " + inputs, tone, mapHeadline(account),
        "fastlio-map " + account.version + ", " + inputs + "; status " + toString(account.status),
        "<p>" + htmlText(mapSentence(account)) + ".</p>\n" +
-           sectionHtml("Sessions", sessionTable(account.map) + notes) +
+           sectionHtml("Sessions", sessionTable(account.map) + notesHtml(account.notes)) +
            (map.empty() ? "" : sectionHtml("Trajectory and map", map)) +
            sectionHtml("Before and after", beforeAndAfterHtml(account)) +
            sectionHtml("Closures", closureTable(r))});

@@ -13,6 +13,15 @@ std::string idAttribute(const std::string& id)
 {
   return id.empty() ? "" : " id=\"" + id + "\"";
 }
+
+/** \param element th or td */
+std::string rowHtml(const std::string& element, const std::vector<std::string>& texts)
+{
+  std::string html = "<tr>";
+  for (const std::string& text : texts)
+    html += "<" + element + ">" + htmlText(text) + "</" + element + ">";
+  return html + "</tr>\n";
+}
 }  // namespace
 
 std::string htmlText(const std::string& text)
@@ -51,6 +60,28 @@ std::string sectionHtml(const std::string& title, const std::string& content, co
 {
   return "<section" + idAttribute(id) + ">\n<h2>" + htmlText(title) + "</h2>\n" + content +
          "</section>\n";
+}
+
+std::string tableHtml(
+    const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows)
+{
+  std::string html = "<div class=\"wide\"><table>\n" + rowHtml("th", headings);
+  for (const std::vector<std::string>& row : rows)
+    html += rowHtml("td", row);
+  return html + "</table></div>\n";
+}
+
+std::string figureGrid(const std::string& figures)
+{
+  return "<div class=\"grid-of\">\n" + figures + "</div>\n";
+}
+
+std::string notesHtml(const std::vector<std::string>& notes)
+{
+  std::string html;
+  for (const std::string& note : notes)
+    if (!note.empty()) html += "<p class=\"note\">" + htmlText(note) + "</p>\n";
+  return html;
 }
 
 std::string pageBeginning(const std::string& title)

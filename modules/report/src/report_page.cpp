@@ -22,11 +22,6 @@ std::string nameOfRun(const RunSummary& run)
   return further == 0 ? first : first + " and " + std::to_string(further) + " more";
 }
 
-std::string gridOfFigures(const std::string& figures)
-{
-  return "<div class=\"grid-of\">\n" + figures + "</div>\n";
-}
-
 std::string optionRow(const OptionText& option, const std::string* standard)
 {
   return "<tr><td><code>" + htmlText(option.key) + "</code></td><td>" + htmlText(option.text) +
@@ -74,15 +69,15 @@ std::string resultsHtml(const ReportContent& content)
   return sectionHtml("The run", factsHtml(run), "facts") +
          sectionHtml(
              "Stretches not to rely on", untrustedHtml(run.statistics.health()), "untrusted") +
-         sectionHtml("Trajectory and map", gridOfFigures(mapFigures(content.map)), "map") +
+         sectionHtml("Trajectory and map", figureGrid(mapFigures(content.map)), "map") +
          (content.reference.file.empty()
               ? ""
               : sectionHtml(
                     "Against the reference",
                     referenceHtml(content.reference) +
-                        gridOfFigures(errorCharts(content.reference, content.series)),
+                        figureGrid(errorCharts(content.reference, content.series)),
                     "reference")) +
-         sectionHtml("Over time", gridOfFigures(timeCharts(content.series)), "charts") +
+         sectionHtml("Over time", figureGrid(timeCharts(content.series)), "charts") +
          sectionHtml("Diagnostics", diagnosticsHtml(run), "diagnostics") +
          sectionHtml("Dropped data", lossesHtml(run), "losses") +
          sectionHtml("Sensors", sensorsHtml(run), "sensors") +
@@ -139,8 +134,7 @@ std::string referenceHtml(const ReferenceFindings& findings)
 std::string reportPage(const ReportContent& content)
 {
   const RunSummary& run = content.run;
-  const std::string measured =
-      measuredFactsHtml(run) + gridOfFigures(measuredCharts(content.series));
+  const std::string measured = measuredFactsHtml(run) + figureGrid(measuredCharts(content.series));
   const RunVerdict verdict = verdictOf(run);
   Page page;
   page.title = nameOfRun(run) + ": report";

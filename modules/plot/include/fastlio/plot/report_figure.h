@@ -38,6 +38,16 @@ struct LegendEntry
 [[nodiscard]] std::string sectionHtml(
     const std::string& title, const std::string& content, const std::string& id = {});
 
+/** A table of plain text; a wide one scrolls. */
+[[nodiscard]] std::string tableHtml(
+    const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows);
+
+/** Figures beside each other, as many as there is room for. */
+[[nodiscard]] std::string figureGrid(const std::string& figures);
+
+/** Remarks, a paragraph each, of plain text; empty ones are left out. */
+[[nodiscard]] std::string notesHtml(const std::vector<std::string>& notes);
+
 /** A page: one file that needs no other. */
 struct Page
 {
