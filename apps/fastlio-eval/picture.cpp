@@ -7,8 +7,9 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
+#include <memory>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,52 +17,29 @@ namespace fastlio
 {
 namespace
 {
-/** A file that is gone in the end. */
-class TemporaryFile
+struct Closing
 {
- public:
-  explicit TemporaryFile(const std::string& content)
-      : path_((std::filesystem::temp_directory_path() / "fastlio-eval-XXXXXX").string()),
-        file_(mkstemp(path_.data()))
-  {
-    std::size_t written = 0;
-    while (file_ >= 0 && written < content.size())
-    {
-      const ssize_t n = ::write(file_, content.data() + written, content.size() - written);
-      if (n <= 0) break;
-      written += static_cast<std::size_t>(n);
-    }
-    if (file_ >= 0) ::close(file_);
-    if (written == content.size()) return;
-    ::unlink(path_.c_str());
-    throw std::runtime_error(
-        "cannot write '" + path_ + "', from which the PNG is made: check the free space there");
-  }
-  ~TemporaryFile() { ::unlink(path_.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-  int file_;
+  void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-/** A path in a command of the shell. */
-std::string quoted(const std::string& path)
+/** A file in memory that holds the text; others reach it by its number. */
+std::unique_ptr<std::FILE, Closing> fileOf(const std::string& text)
 {
-  std::string text = "'";
-  for (const char c : path)
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
+  std::unique_ptr<std::FILE, Closing> file(fdopen(memfd_create("picture", MFD_CLOEXEC), "w"));
+  if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() ||
+      std::fflush(file.get()) != 0)
+    throw std::runtime_error(
+        "there is not enough memory for the picture from which the PNG is made");
+  return file;
 }
 
 /** The picture after rsvg-convert. */
 std::string pngOf(const std::string& svg)
 {
-  const TemporaryFile file(svg);
-  const std::string command = "rsvg-convert --format=png --zoom=2 " + quoted(file.path());
+  const auto file = fileOf(svg);
+  const std::string command = "rsvg-convert --format=png --zoom=2 </proc/" +
+                              std::to_string(getpid()) + "/fd/" +
+                              std::to_string(fileno(file.get()));
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("rsvg-convert cannot be started");
   std::string png;

@@ -21,35 +21,11 @@ namespace fastlio
 {
 namespace
 {
-class PlainRawlog : public RawlogFile
+/** As AtomicFile, compressed by Zstandard. */
+class ZstdFile
 {
  public:
-  explicit PlainRawlog(const std::string& path) : file_(path) {}
-  void write(const void* data, std::size_t size) override
-  {
-    file_.write({static_cast<const char*>(data), size});
-  }
-  OutputFile commit() override { return file_.commit(); }
-
- private:
-  AtomicFile file_;
-};
-
-class GzipRawlog : public RawlogFile
-{
- public:
-  explicit GzipRawlog(const std::string& path) : file_(path) {}
-  void write(const void* data, std::size_t size) override { file_.Write(data, size); }
-  OutputFile commit() override { return file_.commit(); }
-
- private:
-  GzipFile file_;
-};
-
-class ZstdRawlog : public RawlogFile
-{
- public:
-  explicit ZstdRawlog(const std::string& path)
+  explicit ZstdFile(const std::string& path)
       : file_(path),
         context_(ZSTD_createCCtx(), ZSTD_freeCCtx),
         buffer_(ZSTD_CStreamOutSize(), '\0')
@@ -57,17 +33,19 @@ class ZstdRawlog : public RawlogFile
     if (!context_) throw std::bad_alloc();
     ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);
   }
-  void write(const void* data, std::size_t size) override { compress(data, size, ZSTD_e_continue); }
-  OutputFile commit() override
+
+  void write(std::string_view bytes) { compress(bytes, ZSTD_e_continue); }
+
+  OutputFile commit()
   {
-    compress(nullptr, 0, ZSTD_e_end);
+    compress({}, ZSTD_e_end);
     return file_.commit();
   }
 
  private:
-  void compress(const void* data, std::size_t size, ZSTD_EndDirective mode)
+  void compress(std::string_view bytes, ZSTD_EndDirective mode)
   {
-    ZSTD_inBuffer in{data, size, 0};
+    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
     for (bool done = false; !done;)
     {
       ZSTD_outBuffer out{buffer_.data(), buffer_.size(), 0};
@@ -84,16 +62,28 @@ class ZstdRawlog : public RawlogFile
   std::string buffer_;
 };
 
+template <typename File>
+class RawlogIn : public RawlogFile
+{
+ public:
+  explicit RawlogIn(const std::string& path) : file_(path) {}
+  void write(std::string_view bytes) override { file_.write(bytes); }
+  OutputFile commit() override { return file_.commit(); }
+
+ private:
+  File file_;
+};
+
 std::unique_ptr<RawlogFile> openRawlog(const std::string& path, RawlogCompression compression)
 {
   switch (compression)
   {
     case RawlogCompression::None:
-      return std::make_unique<PlainRawlog>(path);
+      return std::make_unique<RawlogIn<AtomicFile>>(path);
     case RawlogCompression::Gzip:
-      return std::make_unique<GzipRawlog>(path);
+      return std::make_unique<RawlogIn<GzipFile>>(path);
     case RawlogCompression::Zstd:
-      return std::make_unique<ZstdRawlog>(path);
+      return std::make_unique<RawlogIn<ZstdFile>>(path);
   }
   throw std::logic_error("an unknown compression");
 }
@@ -138,7 +128,9 @@ bool RawlogParts::write(const mrpt::obs::CObservation& observation)
   }
   mrpt::io::CMemoryStream stream;
   mrpt::serialization::archiveFrom(stream).WriteObject(observation);
-  file_->write(stream.getRawBufferData(), stream.getTotalBytesCount());
+  file_->write(
+      {static_cast<const char*>(stream.getRawBufferData()),
+       static_cast<std::size_t>(stream.getTotalBytesCount())});
   bytes_ += stream.getTotalBytesCount();
   return true;
 }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -34,7 +35,7 @@ class RawlogFile
   RawlogFile& operator=(const RawlogFile&) = delete;
 
   /** \exception std::runtime_error the disk refused the bytes */
-  virtual void write(const void* data, std::size_t size) = 0;
+  virtual void write(std::string_view bytes) = 0;
   virtual OutputFile commit() = 0;
 };
 
