@@ -42,7 +42,7 @@ std::string slurmScript(const TuneCommand& command)
          std::to_string(command.workers) +
          "\n#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n#SBATCH --requeue\n"
          "#SBATCH --output=" +
-         fs::absolute(command.runner.store).string() + ".%A_%a.log\nexec " +
+         quoted(fs::absolute(command.runner.store).string() + ".%A_%a.log") + "\nexec " +
          workerCommand(command) + "\n";
 }
 

@@ -138,6 +138,9 @@ fi
 expect 0 'Better parameters' search -j 0
 search --print-slurm 4 2>log | sh -n
 search --print-slurm 4 2>log | grep -q '^#SBATCH --array=1-4$' || fail 'no job array'
+# Slurm would end a name at its first blank.
+"$tune" space.yaml a.rawlog b.rawlog --method grid --budget 9 --store 'two words.sqlite' --print-slurm 4 2>log |
+  grep -q "^#SBATCH --output='.*/two words.sqlite.%A_%a.log'\$" || fail 'the log of the job array'
 
 # What fails is said, ranks last, and is run again only when asked for.
 printf 'lidar:\n  min_range: [1, 200]\n' >fails.yaml
