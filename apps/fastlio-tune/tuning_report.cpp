@@ -43,7 +43,6 @@ PlotPanel ratioPanel(const std::string& x_label)
   PlotPanel panel;
   panel.x_label = x_label;
   panel.y_label = "error / error of the base";
-  panel.bare = true;
   panel.from_zero = true;
   return panel;
 }

@@ -94,7 +94,6 @@ std::string topFigure(const BuiltMap& map)
   panel.x_label = "x [m]";
   panel.y_label = "y [m]";
   panel.equal_scales = true;
-  panel.bare = true;
   panel.series = {
       {"odometry", kBefore, fromAbove(pathsOf(map, false))},
       {"corrected", kAfter, fromAbove(pathsOf(map, true))},
@@ -125,7 +124,6 @@ PlotPanel submapPanel(const BuiltMap& map, const char* y_label)
   PlotPanel panel;
   panel.x_label = "submap";
   panel.y_label = y_label;
-  panel.bare = true;
   const auto& submaps = map.result.submaps;
   for (std::size_t begin = 0, end = 0; begin < submaps.size() && map.sessions.size() > 1;
        begin = end)
@@ -203,7 +201,6 @@ std::string apartFigure(const MapAccount& account)
   panel.x_label = "number of the closure";
   panel.y_label = "[mm]";
   panel.from_zero = true;
-  panel.bare = true;
   constexpr double kMillimetres = 1e3;
   bool has_before = false;
   for (const ClosureAgreement& one : account.agreements)

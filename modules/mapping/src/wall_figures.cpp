@@ -41,7 +41,6 @@ std::string wallsFigure(const MappingResult& r, const Closure& closure, bool cor
   panel.x_label = "x [m]";
   panel.y_label = "y [m]";
   panel.equal_scales = true;
-  panel.bare = true;
   panel.cells = {
       wallsOf(r.submaps.at(closure.a), poseOf(closure.a), center, "var(--s1)"),
       wallsOf(r.submaps.at(closure.b), poseOf(closure.b), center, "var(--s2)")};

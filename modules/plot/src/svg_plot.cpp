@@ -200,29 +200,12 @@ std::string labelsOf(const PlotPanel& panel, const PlotRectangle& inner)
   turned << "text-anchor='middle' transform='rotate(-90 " << pixel(x) << " " << pixel(middle)
          << ")'";
   const std::string title =
-      panel.bare ? "" : textAt(inner.x, inner.y - 12.0, panel.title, "font-weight='bold'");
+      panel.title.empty() ? "" : textAt(inner.x, inner.y - 12.0, panel.title, "font-weight='bold'");
   return title +
          textAt(
              inner.x + 0.5 * inner.width, inner.y + inner.height + 34.0, panel.x_label,
              "text-anchor='middle'") +
          textAt(x, middle, panel.y_label, turned.str());
-}
-
-/** Names at the upper right, above the axes, in the series' colours; a single
- * series is named by the title. */
-std::string legendOf(const PlotPanel& panel, const PlotRectangle& inner)
-{
-  if (panel.bare || panel.series.size() < 2) return {};
-  std::string out;
-  double x = inner.x + inner.width;
-  for (auto series = panel.series.rbegin(); series != panel.series.rend(); ++series)
-  {
-    if (series->name.empty()) continue;
-    out += textAt(
-        x, inner.y - 12.0, series->name, "text-anchor='end' style='fill:" + series->colour + "'");
-    x -= 8.0 * static_cast<double>(series->name.size()) + 16.0;
-  }
-  return out;
 }
 
 std::string frameOf(const PlotRectangle& r)
@@ -236,14 +219,14 @@ std::string frameOf(const PlotRectangle& r)
 
 std::string drawPanel(const PlotPanel& panel, const PlotRectangle& place)
 {
-  const double top = panel.bare ? kBareTop : kTop;
+  const double top = panel.title.empty() ? kBareTop : kTop;
   const PlotRectangle inner{
       place.x + kLeft, place.y + top, place.width - kLeft - kRight, place.height - top - kBottom};
   const PlotAxes axes = axesOf(panel, inner);
   std::string out;
   for (const PlotStretch& stretch : panel.stretches)
     out += stretchOf(stretch, axes);
-  out += gridOf(panel, axes) + frameOf(inner) + labelsOf(panel, inner) + legendOf(panel, inner);
+  out += gridOf(panel, axes) + frameOf(inner) + labelsOf(panel, inner);
   for (const PlotCells& cells : panel.cells)
     out += cellsOf(cells, axes);
   for (const PlotBand& band : panel.bands)

@@ -101,7 +101,7 @@ TEST(Svg, TicksMayBeGivenWithTheirTexts)
 TEST(Svg, AStretchedAxisHasLongerUnits)
 {
   PlotPanel panel;
-  panel.bare = panel.equal_scales = true;
+  panel.equal_scales = true;
   panel.x_range = PlotRange{0.0, 100.0};
   panel.y_range = PlotRange{0.0, 2.0};
   panel.y_stretch = 10.0;

@@ -203,7 +203,6 @@ std::string healthChart(const ReportSeries& series)
 PlotPanel timePanel(const ReportSeries& series, const char* unit)
 {
   PlotPanel panel;
-  panel.bare = true;
   panel.x_label = "time [s]";
   panel.y_label = unit;
   const double end_s = series.bins().empty() ? 1.0 : series.bins().back().end_s;

@@ -119,7 +119,7 @@ PlotPanel viewOf(
     const ViewGrid& grid, const MapOverlay& overlay, int across, int up, const PlotRange& heights)
 {
   PlotPanel panel;
-  panel.bare = panel.equal_scales = true;
+  panel.equal_scales = true;
   panel.x_range = grid.across();
   panel.y_range = grid.up();
   panel.y_stretch = grid.stretch();

@@ -19,7 +19,7 @@ struct PlotPoint
 /** A line; it is broken at points that are not finite. */
 struct PlotSeries
 {
-  std::string name;    //!< in the legend
+  std::string name;    //!< for a legend
   std::string colour;  //!< as CSS
   std::vector<PlotPoint> points;
   double width = 1.5;  //!< of the line [px]
@@ -79,7 +79,8 @@ struct PlotTick
 
 struct PlotPanel
 {
-  std::string title, x_label, y_label;  //!< labels with units
+  std::string title;             //!< empty: the axes begin at the top
+  std::string x_label, y_label;  //!< with units
   std::vector<PlotSeries> series;
   bool equal_scales = false;  //!< one unit is as long on x as on y, but for y_stretch
   bool from_zero = false;     //!< the y axis starts at 0
@@ -89,7 +90,6 @@ struct PlotPanel
   std::vector<PlotMark> marks = {};
   std::optional<PlotRange> x_range = {};  //!< instead of that of the data
   std::optional<PlotRange> y_range = {};  //!< likewise
-  bool bare = false;                      //!< without title and legend
   double y_stretch = 1.0;  //!< with equal scales: one unit is so many times as long on y as on x
   std::vector<PlotTick> x_ticks = {};  //!< instead of round numbers
   std::vector<PlotTick> y_ticks = {};  //!< likewise
