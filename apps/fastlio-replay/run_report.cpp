@@ -34,28 +34,12 @@ std::string sizeText(std::uintmax_t bytes)
   return fixedText(size * 1e-6, 1) + " MB";
 }
 
-/** Data that the bridge, the odometry's input and the range limits dropped. */
-std::vector<NamedCount> allLosses(const RunSummary& run)
-{
-  std::vector<NamedCount> counts = run.input_counts;
-  const PointTotals& points = run.statistics.points();
-  counts.push_back({"points_too_near", points.near});
-  counts.push_back({"points_too_far", points.far});
-  return losses(counts);
-}
-
 std::string countsText(const std::vector<NamedCount>& counts)
 {
   std::string text;
   for (const auto& count : counts)
     text += (text.empty() ? "" : ", ") + std::to_string(count.count) + " " + count.name;
   return text;
-}
-
-std::string scanTimesText(const ScanTimeSummary& ms)
-{
-  return fixedText(ms.median, 2) + " ms median, " + fixedText(ms.p99, 2) + " ms p99, " +
-         fixedText(ms.max, 2) + " ms max";
 }
 
 std::string speedText(const RunSummary& run)
@@ -68,11 +52,9 @@ std::string speedText(const RunSummary& run)
 
 std::string degenerateText(const DegenerateDirections& open)
 {
-  const Vec3& axis = open.weakest.axis;
   return std::to_string(open.scans) + (open.scans == 1 ? " scan" : " scans") + " did not see a " +
-         (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
-         fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) +
-         "]: there the pose is inertial only, and its covariance grows";
+         directionText(open.weakest) +
+         ": there the pose is inertial only, and its covariance grows";
 }
 
 std::string imuText(const ImuReport& imu)
@@ -199,8 +181,7 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
 std::string reportText(const RunSummary& summary)
 {
   const auto& statistics = summary.statistics;
-  const auto lost = allLosses(summary);
-  const ExitStatus status = exitStatusOf(summary);
+  const auto lost = losses(summary);
   std::string text = line("Scans", scanCountsText(statistics));
   text += line("Path", fixedText(statistics.pathLength(), 2) + " m");
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
@@ -217,9 +198,7 @@ std::string reportText(const RunSummary& summary)
   for (const Diagnostic& diagnostic : summary.diagnostics)
     text += line("Diagnostic", secondsText(diagnostic.stamp_ns) + ": " + diagnostic.text);
   text += filesText(summary.outputs);
-  text += line(
-      "Status", std::string(toString(status)) + " (exit status " +
-                    std::to_string(static_cast<int>(status)) + ")");
+  text += line("Status", statusText(exitStatusOf(summary)));
   const std::string page = reportPageOf(summary.outputs);
   return page.empty() ? text : text + line("Next", "open " + page);
 }

@@ -81,14 +81,9 @@ std::vector<HealthCause> allHealthCauses()
   return causes;
 }
 
-std::string anchorOf(HealthCause cause)
-{
-  return toString(cause);
-}
-
 std::string causeLink(HealthCause cause)
 {
-  std::string name = anchorOf(cause);
+  const std::string name = toString(cause);
   if (cause == HealthCause::None) return name;
   return std::string("<a href=\"#").append(name).append("\">").append(name).append("</a>");
 }

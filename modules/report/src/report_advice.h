@@ -23,9 +23,6 @@ struct HealthAdvice
 /** Every cause but None. */
 [[nodiscard]] std::vector<HealthCause> allHealthCauses();
 
-/** Name of the cause's section in docs/troubleshooting.md and in the report, e.g. "scan_timing". */
-[[nodiscard]] std::string anchorOf(HealthCause cause);
-
 /** The cause as HTML that leads to its advice on the page. */
 [[nodiscard]] std::string causeLink(HealthCause cause);
 

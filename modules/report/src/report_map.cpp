@@ -254,7 +254,6 @@ MapViews mapViewsOf(const MapOverlay& overlay, const OutputMap& map)
   views.lowest = heights.low;
   views.highest = heights.high;
   views.points = map.size();
-  views.height_colours.assign(kHeightColours.begin(), kHeightColours.end());
   return views;
 }
 

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "view_grid.h"
 #include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
 #include <fastlio/report/report_map.h>
@@ -17,9 +18,9 @@ std::vector<LegendEntry> legendOf(const MapViews& views, const PlotPanel& panel)
   std::vector<LegendEntry> legend;
   for (const PlotSeries& line : panel.series)
     if (!line.points.empty()) legend.push_back({line.name, line.colour});
-  if (views.points == 0 || views.height_colours.empty()) return legend;
-  legend.push_back({"low, " + fixedText(views.lowest, 1) + " m", views.height_colours.front()});
-  legend.push_back({"high, " + fixedText(views.highest, 1) + " m", views.height_colours.back()});
+  if (views.points == 0) return legend;
+  legend.push_back({"low, " + fixedText(views.lowest, 1) + " m", kHeightColours.front()});
+  legend.push_back({"high, " + fixedText(views.highest, 1) + " m", kHeightColours.back()});
   return legend;
 }
 

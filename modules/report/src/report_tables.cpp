@@ -52,10 +52,7 @@ std::string listOf(const std::vector<std::string>& texts)
 std::string degenerateText(const DegenerateDirections& open)
 {
   if (open.scans == 0) return "none";
-  const Vec3& axis = open.weakest.axis;
-  return countText(open.scans) + " scans; the weakest is a " +
-         (open.weakest.is_rotation ? "rotation about [" : "translation along [") +
-         fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) + "]";
+  return countText(open.scans) + " scans; the weakest is a " + directionText(open.weakest);
 }
 
 std::string pointsText(const PointTotals& points)
@@ -94,10 +91,8 @@ std::string healthText(const RunHealth& health)
 std::string factsHtml(const RunSummary& run)
 {
   const RunStatistics& s = run.statistics;
-  const ExitStatus status = exitStatusOf(run);
   return tableOf(
-      {{"Status", std::string(toString(status)) + " (exit status " +
-                      std::to_string(static_cast<int>(status)) + ")"},
+      {{"Status", statusText(exitStatusOf(run))},
        {"Time", fixedText(s.duration(), 3) + " s, from " + secondsText(s.beginNs()) + " to " +
                     secondsText(s.endNs())},
        {"Scans", htmlText(scanCountsText(s))},
@@ -124,10 +119,7 @@ std::string untrustedHtml(const RunHealth& health)
 
 std::string lossesHtml(const RunSummary& run)
 {
-  std::vector<NamedCount> lost = losses(run.input_counts);
-  const PointTotals& points = run.statistics.points();
-  if (points.near > 0) lost.push_back({"points_too_near", points.near});
-  if (points.far > 0) lost.push_back({"points_too_far", points.far});
+  const std::vector<NamedCount> lost = losses(run);
   if (lost.empty()) return "<p>Nothing was dropped.</p>\n";
   std::vector<TableRow> rows;
   rows.reserve(lost.size());
@@ -175,10 +167,8 @@ std::string diagnosticsHtml(const RunSummary& run)
 
 std::string measuredFactsHtml(const RunSummary& run)
 {
-  const ScanTimeSummary ms = run.statistics.scanTimes();
   return tableOf(
-      {{"Computation per scan", fixedText(ms.median, 2) + " ms median, " + fixedText(ms.p99, 2) +
-                                    " ms p99, " + fixedText(ms.max, 2) + " ms max"},
+      {{"Computation per scan", scanTimesText(run.statistics.scanTimes())},
        {"Speed", fixedText(realTimeFactor(run), 1) + " x real time"},
        {"Whole run", fixedText(run.wall_seconds, 2) + " s, of which " +
                          fixedText(run.statistics.computeSeconds(), 2) + " s odometry"}});
@@ -190,10 +180,10 @@ std::string adviceHtml()
   for (const HealthCause cause : allHealthCauses())
   {
     const HealthAdvice advice = adviceOf(cause);
-    html += "<h3 id=\"" + anchorOf(cause) + "\">" + anchorOf(cause) + "</h3>\n<p>" +
-            htmlText(advice.meaning) + " <b>Try:</b> " + htmlText(advice.remedy) +
-            " <span class=\"note\">More: docs/troubleshooting.md#" + anchorOf(cause) +
-            "</span></p>\n";
+    const std::string name = toString(cause);  // of its section in the document, too
+    html += "<h3 id=\"" + name + "\">" + name + "</h3>\n<p>" + htmlText(advice.meaning) +
+            " <b>Try:</b> " + htmlText(advice.remedy) +
+            " <span class=\"note\">More: docs/troubleshooting.md#" + name + "</span></p>\n";
   }
   return html;
 }

@@ -3,6 +3,7 @@
 
 #include <fastlio/matching/degeneracy.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/run/run_statistics.h>
 
@@ -156,6 +157,19 @@ std::string scanCountsText(const RunStatistics& statistics)
   if (const std::size_t missing = statistics.missingScans(); missing > 0)
     text += "; " + std::to_string(missing) + " missing in between";
   return text;
+}
+
+std::string scanTimesText(const ScanTimeSummary& times)
+{
+  return fixedText(times.median, 2) + " ms median, " + fixedText(times.p99, 2) + " ms p99, " +
+         fixedText(times.max, 2) + " ms max";
+}
+
+std::string directionText(const MotionDirection& direction)
+{
+  const Vec3& axis = direction.axis;
+  return (direction.is_rotation ? "rotation about [" : "translation along [") +
+         fixedText(axis.x(), 2) + " " + fixedText(axis.y(), 2) + " " + fixedText(axis.z(), 2) + "]";
 }
 
 }  // namespace fastlio

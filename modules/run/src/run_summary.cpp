@@ -63,6 +63,12 @@ const char* toString(ExitStatus status)
   return rowOf(status)->name;
 }
 
+std::string statusText(ExitStatus status)
+{
+  return std::string(toString(status)) + " (exit status " +
+         std::to_string(static_cast<int>(status)) + ")";
+}
+
 const char* wordsOf(ExitStatus status)
 {
   return rowOf(status)->words;
@@ -73,9 +79,12 @@ ExitStatus graver(ExitStatus a, ExitStatus b)
   return std::min(rowOf(a), rowOf(b))->status;
 }
 
-std::vector<NamedCount> losses(const std::vector<NamedCount>& counts)
+std::vector<NamedCount> losses(const RunSummary& run)
 {
-  std::vector<NamedCount> lost;
+  std::vector<NamedCount> counts = run.input_counts, lost;
+  const PointTotals& points = run.statistics.points();
+  counts.push_back({"points_too_near", points.near});
+  counts.push_back({"points_too_far", points.far});
   for (const auto& count : counts)
     if (count.count > 0 && std::find(kNoLoss.begin(), kNoLoss.end(), count.name) == kNoLoss.end())
       lost.push_back(count);

@@ -41,12 +41,11 @@ struct MapOverlay
 struct MapViews
 {
   PlotPanel top, side;
-  std::optional<PlotPanel> close;           //!< from above, where the path is small beside the map
-  std::string side_axis = "x";              //!< horizontal axis of the side view
-  double lowest = 0.0, highest = 0.0;       //!< of the colours [m]
-  std::size_t points = 0;                   //!< of the map
-  std::string problem;                      //!< why there are no points, or empty
-  std::vector<std::string> height_colours;  //!< from low to high
+  std::optional<PlotPanel> close;      //!< from above, where the path is small beside the map
+  std::string side_axis = "x";         //!< horizontal axis of the side view
+  double lowest = 0.0, highest = 0.0;  //!< of the colours [m]
+  std::size_t points = 0;              //!< of the map
+  std::string problem;                 //!< why there are no points, or empty
 };
 
 /** Place of a view on the page [px]: no higher than its content needs. */

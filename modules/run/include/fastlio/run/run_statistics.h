@@ -119,4 +119,10 @@ class RunStatistics
  * tracking". */
 [[nodiscard]] std::string scanCountsText(const RunStatistics& statistics);
 
+/** "1.20 ms median, 3.40 ms p99, 5.60 ms max". */
+[[nodiscard]] std::string scanTimesText(const ScanTimeSummary& times);
+
+/** "rotation about [1.00 0.00 0.00]", or "translation along [...]". */
+[[nodiscard]] std::string directionText(const MotionDirection& direction);
+
 }  // namespace fastlio

@@ -55,8 +55,8 @@ struct RunSummary
   std::vector<OutputFile> outputs;           //!< files that are complete
 };
 
-/** Those of dropped data, without zeros. */
-[[nodiscard]] std::vector<NamedCount> losses(const std::vector<NamedCount>& counts);
+/** Counts of dropped data, by the input and by the limits of range; without zeros. */
+[[nodiscard]] std::vector<NamedCount> losses(const RunSummary& run);
 
 /** There is no pose, the pose was lost, or there is no map. */
 [[nodiscard]] bool isLost(const RunStatistics& statistics);
@@ -80,6 +80,9 @@ enum class ExitStatus : int
 
 /** "ok", "input_broken", ... */
 [[nodiscard]] const char* toString(ExitStatus status);
+
+/** "ok (exit status 0)". */
+[[nodiscard]] std::string statusText(ExitStatus status);
 
 /** In a word or two, for a table of runs: "ok", "input damaged", ... */
 [[nodiscard]] const char* wordsOf(ExitStatus status);
