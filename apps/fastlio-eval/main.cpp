@@ -27,29 +27,16 @@ constexpr int kExitGate = 2;
 using fastlio::EvalCommand;
 using fastlio::NamedReport;
 
-/** A single estimate is reported in full, several in a row each. */
-std::string tableOf(const std::vector<NamedReport>& reports)
-{
-  return reports.size() == 1 ? fastlio::toTable(reports.front().report, reports.front().gates)
-                             : fastlio::toTable(reports);
-}
-
-std::string jsonOf(const std::vector<NamedReport>& reports)
-{
-  return reports.size() == 1 ? fastlio::toJson(reports.front().report, reports.front().gates)
-                             : fastlio::toJson(reports);
-}
-
 void writeReports(const EvalCommand& command, const std::vector<NamedReport>& reports)
 {
   const bool json_to_stdout = command.json_path == "-";
   if (json_to_stdout)
-    std::cout << jsonOf(reports) << std::flush;
+    std::cout << fastlio::toJson(reports) << std::flush;
   else if (!command.quiet)
-    std::cout << tableOf(reports) << std::flush;
+    std::cout << fastlio::toTable(reports) << std::flush;
   if (!std::cout) throw std::runtime_error("standard output cannot be written");
   if (!command.json_path.empty() && !json_to_stdout)
-    fastlio::writeFileAtomically(command.json_path, jsonOf(reports));
+    fastlio::writeFileAtomically(command.json_path, fastlio::toJson(reports));
   if (!command.svg_path.empty())
     fastlio::writePicture(
         command.svg_path,

@@ -15,11 +15,6 @@ namespace fastlio
 {
 namespace
 {
-std::int64_t toNs(double seconds)
-{
-  return toNanoseconds(seconds);
-}
-
 enum class Match
 {
   Used,
@@ -135,7 +130,8 @@ void requireOverlap(
       " estimated poses " + std::to_string(counts.before) + " are before, " +
       std::to_string(counts.after) + " after and " + std::to_string(counts.in_gap) +
       " in gaps (above " + std::to_string(options.max_gap) + " s) of the reference. The estimate " +
-      rangeOf(estimate, toNs(options.time_offset)) + ", the reference " + rangeOf(reference, 0) +
+      rangeOf(estimate, toNanoseconds(options.time_offset)) + ", the reference " +
+      rangeOf(reference, 0) +
       ". Check that both use one clock, the time offset and the largest gap allowed");
 }
 
@@ -168,8 +164,8 @@ AssociatedTrajectories associate(
   std::vector<bool> is_used(estimate.poses.size(), false);
   for (std::size_t i = 0; i < estimate.poses.size(); ++i)
   {
-    const std::int64_t stamp_ns = estimate.poses[i].stamp_ns + toNs(options.time_offset);
-    const Sample sample = sampleAt(reference.poses, stamp_ns, toNs(options.max_gap));
+    const std::int64_t stamp_ns = estimate.poses[i].stamp_ns + toNanoseconds(options.time_offset);
+    const Sample sample = sampleAt(reference.poses, stamp_ns, toNanoseconds(options.max_gap));
     count(result.counts, sample.match);
     is_used[i] = sample.match == Match::Used;
     if (!is_used[i]) continue;

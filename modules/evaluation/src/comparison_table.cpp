@@ -51,6 +51,7 @@ std::string paddedName(const std::string& name, std::size_t width)
 std::string toTable(const std::vector<NamedReport>& reports)
 {
   if (reports.empty()) return {};
+  if (reports.size() == 1) return toTable(reports.front().report, reports.front().gates);
   std::size_t width = std::string("estimate").size();
   for (const NamedReport& named : reports)
     width = std::max(width, printable(named.name).size());

@@ -161,6 +161,7 @@ std::string toJson(const EvaluationReport& report, const std::vector<GateResult>
 
 std::string toJson(const std::vector<NamedReport>& reports)
 {
+  if (reports.size() == 1) return toJson(reports.front().report, reports.front().gates);
   Json estimates = Json::array();
   for (const NamedReport& named : reports)
   {

@@ -28,10 +28,11 @@ struct NamedReport
   std::vector<GateResult> gates = {};
 };
 
-/** A table with a row per estimate. */
+/** A table with a row per estimate; a single one is reported in full. */
 [[nodiscard]] std::string toTable(const std::vector<NamedReport>& reports);
 
-/** JSON object with the reports of all estimates, each as toJson() with its name. */
+/** JSON object with the reports of all estimates, each as toJson() with its name; a single one
+ * without it. */
 [[nodiscard]] std::string toJson(const std::vector<NamedReport>& reports);
 
 /** One picture of all estimates.
