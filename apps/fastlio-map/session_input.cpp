@@ -8,6 +8,7 @@
 #include <fastlio/config/config_yaml.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/rawlog/recording_formats.h>
+#include <fastlio/run/run_folder.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -23,8 +24,6 @@ namespace
 {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-constexpr const char* kRecord = "summary.json";
 
 /** Where the recording of a run is now: as its record has it, or beside its folder. */
 std::string locate(const std::string& recorded, const fs::path& folder)
@@ -43,11 +42,11 @@ std::string locate(const std::string& recorded, const fs::path& folder)
 
 RunInput inputOfFolder(const std::string& folder)
 {
-  const fs::path record = fs::path(folder) / kRecord;
+  const fs::path record = fs::path(folder) / kSummaryFile;
   std::ifstream file(record);
   if (!file)
     throw std::runtime_error(
-        "the folder '" + folder + "' has no " + kRecord +
+        "the folder '" + folder + "' has no " + kSummaryFile +
         ": it is none that fastlio-replay has written, and no recording");
   const Json json = Json::parse(file, nullptr, false);
   if (json.is_object() && json.value("program", "") == "fastlio-map")
@@ -98,11 +97,8 @@ void makeNamesUnique(std::vector<RunInput>& inputs)
 {
   std::set<std::string> taken;
   for (RunInput& input : inputs)
-  {
-    const std::string name = input.name;
-    for (int n = 2; !taken.insert(input.name).second; ++n)
-      input.name = name + "-" + std::to_string(n);
-  }
+    input.name = firstFree(
+        input.name, [&taken](const std::string& name) { return !taken.insert(name).second; });
 }
 }  // namespace
 

@@ -26,10 +26,7 @@ std::string folderIn(
         before.begin(), before.end(),
         [&](const BatchRun& run) { return run.arguments.output_directory == folder; });
   };
-  std::string folder = first;
-  for (int number = 2; taken(folder); ++number)
-    folder = first + "-" + std::to_string(number);
-  return folder;
+  return firstFree(first, taken);
 }
 }  // namespace
 

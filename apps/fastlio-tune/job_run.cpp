@@ -37,9 +37,9 @@ std::string hostPrefix()
 }
 
 /** A folder that is removed at the end; its name holds its process, in case that is killed. */
-struct ScratchFolder
+struct JobFolder
 {
-  ScratchFolder()
+  JobFolder()
   {
     const ProcessIdentity self = thisProcess();
     std::string name = (fs::temp_directory_path() / hostPrefix()).string() +
@@ -48,18 +48,18 @@ struct ScratchFolder
       throw std::runtime_error("cannot make folder '" + name + "'; is TMPDIR full?");
     path = name;
   }
-  ~ScratchFolder()
+  ~JobFolder()
   {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  JobFolder(const JobFolder&) = delete;
+  JobFolder& operator=(const JobFolder&) = delete;
   fs::path path;
 };
 
 /** The run's text on standard error, in one line, without parts that differ from run to run. */
-std::string complaintOf(const ScratchFolder& folder)
+std::string complaintOf(const JobFolder& folder)
 {
   std::ifstream in(folder.path / "errors");
   std::string text;
@@ -140,8 +140,7 @@ catch (const std::exception& e)
   outcome.message = e.what();
 }
 
-RunOutcome outcomeOf(
-    const Job& job, const ChildEnd& end, double timeout, const ScratchFolder& folder)
+RunOutcome outcomeOf(const Job& job, const ChildEnd& end, double timeout, const JobFolder& folder)
 {
   RunOutcome outcome;
   if (end.kind == ChildEnd::Kind::TimedOut)
@@ -183,7 +182,7 @@ std::string replayProgram()
 std::optional<RunOutcome> runJob(const Job& job, double timeout, const std::function<bool()>& go_on)
 {
   const auto start = Clock::now();
-  const ScratchFolder folder;
+  const JobFolder folder;
   const ChildEnd end =
       runChild(wordsOf(job, folder.path), (folder.path / "errors").string(), timeout, go_on);
   if (end.kind == ChildEnd::Kind::Stopped) return std::nullopt;

@@ -5,6 +5,7 @@
 
 #include <fastlio/config/config_document.h>
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/files/input_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/printable.h>
@@ -55,8 +56,8 @@ std::string truthOf(const TuneFiles& files, std::size_t i)
     requireReadable(files.truths[i], "--truth");
     return fs::canonical(files.truths[i]).string();
   }
-  const fs::path beside = fs::path(files.recordings[i]).replace_extension(".gt.tum");
-  return fs::is_regular_file(beside) ? fs::canonical(beside).string() : "";
+  const std::string beside = referenceFor("", {files.recordings[i]});
+  return beside.empty() ? beside : fs::canonical(beside).string();
 }
 
 std::vector<RecordingInput> recordingsOf(const TuneFiles& files)

@@ -44,13 +44,20 @@ std::string recordingName(const std::string& path)
   return stem.empty() || stem == "." || stem == ".." || stem == "-" ? "recording" : stem;
 }
 
+std::string firstFree(
+    const std::string& first, const std::function<bool(const std::string&)>& is_taken)
+{
+  std::string name = first;
+  for (int number = 2; is_taken(name); ++number)
+    name = first + "-" + std::to_string(number);
+  return name;
+}
+
 std::string freeRunFolder(const std::string& recording, const std::string& suffix)
 {
-  const std::string first = recordingName(recording) + suffix;
-  std::string folder = first;
-  for (int number = 2; fs::symlink_status(folder).type() != fs::file_type::not_found; ++number)
-    folder = first + "-" + std::to_string(number);
-  return folder;
+  return firstFree(
+      recordingName(recording) + suffix, [](const std::string& folder)
+      { return fs::symlink_status(folder).type() != fs::file_type::not_found; });
 }
 
 std::optional<std::string> linkLatest(const std::string& folder)

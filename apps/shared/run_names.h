@@ -4,6 +4,7 @@
 /** \file run_names.h Folders of runs that nobody has named. */
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,10 @@ namespace fastlio
 {
 /** The name of a recording without folder and suffix: "walk" of "data/walk.rawlog.gz". */
 [[nodiscard]] std::string recordingName(const std::string& path);
+
+/** \a first, or else "first-2" and so on: the first that is not taken. */
+[[nodiscard]] std::string firstFree(
+    const std::string& first, const std::function<bool(const std::string&)>& is_taken);
 
 /** A folder that is not there yet, in the current one: "walk-run", or "walk-run-2" and so on. */
 [[nodiscard]] std::string freeRunFolder(
