@@ -19,9 +19,8 @@ PlotCells wallsOf(
   const auto surfaces = submap.surfaces.get();
   for (const VoxelPlane& plane : surfaces->planes)
   {
-    const Vec3 n = T_world_submap.R * Eigen::Vector3f(plane.nx, plane.ny, plane.nz).cast<double>();
-    const Vec3 q =
-        T_world_submap * Vec3(Eigen::Vector3f(plane.qx, plane.qy, plane.qz).cast<double>());
+    const Vec3 n = T_world_submap.R * plane.normal();
+    const Vec3 q = T_world_submap * plane.centroid();
     if (std::abs(n.z()) > kUpright || (q - center).head<2>().norm() > kReach) continue;
     // A short stroke along the wall.
     const Vec3 along = Vec3(-n.y(), n.x(), 0.0).normalized();

@@ -27,16 +27,9 @@ constexpr std::size_t kFinePlanes = 1500;   // for comparing what was found
 constexpr std::size_t kMostRivals = 6;      // places that are compared
 }  // namespace
 
-/** A class of its own for the tree and what is aligned with it. */
-class SubmapRegistration::Impl : public PlaneAligner
-{
- public:
-  using PlaneAligner::PlaneAligner;
-};
-
 SubmapRegistration::SubmapRegistration(
     const std::vector<VoxelPlane>& target, std::shared_ptr<const Workers> workers)
-    : impl_(std::make_unique<Impl>(target, std::move(workers)))
+    : aligner_(std::make_unique<const PlaneAligner>(target, std::move(workers)))
 {
 }
 
@@ -89,24 +82,24 @@ Registration SubmapRegistration::search(
   none.motion.T_a_b = predicted.T_a_b;
   none.evidence.planes = source.size();
   const std::vector<Patch> all = patchesOf(source);
-  if (impl_->empty() || all.empty()) return none;
+  if (aligner_->empty() || all.empty()) return none;
   const std::vector<Patch> coarse = sampleOf(all, kCoarsePlanes);
   const std::vector<Patch> fine = sampleOf(all, kFinePlanes);
   // Costs of samples count for all planes.
   const auto costOf = [&](const std::vector<Patch>& sample, const Pose& T)
   {
     const double share = static_cast<double>(all.size()) / static_cast<double>(sample.size());
-    return share * impl_->costOf(sample, T) + priorCost(predicted, T);
+    return share * aligner_->costOf(sample, T) + priorCost(predicted, T);
   };
   const auto follow =
       [&](const std::vector<Pose>& starts, const std::vector<Patch>& sample, const auto& stages)
   {
     std::vector<std::optional<Found>> ends(starts.size());
-    impl_->workers().forEach(
+    aligner_->workers().forEach(
         starts.size(),
         [&](std::size_t i)
         {
-          if (const auto pose = impl_->follow(sample, starts[i], stages))
+          if (const auto pose = aligner_->follow(sample, starts[i], stages))
             ends[i] = Found{*pose, costOf(sample, *pose)};
         });
     std::vector<Found> found;
@@ -121,8 +114,8 @@ Registration SubmapRegistration::search(
     places.push_back(found.pose);
   const std::vector<Found> refined = distinct(follow(places, fine, kFine), kMostRivals);
   if (refined.empty()) return none;
-  Registration result = impl_->finish(all, refined.front().pose);
-  result.evidence.upright_score = impl_->uprightScore(all, refined.front().pose, up);
+  Registration result = aligner_->finish(all, refined.front().pose);
+  result.evidence.upright_score = aligner_->uprightScore(all, refined.front().pose, up);
   result.evidence.starts = starts.size();
   result.evidence.margin = std::numeric_limits<double>::infinity();
   if (refined.size() > 1)
@@ -138,9 +131,9 @@ std::vector<PlanePair> SubmapRegistration::pairs(
 {
   std::vector<PlanePair> found;
   const std::vector<Patch> patches = patchesOf(source);
-  if (impl_->empty()) return found;
+  if (aligner_->empty()) return found;
   for (std::size_t i = 0; i < patches.size(); ++i)
-    if (const auto pair = impl_->partnerOf(patches[i], T_target_source, kBeside))
+    if (const auto pair = aligner_->partnerOf(patches[i], T_target_source, kBeside))
       found.push_back({i, pair->target->plane, pair->at});
   return found;
 }
@@ -150,7 +143,7 @@ double SubmapRegistration::medianDistance(
 {
   std::vector<double> distances;
   for (const Patch& patch : sampleOf(patchesOf(source), kFinePlanes))
-    if (const auto pair = impl_->partnerOf(patch, T_target_source, kBeside))
+    if (const auto pair = aligner_->partnerOf(patch, T_target_source, kBeside))
       distances.push_back(std::abs(pair->distance));
   return median(std::move(distances));
 }

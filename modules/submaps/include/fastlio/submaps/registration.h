@@ -14,6 +14,8 @@
 
 namespace fastlio
 {
+class PlaneAligner;
+
 /** What speaks for a registration. */
 struct RegistrationEvidence
 {
@@ -83,8 +85,7 @@ class SubmapRegistration
       const std::vector<VoxelPlane>& source, const Pose& T_target_source) const;
 
  private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<const PlaneAligner> aligner_;
 };
 
 }  // namespace fastlio
