@@ -123,12 +123,17 @@ TEST_F(RunFolderTest, ALinkThatLeadsNowhereIsAFileOfSomebodyToo)
 TEST_F(RunFolderTest, RecordsOfAnyShapeAreSurvived)
 {
   write("a.csv", "of the user");
-  for (const char* junk : {"", "[", "[1]", "null", "7", "{\"exit_status\""})
+  const std::string deep(1'000'000, '[');
+  for (const std::string& junk :
+       {std::string(), std::string("["), std::string("[1]"), std::string("null"), std::string("7"),
+        std::string("{\"exit_status\""), deep, "{\"exit_status\": " + deep})
   {
     write("summary.json", junk);
-    EXPECT_NE(refusal(), "") << junk;
+    EXPECT_NE(refusal(), "") << junk.substr(0, 30);
   }
-  for (const char* odd : {R"({"exit_status": 0})", R"({"exit_status": 0, "outputs": 3})"})
+  const char* const nested =
+      R"({"exit_status": [1, {"path": "a"}], "outputs": [[{"path": "a.csv", "bytes": 1}], null]})";
+  for (const char* odd : {R"({"exit_status": 0})", R"({"exit_status": 0, "outputs": 3})", nested})
   {
     write("summary.json", odd);
     EXPECT_EQ(refusal(), "") << odd;
