@@ -175,8 +175,7 @@ void notePoses(
         "of LiDAR and IMU.");
 }
 
-/** LiDARs that could be used and are not. A single cloud is none, as the map of a run in an MCAP.
- */
+/** LiDARs that could be used and are not. A single cloud is none: it may be the map of a run. */
 void noteUnused(InputPlan& plan, const SensorSelection& selection)
 {
   for (const SensorSummary& sensor : selection.ignored)
@@ -207,15 +206,16 @@ bool hasKnownMounting(const SensorSummary& sensor)
   return !(T.R.isIdentity(0.0) && T.p.isZero(0.0));
 }
 
-/** What the times say by themselves, where a configured unit contradicts it; else empty. */
-std::string contradictedUnit(const SensorSummary& sensor, const LidarPlan& plan)
+/** Says so, where the times by themselves contradict a configured unit. */
+void noteContradictedUnit(const SensorSummary& sensor, LidarPlan& plan)
 {
   const PointTimeFinding alone =
       findPointTimes(sensor.point_times, {PointTimeUnit::Auto, plan.finding.reading.reference});
   if (alone.verdict != PointTimeVerdict::Found || alone.reading.unit == plan.finding.reading.unit)
-    return {};
-  return ". input.point_time_unit says so; without it, " + alone.evidence +
-         "; check the configured unit";
+    return;
+  plan.loud = true;
+  plan.text += ". input.point_time_unit says so; without it, " + alone.evidence +
+               "; check the configured unit";
 }
 
 LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters)
@@ -233,11 +233,7 @@ LidarPlan planLidar(const SensorSummary& sensor, const SensorOptions& parameters
   {
     case PointTimeVerdict::Found:
       plan.timing.reading = plan.finding.reading;
-      if (const std::string contradicted = contradictedUnit(sensor, plan); !contradicted.empty())
-      {
-        plan.loud = true;
-        plan.text += contradicted;
-      }
+      noteContradictedUnit(sensor, plan);
       break;
     case PointTimeVerdict::Instantaneous:
       if (parameters.missing_point_times == MissingPointTimes::Clockwise ||
