@@ -6,8 +6,6 @@
 #include <fastlio/options/printable.h>
 #include <fastlio/survey/sensor_selection.h>
 
-#include <mrpt/obs/CObservationIMU.h>
-
 #include <set>
 #include <utility>
 
@@ -20,41 +18,45 @@ ImportInputs::ImportInputs(const std::vector<std::string>& files, bool merge)
   else
     for (const std::string& file : files)
       inputs_.push_back({RawlogSource({file})});
-  if (merge) relabel(files);
+  if (merge)
+    for (const SensorKind kind : {SensorKind::Imu, SensorKind::Lidar})
+      relabel(kind, files);
   for (Input& input : inputs_)
     input.waiting = input.source.next();
 }
 
-void ImportInputs::relabel(const std::vector<std::string>& files)
+void ImportInputs::relabel(SensorKind kind, const std::vector<std::string>& files)
 {
+  const bool is_imu = kind == SensorKind::Imu;
   std::set<std::string> taken;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
-    std::set<std::string> own;
+    std::map<std::string, std::string> own;  // class by label
     for (const SensorSummary& sensor : surveySensors({files[i]}, {}).sensors)
-      if (sensor.kind == SensorKind::Imu) own.insert(sensor.label);
-    for (const std::string& label : own)
+      if (sensor.kind == kind) own.emplace(sensor.label, sensor.class_name);
+    for (const auto& [label, class_name] : own)
     {
       std::string free = label;
       for (int n = 2; taken.count(free) + (free == label ? 0 : own.count(free)) > 0; ++n)
         free = label + "_" + std::to_string(n);
       taken.insert(free);
       if (free == label) continue;
-      inputs_[i].labels[label] = free;
+      inputs_[i].labels[{class_name, label}] = {kind, free};
       notes_.push_back(
-          "another input has an IMU '" + printable(label) + "', too: that of '" +
-          printable(files[i]) + "' is written as '" + printable(free) +
-          "'; --imu-sensor-label of fastlio-replay chooses between them");
+          std::string("another input has ") + (is_imu ? "an IMU '" : "a LiDAR '") +
+          printable(label) + "', too: that of '" + printable(files[i]) + "' is written as '" +
+          printable(free) + "'; --" + (is_imu ? "imu" : "lidar") +
+          "-sensor-label of fastlio-replay chooses between them");
     }
   }
 }
 
-std::vector<std::string> ImportInputs::newLabels() const
+std::vector<std::string> ImportInputs::newLabels(SensorKind kind) const
 {
   std::vector<std::string> labels;
   for (const Input& input : inputs_)
     for (const auto& [before, now] : input.labels)
-      labels.push_back(now);
+      if (now.kind == kind) labels.push_back(now.label);
   return labels;
 }
 
@@ -67,10 +69,9 @@ mrpt::obs::CObservation::Ptr ImportInputs::next()
   if (first == nullptr) return nullptr;
   auto observation = std::move(first->waiting);
   first->waiting = first->source.next();
-  const auto label = first->labels.find(observation->sensorLabel);
-  if (label != first->labels.end() &&
-      dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()) != nullptr)
-    observation->sensorLabel = label->second;
+  const auto now =
+      first->labels.find({observation->GetRuntimeClass()->className, observation->sensorLabel});
+  if (now != first->labels.end()) observation->sensorLabel = now->second.label;
   return observation;
 }
 

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <fastlio/rawlog/rawlog_source.h>
+#include <fastlio/sensors/sensor_summary.h>
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fastlio
@@ -15,12 +17,12 @@ namespace fastlio
 class ImportInputs
 {
  public:
-  /** Inputs that are merged may each have an IMU of the same label: those of later inputs get
-   * another one. */
+  /** Inputs that are merged may each have an IMU or a LiDAR of the same label: those of later
+   * inputs get another one. */
   ImportInputs(const std::vector<std::string>& files, bool merge);
 
-  /** Labels that inputs got, beside those that they have. */
-  [[nodiscard]] std::vector<std::string> newLabels() const;
+  /** Labels that sensors of a kind got, beside those that they have. */
+  [[nodiscard]] std::vector<std::string> newLabels(SensorKind kind) const;
 
   /** Which labels are others now, for people. */
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
@@ -31,14 +33,21 @@ class ImportInputs
   [[nodiscard]] ReadProgress progress() const;
 
  private:
+  struct NewLabel
+  {
+    SensorKind kind;
+    std::string label;
+  };
+
   struct Input
   {
     RawlogSource source;
-    std::map<std::string, std::string> labels = {};  //!< of IMUs: new ones by old ones
-    mrpt::obs::CObservation::Ptr waiting = {};       //!< its next one
+    /** By class of the observation and label in the file. */
+    std::map<std::pair<std::string, std::string>, NewLabel> labels = {};
+    mrpt::obs::CObservation::Ptr waiting = {};  //!< its next one
   };
 
-  void relabel(const std::vector<std::string>& files);
+  void relabel(SensorKind kind, const std::vector<std::string>& files);
 
   std::vector<Input> inputs_;
   std::vector<std::string> notes_;

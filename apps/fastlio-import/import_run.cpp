@@ -129,7 +129,7 @@ class Import
 /** \exception Failure a pattern of topics finds nothing; lists what there is */
 void requireFound(
     const ImportPlan& plan, SensorKind kind, const std::string& option, const std::string& topic,
-    const std::vector<std::string>& new_labels = {})
+    const std::vector<std::string>& new_labels)
 {
   if (topic.empty()) return;
   const LabelPattern pattern(option, topic);
@@ -222,8 +222,10 @@ ImportStatus runImport(const ImportArguments& arguments)
     return plan.survey.sensors.empty() ? ImportStatus::Unusable : ImportStatus::Ok;
   }
   ImportInputs source(arguments.input_files, arguments.merge);
-  requireFound(plan, SensorKind::Lidar, "--lidar-topic", arguments.lidar_topic);
-  requireFound(plan, SensorKind::Imu, "--imu-topic", arguments.imu_topic, source.newLabels());
+  const auto require = [&](SensorKind kind, const char* option, const std::string& topic)
+  { requireFound(plan, kind, option, topic, source.newLabels(kind)); };
+  require(SensorKind::Lidar, "--lidar-topic", arguments.lidar_topic);
+  require(SensorKind::Imu, "--imu-topic", arguments.imu_topic);
   Import import(arguments, plan);
   for (const std::string& note : source.notes())
     std::cerr << "fastlio-import: " << note << '\n';

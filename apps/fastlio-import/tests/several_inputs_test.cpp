@@ -54,7 +54,7 @@ TEST_F(SeveralInputs, PartsThatDoNotFollowEachOtherAreRefused)
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
-TEST_F(SeveralInputs, ASecondImuOfTheSameLabelGetsAnother)
+TEST_F(SeveralInputs, ASecondSensorOfTheSameLabelGetsAnother)
 {
   const std::string first = file("a.bag", bagOf(messages()));
   const std::string second = file("b.mcap", mcapOf(messages({}, Wire::Cdr)));
@@ -66,10 +66,15 @@ TEST_F(SeveralInputs, ASecondImuOfTheSameLabelGetsAnother)
     ++counts[label];
   EXPECT_EQ(counts["/imu"], messages().size() - 30);
   EXPECT_EQ(counts["/imu_2"], counts["/imu"]);
+  EXPECT_EQ(counts["/lidar"], 30U);
+  EXPECT_EQ(counts["/lidar_2"], 30U);
   const auto chosen =
       import({"--merge", first, second, "-o", out(), "--overwrite", "--imu-topic", "/imu_2"});
   EXPECT_EQ(chosen.exit_status, 0) << chosen.output;
   EXPECT_FALSE(contains(chosen.output, "/imu:")) << chosen.output;
+  const auto scans =
+      import({"--merge", first, second, "-o", out(), "--overwrite", "--lidar-topic", "/lidar_2"});
+  EXPECT_EQ(scans.exit_status, 0) << scans.output;
 }
 }  // namespace
 }  // namespace fastlio::testing
