@@ -18,6 +18,12 @@ namespace
 {
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
+// In a sparse map, attitudes are wrong by about so much [rad], which the filter takes for the time
+// offset: the platform must turn so fast that this moves it by less than a centimetre.
+constexpr double kSparseAttitude = 0.003;
+constexpr double kHarmlessShift = 0.01;
+// A turn by the offset that is smaller says nothing [rad].
+constexpr double kLeastTurn = 0.001;
 
 ScanOutcome::Place placeOf(const Mode& mode)
 {
@@ -250,11 +256,11 @@ void Estimator::widenAfterFirstScan(ScanStatus status)
     state_.filter.P += window->covariance_after_first_scan;
 }
 
-// From then on the offset is uncertain. At rest the map becomes dense first: one that is still
-// sparse could be made to fit a wrong offset. A start in motion cannot wait: scans that are matched
-// with a wrong offset leave errors in velocity, biases and map that no later scan takes for those
-// of the offset. Maps that do not know the errors that neighbouring matches share are too sure of
-// it.
+// From then on the offset is uncertain. The map becomes dense first: one that is still sparse could
+// be made to fit a wrong offset. A start in motion cannot wait where rotation is fast: scans that
+// are matched with a wrong offset leave errors in velocity, biases and map that no later scan takes
+// for those of the offset. Maps that do not know the errors that neighbouring matches share are too
+// sure of it.
 void Estimator::releaseTimeOffset(const ScanResult& result, const DeskewedScan& scan)
 {
   const CalibrationOptions& p = options_.calibration;
@@ -262,13 +268,22 @@ void Estimator::releaseTimeOffset(const ScanResult& result, const DeskewedScan& 
   const FilterRun& run = this->run();
   const bool released = filter.P(kTimeOffset, kTimeOffset) != 0.0;
   if (!p.estimate_time_offset || released || !map_.surfaces().knowsSharedErrors()) return;
+  const bool tracks = result.status == ScanStatus::Tracking && run.consistent;
   const auto matched = static_cast<double>(result.statistics.points_effective);
-  const bool in_dense_map =
-      result.status == ScanStatus::Tracking && run.consistent &&
-      matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size());
-  if (!in_dense_map && !(run.motion_window && result.status == ScanStatus::FirstScan)) return;
-  const StateVector shift = p.time_offset_std * hiddenByTimeOffset(filter.x, scan.compensation);
-  filter.P += shift * shift.transpose();
+  const bool dense = matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size());
+  if (!run.motion_window)
+  {
+    if (tracks && dense) filter.P(kTimeOffset, kTimeOffset) = std::pow(p.time_offset_std, 2);
+    return;
+  }
+  const bool has_map = tracks || result.status == ScanStatus::FirstScan;
+  const double rate = scan.compensation.angular_rate.norm();
+  const bool turns_fast = p.time_offset_std * rate > kLeastTurn &&
+                          kHarmlessShift * rate > kSparseAttitude * filter.x.v.norm();
+  const bool settled = tracks && dense && !run.settlingAt(state_.stamp_ns);
+  if (!settled && !(has_map && turns_fast)) return;
+  const StateVector hidden = p.time_offset_std * hiddenByTimeOffset(filter.x, scan.compensation);
+  filter.P += hidden * hidden.transpose();
 }
 
 }  // namespace fastlio

@@ -274,12 +274,13 @@ MotionStart startInMotion(
   PriorWidth width{kFirstVelocityStd, kFirstTiltStd};
   Pass pass = window.run(window.prior(x0, width), pass_parameters, true);
   width.velocity = std::min(width.velocity, kSecondVelocityStd);
-  bool agreed = false;
-  for (int i = 1; i < kPasses && !agreed && isFinite(pass.start); ++i)
+  bool agreed = false, over = false;
+  for (int i = 1; i < kPasses && !over && isFinite(pass.start); ++i)
   {
     x0 = pass.start;
     pass = window.run(window.prior(x0, width), pass_parameters, false);
-    agreed = pass.velocity_std < kMaxVelocityStd && agree(x0, pass.start);
+    agreed = agree(x0, pass.start);
+    over = agreed && (pass.blind || pass.velocity_std < kMaxVelocityStd);
     pass.start = damped(x0, pass.start, p);
     width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
     width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
