@@ -18,21 +18,30 @@ ImportInputs::ImportInputs(const std::vector<std::string>& files, bool merge)
   else
     for (const std::string& file : files)
       inputs_.push_back({RawlogSource({file})});
-  if (merge)
-    for (const SensorKind kind : {SensorKind::Imu, SensorKind::Lidar})
-      relabel(kind, files);
+  if (merge) relabel(files);
   for (Input& input : inputs_)
     input.waiting = input.source.next();
 }
 
-void ImportInputs::relabel(SensorKind kind, const std::vector<std::string>& files)
+void ImportInputs::relabel(const std::vector<std::string>& files)
+{
+  std::vector<std::vector<SensorSummary>> sensors;
+  for (const std::string& file : files)
+    sensors.push_back(surveySensors({file}, {}).sensors);
+  for (const SensorKind kind : {SensorKind::Imu, SensorKind::Lidar})
+    relabel(kind, files, sensors);
+}
+
+void ImportInputs::relabel(
+    SensorKind kind, const std::vector<std::string>& files,
+    const std::vector<std::vector<SensorSummary>>& sensors)
 {
   const bool is_imu = kind == SensorKind::Imu;
   std::set<std::string> taken;
   for (std::size_t i = 0; i < files.size(); ++i)
   {
     std::map<std::string, std::string> own;  // class by label
-    for (const SensorSummary& sensor : surveySensors({files[i]}, {}).sensors)
+    for (const SensorSummary& sensor : sensors[i])
       if (sensor.kind == kind) own.emplace(sensor.label, sensor.class_name);
     for (const auto& [label, class_name] : own)
     {

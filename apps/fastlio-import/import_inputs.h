@@ -47,7 +47,11 @@ class ImportInputs
     mrpt::obs::CObservation::Ptr waiting = {};  //!< its next one
   };
 
-  void relabel(SensorKind kind, const std::vector<std::string>& files);
+  void relabel(const std::vector<std::string>& files);
+  /** \param sensors of each file */
+  void relabel(
+      SensorKind kind, const std::vector<std::string>& files,
+      const std::vector<std::vector<SensorSummary>>& sensors);
 
   std::vector<Input> inputs_;
   std::vector<std::string> notes_;

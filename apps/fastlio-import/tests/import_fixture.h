@@ -31,6 +31,12 @@ class ImportFixture : public ::testing::Test
     return folder_.file(name);
   }
 
+  /** Clouds at 10 Hz with the time field that is asked for, and an IMU. */
+  static std::vector<TopicMessage> messages(const TimeField& time = {}, Wire wire = Wire::Ros1)
+  {
+    return messagesOf(recording(30), wire, time);
+  }
+
   std::string out(const std::string& name = "out.rawlog") { return folder_.file(name); }
 
   TemporaryFolder folder_;

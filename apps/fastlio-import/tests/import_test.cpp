@@ -23,12 +23,6 @@ namespace
 class ImportProgram : public ImportFixture
 {
  protected:
-  /** Clouds at 10 Hz with the time field that is asked for, and an IMU. */
-  static std::vector<TopicMessage> messages(const TimeField& time = {}, Wire wire = Wire::Ros1)
-  {
-    return messagesOf(recording(30), wire, time);
-  }
-
   /** Seconds after the stamp of all points of the clouds of a rawlog. */
   static std::vector<float> timesOf(const std::string& rawlog)
   {

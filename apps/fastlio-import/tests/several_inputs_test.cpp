@@ -16,12 +16,6 @@ namespace
 {
 class SeveralInputs : public ImportFixture
 {
- protected:
-  /** Clouds at 10 Hz, and an IMU. */
-  static std::vector<TopicMessage> messages(const TimeField& time = {}, Wire wire = Wire::Ros1)
-  {
-    return messagesOf(recording(30), wire, time);
-  }
 };
 
 TEST_F(SeveralInputs, SeveralInputsOfSeveralFormatsAreOneRecording)
