@@ -9,6 +9,7 @@
 #include <fastlio/files/input_file.h>
 #include <fastlio/interface/odometry_option_table.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 #include <fastlio/survey/lidar_models.h>
 
 #include <algorithm>
@@ -206,14 +207,6 @@ std::string fileText(const std::string& path)
   return text;
 }
 
-/** As around the colon of a parameter file, blanks around the sign do not count. */
-std::string withoutBlanks(const std::string& text)
-{
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? ""
-                                    : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
-}
-
 /** Where a preset is that was named as if its file lay here. */
 std::string presetText(const std::string& path)
 {
@@ -276,15 +269,17 @@ std::string applySetting(const std::string& setting, Config& config)
 {
   const auto wrong = [&setting](const std::string& what)
   { return std::invalid_argument("--set '" + printable(setting) + "': " + what); };
+  // As around the colon of a parameter file, blanks around the sign do not count.
   const std::size_t equals = setting.find('=');
-  std::string key = withoutBlanks(setting.substr(0, equals));
+  std::string key(trimmed(std::string_view(setting).substr(0, equals)));
   if (equals == std::string::npos)
     throw wrong("has no '='; write KEY=VALUE, for example map.voxel_size=0.3");
   const auto* row = findOption(configTable(), key);
   if (row == nullptr)
     throw wrong("unknown key; did you mean '" + nearestKey(configTable(), key) + "'?");
-  if (const auto problem =
-          assign(row->value(config), row->unit, withoutBlanks(setting.substr(equals + 1))))
+  if (const auto problem = assign(
+          row->value(config), row->unit,
+          std::string(trimmed(std::string_view(setting).substr(equals + 1)))))
     throw wrong(*problem);
   return key;
 }
