@@ -38,9 +38,15 @@ void RunTable::add(std::string_view text, std::size_t line)
   lines_.push_back(line);
 }
 
+std::size_t RunTable::placeOf(std::string_view name) const
+{
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
 bool RunTable::has(std::string_view name) const
 {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
+  return placeOf(name) < names_.size();
 }
 
 std::vector<std::size_t> RunTable::columns(const std::vector<std::string>& names) const
@@ -49,9 +55,8 @@ std::vector<std::size_t> RunTable::columns(const std::vector<std::string>& names
   std::vector<std::string> missing;
   for (const std::string& name : names)
   {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) missing.push_back(name);
-    places.push_back(static_cast<std::size_t>(found - names_.begin()));
+    places.push_back(placeOf(name));
+    if (places.back() == names_.size()) missing.push_back(name);
   }
   if (!missing.empty())
     failAt(
@@ -69,7 +74,8 @@ std::string_view RunTable::text(std::size_t row, std::size_t column) const
 
 std::string_view RunTable::text(std::size_t row, std::string_view name) const
 {
-  return text(row, columns({std::string(name)}).front());
+  const std::size_t place = placeOf(name);
+  return text(row, place < names_.size() ? place : columns({std::string(name)}).front());
 }
 
 double RunTable::number(std::size_t row, std::string_view name) const

@@ -49,6 +49,8 @@ class RunTable
 
  private:
   void add(std::string_view text, std::size_t line);
+  /** As many as there are columns: it is not there. */
+  [[nodiscard]] std::size_t placeOf(std::string_view name) const;
 
   std::filesystem::path file_;
   std::vector<std::string> names_;
