@@ -40,17 +40,17 @@ std::ostream& operator<<(std::ostream& out, const StartGate& gate)
   return out << gate.scenario;
 }
 
-// Each bound is 2 to 5 times what seed 1 shows:
+// Each bound is twice or more what seed 1 shows:
 //
 //              APE      velocity  given up
-//   campus     0.007    0.004      0
+//   campus     0.008    0.004      0
 //   office     0.003    0.003      0
-//   uav        0.061    0.031      6
-//   car        0.009    0.005      0
+//   uav        0.051    0.025      6
+//   car        0.007    0.005      0
 //   shake      0.015    0.010      0
 //   spin       0.015    0.005      0
 //   stairs     0.016    0.005      0
-//   open_area  0.002    0.003      6
+//   open_area  0.003    0.003      6
 //   crowd      0.004    0.003      6
 //   rest       0.001    0.003      0
 //   rest_crowd 0.002    0.002      0

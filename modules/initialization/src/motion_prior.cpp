@@ -67,6 +67,20 @@ StateMatrix poseVariances(double attitude_std, double position_std)
   P.diagonal().segment<3>(kPosition).setConstant(position_std * position_std);
   return P;
 }
+
+/** The integral of the specific force, turned to the first frame by the gyro [m/s]. */
+Vec3 integratedForce(const Inputs& inputs)
+{
+  Mat3 R = Mat3::Identity();
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < inputs.samples.size(); ++i)
+  {
+    const double dt = inputs.duration(i);
+    sum += dt * (R * inputs.samples[i].accel);
+    R = R * expSO3(dt * inputs.samples[i].gyro);
+  }
+  return sum;
+}
 }  // namespace
 
 double Inputs::duration(std::size_t i) const
@@ -95,17 +109,12 @@ NavState startState(
   return x;
 }
 
-Vec3 integratedForce(const Inputs& inputs)
+double meanForce(const Inputs& inputs)
 {
-  Mat3 R = Mat3::Identity();
-  Vec3 sum = Vec3::Zero();
+  double duration = 0.0;
   for (std::size_t i = 0; i < inputs.samples.size(); ++i)
-  {
-    const double dt = inputs.duration(i);
-    sum += dt * (R * inputs.samples[i].accel);
-    R = R * expSO3(dt * inputs.samples[i].gyro);
-  }
-  return sum;
+    duration += inputs.duration(i);
+  return integratedForce(inputs).norm() / duration;
 }
 
 NavState firstGuess(const Inputs& inputs, const InitializationOptions& p)

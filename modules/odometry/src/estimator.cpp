@@ -18,18 +18,23 @@ namespace
 {
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
-// In a sparse map, attitudes are wrong by about so much [rad], which the filter takes for the time
-// offset: the platform must turn so fast that this moves it by less than a centimetre.
-constexpr double kSparseAttitude = 0.003;
-constexpr double kHarmlessShift = 0.01;
-// A turn by the offset that is smaller says nothing [rad].
-constexpr double kLeastTurn = 0.001;
 
 ScanOutcome::Place placeOf(const Mode& mode)
 {
   if (std::holds_alternative<EnteringMap>(mode)) return ScanOutcome::Place::OutsideGivenMap;
   if (std::holds_alternative<Relocalizing>(mode)) return ScanOutcome::Place::Reinitialised;
   return ScanOutcome::Place::InMap;
+}
+
+/** In a sparse map attitudes are wrong by milliradians, and the filter takes that for the time
+ * offset: the platform must turn so fast that this moves it by less than a centimetre.
+ * \param rate [rad/s] \param speed [m/s] */
+bool turnsFast(double rate, double speed, double time_offset_std)
+{
+  constexpr double kSparseAttitude = 0.003;  // [rad]
+  constexpr double kHarmlessShift = 0.01;    // [m]
+  constexpr double kLeastTurn = 0.001;       // by the offset: a smaller one says nothing [rad]
+  return time_offset_std * rate > kLeastTurn && kHarmlessShift * rate > kSparseAttitude * speed;
 }
 }  // namespace
 
@@ -271,18 +276,15 @@ void Estimator::releaseTimeOffset(const ScanResult& result, const DeskewedScan& 
   const bool tracks = result.status == ScanStatus::Tracking && run.consistent;
   const auto matched = static_cast<double>(result.statistics.points_effective);
   const bool dense = matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size());
-  if (!run.motion_window)
-  {
-    if (tracks && dense) filter.P(kTimeOffset, kTimeOffset) = std::pow(p.time_offset_std, 2);
-    return;
-  }
-  const bool has_map = tracks || result.status == ScanStatus::FirstScan;
-  const double rate = scan.compensation.angular_rate.norm();
-  const bool turns_fast = p.time_offset_std * rate > kLeastTurn &&
-                          kHarmlessShift * rate > kSparseAttitude * filter.x.v.norm();
   const bool settled = tracks && dense && !run.settlingAt(state_.stamp_ns);
-  if (!settled && !(has_map && turns_fast)) return;
-  const StateVector hidden = p.time_offset_std * hiddenByTimeOffset(filter.x, scan.compensation);
+  const bool cannot_wait =
+      run.motion_window && (tracks || result.status == ScanStatus::FirstScan) &&
+      turnsFast(scan.compensation.angular_rate.norm(), filter.x.v.norm(), p.time_offset_std);
+  if (!settled && !cannot_wait) return;
+  // A map that was begun at rest has no offset in it.
+  StateVector hidden = StateVector::Unit(kTimeOffset);
+  if (run.motion_window) hidden = hiddenByTimeOffset(filter.x, scan.compensation);
+  hidden *= p.time_offset_std;
   filter.P += hidden * hidden.transpose();
 }
 

@@ -80,14 +80,7 @@ class Window
 
   [[nodiscard]] const MotionWindow& motionWindow() const { return window_; }
 
-  /** Magnitude of the mean specific force [m/s^2]. */
-  [[nodiscard]] double meanForce() const
-  {
-    double duration = 0.0;
-    for (std::size_t i = 0; i < all_.samples.size(); ++i)
-      duration += all_.duration(i);
-    return integratedForce(all_).norm() / duration;
-  }
+  [[nodiscard]] double force() const { return meanForce(all_); }
 
   [[nodiscard]] NavState guess() const { return firstGuess(all_, parameters_.initialization); }
 
@@ -126,6 +119,7 @@ class Window
                       toSeconds(end.stamp_ns - first.stamp_ns);
     describeStart(last.filter, poses, pass);
     describeEnd(last.filter, pass);
+    keepVelocityLikely(pass);
     return pass;
   }
 
@@ -160,8 +154,12 @@ class Window
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(end.P.block<3, 3>(kVelocity, kVelocity));
     pass.velocity_std = std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
     pass.least_known = end.x.R.transpose() * eigen.eigenvectors().col(2);
-    // What the scans leave open is anything, up to tens of m/s, and the next pass, which begins
-    // with it, would not find back: there the velocity goes as far as its prior admits.
+  }
+
+  /** What the scans leave open is anything, up to tens of m/s, and the next pass, which begins
+   * with it, would not find back: there the velocity goes as far as its prior admits. */
+  static void keepVelocityLikely(Pass& pass)
+  {
     const Vec3 direction = pass.start.R * pass.least_known;
     const double ratio = pass.velocity_std / kFirstVelocityStd, share = ratio * ratio;
     pass.start.v -= share / (1.0 + share) * direction.dot(pass.start.v) * direction;
@@ -262,7 +260,7 @@ MotionStart startInMotion(
 
   NavState x0 = window.guess();
   MotionStart result;
-  const double force = window.meanForce();
+  const double force = window.force();
   if (!isFinite(x0) || !(std::abs(force - p.gravity) < kMostForceError))
   {
     result.message = mrpt::format(

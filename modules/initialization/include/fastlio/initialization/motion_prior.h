@@ -31,8 +31,8 @@ struct Inputs
 [[nodiscard]] NavState startState(
     const Vec3& g_imu, const Vec3& v_imu, const Vec3& gyro_bias, const InitializationOptions& p);
 
-/** The integral of the specific force, turned to the first frame by the gyro [m/s]. */
-[[nodiscard]] Vec3 integratedForce(const Inputs& inputs);
+/** Magnitude of the mean specific force, turned to the first frame by the gyro [m/s^2]. */
+[[nodiscard]] double meanForce(const Inputs& inputs);
 
 /** Before any scan: the mean specific force, turned to the first frame by the gyro, is gravity but
  * for the change of velocity. */
