@@ -56,21 +56,14 @@ const std::map<std::string, mrpt::system::VerbosityLevel>& verbosityNames()
 void addInputOptions(
     CLI::App& app, ReplayArguments& arguments, std::vector<std::string>& positional)
 {
-  app.add_option(
-         "-c,--config", arguments.config_file,
-         "Parameters (YAML); the rest has the defaults of the sensor")
-      ->type_name("FILE.yaml");
+  addParameterOptions(
+      app, arguments.parameters, "Parameters (YAML); the rest has the defaults of the sensor");
   app.add_option(
          "recordings", positional,
          "Recordings: rawlogs, bags, MCAP, captures, folders (docs/import.md); of several, each "
          "gets a run of its own, but those that follow each other in time are one recording")
       ->type_name("RECORDING");
   addJoinOptions(app, arguments.joining);
-  app.add_option(
-         "--set", arguments.settings,
-         "Set a parameter as the configuration file would, and over it; may be repeated")
-      ->allow_extra_args(false)  // what follows is a recording
-      ->type_name("KEY=VALUE");
   app.add_option(
          "--input-rawlog,--input-rosbag2", arguments.input_files,
          "A recording, too, of any format; repeated: the parts of a split one, in order")

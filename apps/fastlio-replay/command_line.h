@@ -4,6 +4,7 @@
 /** \file command_line.h The arguments of fastlio-replay. */
 #pragma once
 
+#include "../shared/given_parameters.h"
 #include <fastlio/survey/recording_parts.h>
 
 #include <mrpt/system/COutputLogger.h>
@@ -19,12 +20,11 @@ namespace fastlio
 /** The command line as given. */
 struct ReplayArguments
 {
-  std::string config_file;                        //!< empty: all have their defaults
+  ParameterOptions parameters;
   std::vector<std::string> input_files;           //!< recordings, in order
   Joining joining = Joining::ByStamps;            //!< which of them are parts of one
   bool batch = false;                             //!< they are recordings of their own, or parts
   bool in_order = false;                          //!< the parts are known to follow each other
-  std::vector<std::string> settings;              //!< KEY=VALUE, over those of the file
   std::string output_directory;                   //!< empty: none
   std::string output_tum_path;                    //!< empty: none
   bool overwrite = false;                         //!< also files that no run has written

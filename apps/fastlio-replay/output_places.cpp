@@ -34,7 +34,7 @@ std::vector<FileUse> inputsOf(const ReplayArguments& arguments)
   inputs.reserve(arguments.input_files.size() + 3);
   for (const std::string& file : arguments.input_files)
     inputs.push_back({file, "--input-rawlog"});
-  inputs.push_back({arguments.config_file, "--config"});
+  inputs.push_back({arguments.parameters.config_file, "--config"});
   inputs.push_back({arguments.map_in, "--map-in"});
   inputs.push_back({referenceFor(arguments.reference, arguments.input_files), "--reference"});
   return inputs;

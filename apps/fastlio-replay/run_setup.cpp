@@ -50,8 +50,11 @@ ConfigFile readFile(const ReplayArguments& arguments)
 {
   return failingWith(
       ExitStatus::Usage,
-      [&] {
-        return arguments.config_file.empty() ? ConfigFile{} : readConfigFile(arguments.config_file);
+      [&]
+      {
+        return arguments.parameters.config_file.empty()
+                   ? ConfigFile{}
+                   : readConfigFile(arguments.parameters.config_file);
       });
 }
 
@@ -63,7 +66,7 @@ Loaded loadConfiguration(const ReplayArguments& arguments)
       ExitStatus::Usage,
       [&]
       {
-        for (const std::string& setting : arguments.settings)
+        for (const std::string& setting : arguments.parameters.settings)
           loaded.origins[applySetting(setting, loaded.file.config)] = "--set";
       });
   OdometryOptions& odometry = loaded.file.config.odometry;
@@ -196,7 +199,7 @@ std::string dumpedConfig(const ReplayArguments& arguments)
     checked([&] { requireReadableRecordings(arguments.input_files); });
     takePreset(sensorsOf(arguments, loaded.file.config), loaded);
   }
-  const std::string file = inOneLine(arguments.config_file);
+  const std::string file = inOneLine(arguments.parameters.config_file);
   const auto origin = [&](std::string_view view) -> std::string
   {
     const std::string key(view);
@@ -214,7 +217,7 @@ RunSetup setUpRun(const ReplayArguments& arguments)
   RunSetup setup;
   Loaded loaded = loadConfiguration(arguments);
   setup.config = loaded.file.config;
-  if (!arguments.settings.empty()) checked([&] { return validate(setup.config); });
+  if (!arguments.parameters.settings.empty()) checked([&] { return validate(setup.config); });
   setup.arguments = withoutDoubleTrajectory(arguments, setup.config);
   setup.outputs =
       failingWith(ExitStatus::Usage, [&] { return planOutputs(setup.arguments, setup.config); });
@@ -228,8 +231,8 @@ RunSetup setUpRun(const ReplayArguments& arguments)
       });
   setup.selection = sensorsOf(arguments, setup.config);
   std::vector<std::string> notes;
-  setup.configuration =
-      arguments.config_file.empty() ? "defaults (no --config given)" : arguments.config_file;
+  setup.configuration = arguments.parameters.config_file.empty() ? "defaults (no --config given)"
+                                                                 : arguments.parameters.config_file;
   if (const auto preset = takePreset(setup.selection, loaded))
   {
     setup.config = loaded.file.config;
