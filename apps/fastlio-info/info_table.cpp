@@ -195,8 +195,7 @@ std::string motionText(const RecordingSurvey& survey)
              "rotation", motion.rotation_known
                              ? format(
                                    "the given rotation of the LiDAR differs by %.1f deg from the "
-                                   "one that both motions "
-                                   "show",
+                                   "one that both motions show",
                                    kDegPerRad * survey.rotation_error)
                              : std::string("the motion turns about one axis only: not observable"));
 }

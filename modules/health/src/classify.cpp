@@ -128,8 +128,7 @@ std::string relocalisationFailure(
   return mrpt::format(
       "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
       "needed: give an initial pose that is nearer to the true one, or search farther with a "
-      "larger "
-      "initialization.pose_position_std (now %.2f m) and pose_yaw_std",
+      "larger initialization.pose_position_std (now %.2f m) and pose_yaw_std",
       100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)),
       100.0 * kGivenMapInlierRatio, p.pose_position_std);
 }

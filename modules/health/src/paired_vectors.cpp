@@ -8,8 +8,8 @@ namespace fastlio
 namespace
 {
 constexpr double kFewestPairs = 90.0;
-// Of the sums, per pair: the mounting in use may be estimated along the way, so that what was seen
-// a minute ago counts less.
+// Of the sums, per pair: the pose of the LiDAR in use may be estimated along the way, so that what
+// was seen a minute ago counts less.
 constexpr double kForgetting = 0.998;
 }  // namespace
 

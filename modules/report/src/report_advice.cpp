@@ -24,8 +24,7 @@ const std::vector<AdviceRow>& adviceRows()
        {"The scans have not corrected the pose for too long, or the filter took a step that is "
         "no number. The pose cannot be trusted.",
         "Look at the cause in the seconds before. Check the pose of the LiDAR, units and clocks "
-        "with "
-        "fastlio-info."}},
+        "with fastlio-info."}},
       {HealthCause::NoMatch,
        {"The scan did not correct the predicted pose: too few points match the map.",
         "Check lidar.min_range and lidar.max_range, and that the LiDAR sees its surroundings. "
@@ -51,8 +50,7 @@ const std::vector<AdviceRow>& adviceRows()
       {HealthCause::Bias,
        {"An estimated bias of the inertial sensor has run far away: it explains something else.",
         "Check the pose of the LiDAR, the units of the inertial sensor (imu.accel_unit, "
-        "imu.gyro_unit) "
-        "and the clocks of both sensors."}},
+        "imu.gyro_unit) and the clocks of both sensors."}},
       {HealthCause::ScanTiming,
        {"There is a long time without a scan.",
         "Look for lost packets, a full disk or stamps that jump in the recording "

@@ -144,7 +144,7 @@ std::string calibrationHtml(const RunSummary& run)
   return tableOf(
              {{"Pose of the LiDAR, error of rotation [deg]",
                vectorText(kDegPerRad * check.rotation, kDegPerRad * check.rotation_std, 3)},
-              {"Pose of the LiDAR, error of place [m]",
+              {"Pose of the LiDAR, error of translation [m]",
                vectorText(check.translation, check.translation_std, 4)},
               {"Innovations over their covariance", fixedText(check.innovation_scale, 3)},
               {"Beams: common range error [m]", fixedText(check.range_offset, 4)},

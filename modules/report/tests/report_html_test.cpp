@@ -261,15 +261,7 @@ TEST(ReportHtml, WithoutTheMapTheRestIsThere)
 /** With --no-map-update no point is saved. */
 TEST(ReportHtml, WithoutPointsNothingIsSaidOfTheirColours)
 {
-  const TemporaryFolder folder;
-  ExportTarget target;
-  target.directory = folder.path();
-  ExporterSet set;
-  set.add(makeReportExporter(target), folder.file("report.html"));
-  for (const ScanResult& scan : walk(20))
-    set.onScan(scan);
-  (void)set.finish(testing::goodRun(), OutputMap());
-  const std::string html = contentOf(folder.file("report.html"));
+  const std::string html = reportOf(walk(20), testing::goodRun(), "", OutputMap());
   EXPECT_TRUE(has(html, "The saved map has no points.")) << html;
   EXPECT_FALSE(has(html, "Colours show the height"));
   EXPECT_FALSE(has(html, "Where points are denser"));

@@ -46,7 +46,8 @@ class FurtherFolder
 
 /** report.html for these scans. \param run is completed with them */
 inline std::string reportOf(
-    const std::vector<ScanResult>& scans, RunSummary run = {}, const std::string& reference = {})
+    const std::vector<ScanResult>& scans, RunSummary run = {}, const std::string& reference = {},
+    const OutputMap& map = *smallMap())
 {
   const FurtherFolder folder;
   ExportTarget target;
@@ -59,7 +60,7 @@ inline std::string reportOf(
     set.onScan(scan);
     run.statistics.add(scan);
   }
-  const RunSummary done = set.finish(std::move(run), *smallMap());
+  const RunSummary done = set.finish(std::move(run), map);
   EXPECT_TRUE(set.problems().empty());
   EXPECT_EQ(done.outputs.size(), 1U);
   return contentOf(folder.file("report.html"));
