@@ -20,11 +20,10 @@ namespace fastlio
 /** The option that begins like \a seen, or the most similar one. Empty: it is like none. */
 inline std::string similarOption(const std::string& seen, const std::vector<std::string>& names)
 {
-  for (const std::string& name : names)
-    if (seen.size() > 2 && name.rfind(seen, 0) == 0) return name;
-  const std::vector<std::string_view> views(names.begin(), names.end());
-  const std::string nearest(nearestName(seen, views));
-  return 2 * editDistance(seen, nearest) < seen.size() ? nearest : "";
+  const std::string nearest(nearestName(seen, {names.begin(), names.end()}));
+  const bool similar =
+      isBeginningOf(seen, nearest) || 2 * editDistance(seen, nearest) < seen.size();
+  return similar ? nearest : "";
 }
 
 /** The first argument left when all options have been read, and the option that is like it. */

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace fastlio
 {
@@ -42,10 +43,17 @@ std::size_t editDistance(std::string_view a, std::string_view b)
   return previous.back();
 }
 
+bool isBeginningOf(std::string_view name, std::string_view candidate)
+{
+  return name.size() > 2 && candidate.substr(0, name.size()) == name;
+}
+
 std::string_view nearestName(std::string_view name, const std::vector<std::string_view>& candidates)
 {
-  const auto nearer = [name](std::string_view a, std::string_view b)
-  { return editDistance(name, a) < editDistance(name, b); };
+  const auto order = [name](std::string_view candidate)
+  { return std::pair(!isBeginningOf(name, candidate), editDistance(name, candidate)); };
+  const auto nearer = [&order](std::string_view a, std::string_view b)
+  { return order(a) < order(b); };
   const auto best = std::min_element(candidates.begin(), candidates.end(), nearer);
   return best == candidates.end() ? std::string_view{} : *best;
 }

@@ -65,3 +65,10 @@ TEST(NearestName, TakesTheNearestAndTheFirstOfEqual)
   EXPECT_EQ(nearestName("b", {"a", "c"}), "a");
   EXPECT_EQ(nearestName("anything", {}), "");
 }
+
+TEST(NearestName, PrefersANameThatWasNotWrittenToItsEnd)
+{
+  EXPECT_EQ(nearestName("map.voxel", {"map.type", "map.voxel_size"}), "map.voxel_size");
+  EXPECT_EQ(nearestName("--rep", {"--ref", "--report-notes", "--report"}), "--report");
+  EXPECT_EQ(nearestName("ma", {"mb", "matching"}), "mb") << "two characters say too little";
+}

@@ -14,8 +14,13 @@ namespace fastlio
  * into \a b (optimal string alignment distance). */
 [[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b);
 
-/** The candidate with the smallest edit distance, the first of them when there are several; empty
- * when there are no candidates. */
+/** True when \a candidate begins with \a name, which has three characters or more: it was not
+ * written to its end. */
+[[nodiscard]] bool isBeginningOf(std::string_view name, std::string_view candidate);
+
+/** The candidate that was meant by \a name: one that begins with it, else the one with the smallest
+ * edit distance; of several the nearest, and the first of equal ones. Empty when there are no
+ * candidates. */
 [[nodiscard]] std::string_view nearestName(
     std::string_view name, const std::vector<std::string_view>& candidates);
 
