@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Inertial samples are missing for less than imu.max_gap, so that nothing is re-initialised: scans
-// are distorted, and the prediction behind the gap is uncertain.
+// Inertial samples are missing. For less than imu.max_gap nothing is re-initialised: scans are
+// distorted, and the prediction behind the gap is uncertain.
 
 #include "walks.h"
 #include <fastlio/scenarios/realistic.h>
@@ -16,15 +16,21 @@ namespace fastlio::testing
 {
 namespace
 {
-SimulatedRun runWithGap(const CastWalk& walk, double begin_s, double length_s)
+/** No sample in \a length_s seconds of a walk that began at \a start_ns. */
+AlteredInputs withGap(std::int64_t start_ns, double begin_s, double length_s)
 {
   AlteredInputs inputs;
-  inputs.imu = [&](ImuSample& sample)
+  inputs.imu = [=](ImuSample& sample)
   {
-    const double t = walk.secondsAt(sample.stamp_ns);
+    const double t = toSeconds(sample.stamp_ns - start_ns);
     return t < begin_s || t >= begin_s + length_s;
   };
-  return walk.runWith(std::move(inputs));
+  return inputs;
+}
+
+SimulatedRun runWithGap(const CastWalk& walk, double begin_s, double length_s)
+{
+  return walk.runWith(withGap(walk.simulation.settings().start_ns, begin_s, length_s));
 }
 
 /** The largest standard deviation of the position in a run [m]. */
@@ -65,6 +71,26 @@ TEST(GapOfTheImu, IsNoMoreUncertainThanTheInertialDataMakeIt)
   const CastWalk campus(realistic(walk("campus")));
   for (const double begin : {11.0, 13.0})
     EXPECT_LT(mostUncertain(runWithGap(campus, begin, 0.4)), 0.7) << begin;
+}
+
+// The start behind a long gap took the clocks as they were given: none was found in motion until
+// the end of the run.
+TEST(GapOfTheImu, IsLeftWithTheOffsetOfTheClocksThatWasFoundBefore)
+{
+  for (const auto& [scenario, begin_s] : {std::pair("campus", 10.0), std::pair("shake", 13.0)})
+  {
+    SCOPED_TRACE(scenario);
+    SimulationSettings settings = walk(scenario);
+    settings.lidar.time_offset = 0.01;
+    OdometryOptions options = matchingParameters(settings);
+    options.threads = 1;
+    options.lidar.time_offset = 0.0;
+    options.calibration.estimate_time_offset = true;
+    const SimulatedRun run =
+        runOdometryWith(withGap(settings.start_ns, begin_s, 3.0), Simulation(settings), options);
+    EXPECT_LT(positionError(run, run.scans.back()), 0.05);
+    EXPECT_NEAR(run.scans.back().result.filter.x.time_offset, -0.01, 0.0005);
+  }
 }
 
 }  // namespace fastlio::testing

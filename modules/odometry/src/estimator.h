@@ -68,8 +68,8 @@ class Estimator
   /** Searches the pose in the map around the predicted one for a while, then begins a new map where
    * the inertial data have the pose. With keepsState() only. */
   void searchAroundPrediction();
-  /** No scans until reinitialise(). */
-  void suspend();
+  /** No scans until reinitialise(). Meanwhile, scans are calibrated as \a believed is. */
+  void suspend(const NavState& believed);
   /** Goes on from a start of its own with the carried pose: searches for the map of before, and
    * begins a new one when it is not found. */
   void reinitialise(

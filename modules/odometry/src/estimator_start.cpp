@@ -113,10 +113,12 @@ void Estimator::searchAroundPrediction()
       state_.stamp_ns + toNanoseconds(kMapSearchTime)};
 }
 
-void Estimator::suspend()
+void Estimator::suspend(const NavState& believed)
 {
   skipScan();
   rest_.reset();
+  state_.filter.x.extrinsic_correction = believed.extrinsic_correction;
+  state_.filter.x.time_offset = believed.time_offset;
   state_.stamp_ns = 0;
   const auto* entering = std::get_if<EnteringMap>(&mode_);
   mode_ =

@@ -49,6 +49,7 @@ class Odometry::Impl
   void take(const std::vector<ConditionedSample>& samples);
   void take(const ConditionedSample& conditioned);
   void finishInputs();
+  [[nodiscard]] StartDecision decideStart(bool at_end);
   [[nodiscard]] std::optional<ScanResult> waitForStart(bool at_end);
   [[nodiscard]] std::optional<ScanResult> giveUpOldest(bool at_end);
   [[nodiscard]] std::optional<ScanResult> passBreaks();

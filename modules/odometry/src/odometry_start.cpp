@@ -62,11 +62,21 @@ void Odometry::Impl::start(const StartDecision& decision)
             up.x(), up.y(), up.z()));
 }
 
+StartDecision Odometry::Impl::decideStart(bool at_end)
+{
+  if (!reinitialization_.pending()) return start_finder_.decide(intake_.queue(), imu_, at_end);
+  // The search for a start knows no calibration but that of its scans.
+  ScanQueue calibrated = intake_.queue();
+  for (QueuedScan& queued : calibrated)
+    estimator_.applyCalibration(queued.scan, queued.span);
+  return start_finder_.decide(calibrated, imu_, at_end);
+}
+
 std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
 {
   while (!intake_.queue().empty() && !estimator_.started())
   {
-    const StartDecision decision = start_finder_.decide(intake_.queue(), imu_, at_end);
+    const StartDecision decision = decideStart(at_end);
     if (decision.drop_oldest)
       return classifyUnprocessed(
           popScan(), (reinitialization_.pending() ? "starting anew: " : "") + decision.message,
@@ -142,7 +152,7 @@ std::optional<ScanResult> Odometry::Impl::passBreaks()
 
 void Odometry::Impl::reinitialise(const std::string& why, std::int64_t stamp_ns)
 {
-  estimator_.suspend();
+  estimator_.suspend(reinitialization_.believed());
   start_finder_ = StartFinder(Reinitialization::startingAnyHow(options_));
   diagnostics_.report(stamp_ns, "the run is re-initialised: " + why);
 }

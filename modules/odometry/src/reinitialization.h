@@ -62,6 +62,8 @@ class Reinitialization
   }
 
   [[nodiscard]] bool pending() const { return last_believed_.has_value(); }
+  /** The last state that is believed, while a re-initialisation is pending. */
+  [[nodiscard]] const NavState& believed() const { return last_believed_->state.x; }
   /** What the new start goes on with: nothing is known between the last state that is believed and
    * the start, however long that took. */
   [[nodiscard]] CarriedPose takeCarried(std::int64_t start_ns);
