@@ -149,9 +149,7 @@ Pose interpolate(const StampedPose& a, const StampedPose& b, std::int64_t stamp_
 {
   const double s =
       static_cast<double>(stamp_ns - a.stamp_ns) / static_cast<double>(b.stamp_ns - a.stamp_ns);
-  const Pose& A = a.T_world_body;
-  const Pose& B = b.T_world_body;
-  return {A.R * expSO3(s * logSO3(A.R.transpose() * B.R)), A.p + s * (B.p - A.p)};
+  return interpolated(a.T_world_body, b.T_world_body, s);
 }
 
 AssociatedTrajectories associate(

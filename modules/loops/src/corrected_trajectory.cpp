@@ -55,10 +55,8 @@ Pose CorrectedTrajectory::poseAt(const Place& place, const Pose& T_world_imu) co
   { return node.corrected * (node.odometry.T_world_body.inverse() * T_world_imu); };
   Pose a = movedWith(*place.before);
   if (place.after == nullptr) return a;
-  const Pose b = movedWith(*place.after);
-  return {
-      normalizeRotation(a.R * expSO3(place.fraction * logSO3(a.R.transpose() * b.R))),
-      a.p + place.fraction * (b.p - a.p)};
+  const Pose between = interpolated(a, movedWith(*place.after), place.fraction);
+  return {normalizeRotation(between.R), between.p};
 }
 
 Pose CorrectedTrajectory::correctionAt(std::int64_t stamp_ns, const Pose& T_world_imu) const

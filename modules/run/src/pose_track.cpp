@@ -174,8 +174,7 @@ std::optional<TrackedPose> PoseTrack::at(std::int64_t stamp_ns) const
   const Pose& b = next->T_world_body;
   TrackedPose pose;
   pose.stamp_ns = stamp_ns;
-  pose.T_world_body = {
-      a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
+  pose.T_world_body = interpolated(a, b, fraction);
   pose.covariance = (1.0 - fraction) * before.covariance + fraction * next->covariance;
   pose.map_covariance = (1.0 - fraction) * before.map_covariance + fraction * next->map_covariance;
   pose.ambiguity_covariance =

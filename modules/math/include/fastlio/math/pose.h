@@ -21,6 +21,12 @@ struct Pose
   [[nodiscard]] Vec3 operator*(const Vec3& point) const { return R * point + p; }
 };
 
+/** Between \a a (\a fraction 0) and \a b (1), with constant velocity and rate of turn. */
+[[nodiscard]] inline Pose interpolated(const Pose& a, const Pose& b, double fraction)
+{
+  return {a.R * expSO3(fraction * logSO3(a.R.transpose() * b.R)), a.p + fraction * (b.p - a.p)};
+}
+
 /** Where a body was at an instant. */
 struct StampedPose
 {
