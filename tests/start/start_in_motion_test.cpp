@@ -174,6 +174,20 @@ TEST(StartAutomatically, DistinguishesSteadyMotionFromRest)
   EXPECT_GT(positionError(fooled), 1.0);
 }
 
+// To the inertial sensor, a vehicle that speeds up evenly is at rest with a tilt: 3 m off.
+TEST(StartAutomatically, DistinguishesSpeedingUpFromRest)
+{
+  constexpr double kPullsAway = 3.5;  // [s]
+  OdometryOptions parameters = matchingParameters(settingsOf("town"));
+  parameters.threads = 1;
+  parameters.initialization.mode = InitializationMode::Auto;
+  const Simulation simulation(settingsOf("town"));
+  const SimulatedRun run = runOdometryFrom(kPullsAway, simulation, parameters);
+  Outcomes outcomes;
+  expectGood(run, {"town", 0.05, 0.03, 10}, outcomes);
+  EXPECT_LT(positionError(run), 0.05);
+}
+
 TEST(StartAutomatically, AtRestIsTheRestingStart)
 {
   SimulationSettings settings = settingsOf("office");

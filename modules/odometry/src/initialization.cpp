@@ -17,9 +17,6 @@ namespace
 constexpr double kWindowStep = 0.1;
 // After a refused start in motion the first of so many parts of its window is given up.
 constexpr std::size_t kRefusedParts = 2;
-// A platform that "rests" faster than this, and than its uncertainty allows, moves steadily.
-constexpr double kRestSpeed = 0.05;  // [m/s]
-constexpr double kRestSpeedSigmas = 4.0;
 constexpr const char* kStartInMotionHint = "; initialization.mode: auto starts in motion, too";
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
@@ -210,22 +207,21 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
   return moving;
 }
 
-/** To the inertial sensor, steady motion looks like rest: the scans distinguish them. Where they
- * see motion that is no start, neither is rest. */
+/** To the inertial sensor, motion that is steady, or speeds up evenly, looks like rest: the scans
+ * distinguish them. A rest that they do not confirm is none. */
 StartDecision StartFinder::confirmRest(
     StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
   const ScanSpan span = scans.front().span;
-  const std::int64_t begin_ns = span.latestStart();
-  if (at_rest.stamp_ns != begin_ns || !inertialGap(scans, imu).empty()) return at_rest;
+  if (!inertialGap(scans, imu).empty()) return at_rest;
   if (span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
   const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
   if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");
-  if (count == 0 || scansShowRest(scans, count, imu, parameters_, *at_rest.state)) return at_rest;
+  if (count == 0 ||
+      scansConfirmRest(scans, count, imu, parameters_, *at_rest.state, at_rest.stamp_ns))
+    return at_rest;
   const MotionStart start = startInMotion(scans, count, imu, parameters_);
-  const bool moves = start.speed > std::max(kRestSpeed, kRestSpeedSigmas * start.velocity_std);
-  if (!moves) return at_rest;
-  if (start.state) return startedInMotion(start, begin_ns);
+  if (start.state) return startedInMotion(start, span.latestStart());
   return refuse(start, scans, count, imu);
 }
 

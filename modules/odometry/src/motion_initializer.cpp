@@ -89,15 +89,17 @@ class Window
     return startPrior(x0, width, first_scan_, parameters_.initialization);
   }
 
-  /** \param far_off the scans lie far from the map: planes are searched for longer */
+  /** \param far_off the scans lie far from the map: planes are searched for longer
+   * \param stamp_ns of \a start, if not of the first scan's begin: an earlier one */
   [[nodiscard]] Pass run(
-      const FilterState& start, const OdometryOptions& parameters, bool far_off) const
+      const FilterState& start, const OdometryOptions& parameters, bool far_off,
+      std::optional<std::int64_t> stamp_ns = std::nullopt) const
   {
     Estimator estimator(parameters);
     MotionWindow trial = window_;
     trial.trial = true;
     trial.pull_in = far_off;
-    estimator.start(start, scans_.front().span.latestStart(), trial);
+    estimator.start(start, stamp_ns.value_or(scans_.front().span.latestStart()), trial);
     ScanResult last;
     std::size_t unmatched = 0;
     std::vector<double> contrast;  // of the least known direction to others
@@ -201,8 +203,7 @@ std::string refusal(const Pass& pass, bool agreed)
   if (pass.blind || !(pass.velocity_std < kMaxVelocityStd))
     return mrpt::format(
         "no start in motion: the scans leave the velocity along (%.2f, %.2f, %.2f) of the IMU open "
-        "(%.2f m/s, limit %.2f m/s); go where there is more "
-        "to see, or start at rest",
+        "(%.2f m/s, limit %.2f m/s); go where there is more to see, or start at rest",
         pass.least_known.x(), pass.least_known.y(), pass.least_known.z(), pass.velocity_std,
         kMaxVelocityStd);
   const double bias = pass.start.gyro_bias.norm();
@@ -240,14 +241,19 @@ std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double du
   return 0;
 }
 
-// Not the velocity that fits poses and inertial data: an accelerometer of a wrong scale rests, too.
-bool scansShowRest(
+// The poses say so even where the accelerometer has a wrong scale. Where they leave, the pass has
+// to find the state that it began with: a platform that speeds up evenly has a tilt, not a rest.
+bool scansConfirmRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
-    const OdometryOptions& parameters, const FilterState& at_rest)
+    const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns)
 {
   const Pass pass =
-      Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false);
-  return pass.problem.empty() && pass.mean_speed < kMostRestSpeed;
+      Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
+  if (!pass.problem.empty()) return false;
+  if (pass.mean_speed < kMostRestSpeed) return true;
+  const Inputs since_rest =
+      inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
+  return agree(at_rest.x, propagatedBack(pass.start, since_rest));
 }
 
 MotionStart startInMotion(
@@ -283,8 +289,6 @@ MotionStart startInMotion(
     width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
     width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
   }
-  if (pass.problem.empty() && isFinite(pass.start)) result.speed = pass.start.v.norm();
-  result.velocity_std = pass.velocity_std;
   result.message = refusal(pass, agreed);
   if (!result.message.empty()) return result;
   width = {std::max(kLeastVelocityStd, pass.velocity_std), kLeastTiltStd};

@@ -32,8 +32,6 @@ struct MotionStart
 {
   std::optional<FilterState> state;  //!< at the first scan's begin; velocity etc. with wide prior
   MotionWindow motion_window;        //!< the scans of the window
-  double speed = 0.0;                //!< that the scans show, also without a state; 0: none [m/s]
-  double velocity_std = 0.0;         //!< of the velocity's least known direction, at the end [m/s]
   std::string message;
 };
 
@@ -42,12 +40,13 @@ struct MotionStart
 [[nodiscard]] std::size_t motionWindow(
     const ScanQueue& scans, const ImuBuffer& imu, double duration);
 
-/** Do the first \a count scans agree with a resting start? A single pass tells, where a start in
- * motion takes several. False: the platform moves, or they do not tell. \param imu covers them
- * \param at_rest the state at the first scan's begin */
-[[nodiscard]] bool scansShowRest(
+/** Do the first \a count scans agree with a start at rest? A single pass tells, where a start in
+ * motion takes several. False: the platform was not at rest, or they do not tell.
+ * \param imu covers them \param at_rest the state at \a stamp_ns, not after the first scan's begin:
+ * the platform may have moved off since */
+[[nodiscard]] bool scansConfirmRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
-    const OdometryOptions& parameters, const FilterState& at_rest);
+    const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns);
 
 /** The start from the first \a count scans. \param imu covers them */
 [[nodiscard]] MotionStart startInMotion(
