@@ -157,7 +157,7 @@ std::string whyOdometryFailed(const RunSummary& run)
   if (statistics.health().hasNoMap())
     return "there is no map: no point of any scan joined it; check the pose of the LiDAR "
            "(input.T_vehicle_lidar), and the unit of its points";
-  return "the odometry diverged; the first trouble was at scan " +
+  return "the odometry diverged; it was lost first at scan " +
          std::to_string(trouble ? trouble->scan_index : 0) + cause;
 }
 }  // namespace

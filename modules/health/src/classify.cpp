@@ -43,7 +43,7 @@ std::string fewMatches(
                                     "%zu of %zu points match the map, at least %zu are needed",
                                     s.points_effective, outcome.points, kMinEffectivePoints);
   return mrpt::format(
-      "%s; %.2f s on inertial data alone, position uncertain by %.3f m%s", why.c_str(),
+      "%s; %.2f s on inertial data alone, position in the map uncertain by %.3f m%s", why.c_str(),
       outcome.unaided_s, outcome.position_std,
       outcome.prediction_finite ? "" : "; the inertial data overflowed the prediction");
 }
