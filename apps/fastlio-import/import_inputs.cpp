@@ -26,6 +26,7 @@ ImportInputs::ImportInputs(const std::vector<std::string>& files, bool merge)
 void ImportInputs::relabel(const std::vector<std::string>& files)
 {
   std::vector<std::vector<SensorSummary>> sensors;
+  sensors.reserve(files.size());
   for (const std::string& file : files)
     sensors.push_back(surveySensors({file}, {}).sensors);
   for (const SensorKind kind : {SensorKind::Imu, SensorKind::Lidar})
