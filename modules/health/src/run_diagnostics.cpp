@@ -85,8 +85,7 @@ void RunDiagnostics::considerMounting(const ScanResult& result)
           "the LiDAR seems to be turned by %.1f deg or more from its given pose: turned by (%.1f, "
           "%.1f, %.1f) deg about the axes of the IMU it would explain what both sensors see; check "
           "the sensor poses of the recording, input.T_vehicle_lidar and input.T_vehicle_imu, or "
-          "run "
-          "fastlio-calibrate",
+          "run fastlio-calibrate",
           kDegPerRad * error->angle, turn.x(), turn.y(), turn.z()));
 }
 
