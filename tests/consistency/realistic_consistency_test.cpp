@@ -37,12 +37,13 @@ struct RealisticCase : ConsistencyCase
 };
 
 constexpr RealisticCase kRealisticCases[] = {
-    {{"OfficeVlp16", "office", LidarKind::Vlp16, 2}, true, true, 10},
+    // The mean of so many decides here: the bound is near.
+    {{"OfficeVlp16", "office", LidarKind::Vlp16, 2}, true, true, kAllRealisticRuns},
     {{"CampusVlp16", "campus", LidarKind::Vlp16, 2}},
+    {{"CampusOs64", "campus", LidarKind::Os64, 4}},
 };
 /** Only when everything is asked for. */
 constexpr RealisticCase kMoreRealisticCases[] = {
-    {{"CampusOs64", "campus", LidarKind::Os64, 4}},
     {{"OfficeOs64", "office", LidarKind::Os64, 4}},
     {{"OfficeLivox", "office", LidarKind::Livox, 2}},
     {{"CampusLivox", "campus", LidarKind::Livox, 2}},
@@ -176,7 +177,7 @@ TEST(LongRides, AreNotTooSureOfThemselves)
 TEST(LongRides, KnowHowTheHeightDriftsOnARoundRamp)
 {
   constexpr double kSettled = 10.0;  // from then on the vehicle is on its way [s]
-  const std::uint64_t first = everything() ? 1 : 6, last = 8;
+  const std::uint64_t first = everything() ? 1 : 5, last = 8;
   std::vector<double> nees;
   for (std::uint64_t seed = first; seed <= (fewRepeats() ? first : last); ++seed)
   {

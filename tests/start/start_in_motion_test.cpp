@@ -21,7 +21,7 @@ namespace
 {
 constexpr double kSwitchedOn = 6.0;  // [s], when all scenarios but those at rest are in full motion
 constexpr double kDuration = 14.0;   // [s]
-constexpr std::uint64_t kRuns = 2;
+constexpr std::uint64_t kRuns = 3;
 constexpr double kNees999 = 16.3;  // 99.9 % of three components
 
 /** The limits of a start in motion. First poses are aligned. */
