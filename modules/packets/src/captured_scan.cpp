@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fastlio
 {
@@ -17,11 +18,10 @@ constexpr int kHalfTurn = 18'000, kBack = -100;  // [0.01 deg]: the azimuth has 
 constexpr std::int64_t kMrptTickNs = 100;        // the resolution of MRPT's stamps
 }  // namespace
 
-void CapturedScan::beginBlock(std::int64_t stamp_ns, int azimuth, ObservationQueue& out)
+bool CapturedScan::comesRound(int azimuth)
 {
-  const int turned = azimuth - azimuth_;
-  azimuth_ = azimuth;
-  beginBlock(stamp_ns, turned < kBack || turned > kHalfTurn, out);
+  const int turned = azimuth - std::exchange(azimuth_, azimuth);
+  return turned < kBack || turned > kHalfTurn;
 }
 
 void CapturedScan::beginBlock(std::int64_t stamp_ns, bool anew, ObservationQueue& out)

@@ -134,9 +134,11 @@ class HesaiSensor : public PacketSensor
     const double after_ns = layout.offset_ns + (layout.from_first ? 1.0 : -1.0) * layout.step_ns *
                                                    static_cast<double>(steps);
     const std::uint8_t* block = blockOf(packet, layout, b);
+    const int centidegrees = azimuthOf(block);
     scan_.beginBlock(
-        firing.packet_ns + std::int64_t{std::llround(after_ns)}, azimuthOf(block), out);
-    const double azimuth = 1e-2 * kRadPerDeg * azimuthOf(block);
+        firing.packet_ns + std::int64_t{std::llround(after_ns)}, scan_.comesRound(centidegrees),
+        out);
+    const double azimuth = 1e-2 * kRadPerDeg * centidegrees;
     const bool further = firing.returns > 1 && b % firing.returns != 0;
     for (std::size_t i = 0; i < layout.channels; ++i)
     {

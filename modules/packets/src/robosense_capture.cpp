@@ -159,7 +159,8 @@ class RoboSenseSensor : public PacketSensor
     const RoboSenseLayout& layout = *layout_;
     const BlockTurn& turn = turns_[b];
     const std::uint8_t* block = blockOf(packet, b);
-    scan_.beginBlock(stamp_ns + std::int64_t{std::llround(turn.after_ns)}, turn.azimuth, out);
+    scan_.beginBlock(
+        stamp_ns + std::int64_t{std::llround(turn.after_ns)}, scan_.comesRound(turn.azimuth), out);
     // More beams than a block has channels: they are in blocks that follow.
     const std::size_t parts = std::max<std::size_t>(layout.beams / layout.channels, 1);
     const std::size_t first = b % parts * layout.channels;

@@ -53,7 +53,7 @@ TEST(CapturedScan, OfACoveredLidarHasNoPoints)
   scan.flush(scans);
   EXPECT_TRUE(scans.empty()) << "nothing has come yet";
   for (const int azimuth : {0, 18'000, 35'900, 100})
-    scan.beginBlock(kStart + 1000 * azimuth, azimuth, scans);
+    scan.beginBlock(kStart + 1000 * azimuth, scan.comesRound(azimuth), scans);
   ASSERT_EQ(scans.size(), 1U);
   EXPECT_EQ(columnsOf(*scans.front()).size(), 0U);
   EXPECT_EQ(toNanoseconds(scans.front()->timestamp), kStart);

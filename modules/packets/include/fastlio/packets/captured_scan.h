@@ -39,12 +39,11 @@ class CapturedScan
   /** Of all scans to come, in the frame of the sensor's housing. */
   void setPose(const mrpt::poses::CPose3D& T_sensor_lidar) { T_sensor_lidar_ = T_sensor_lidar; }
 
-  /** The firings that follow begin at this time. \param azimuth [0.01 deg], 0 to 35999; another
-   * scan begins where it comes round */
-  void beginBlock(std::int64_t stamp_ns, int azimuth, ObservationQueue& out);
+  /** Whether the LiDAR has come round since the call before. Call once per block.
+   * \param azimuth [0.01 deg], 0 to 35999 */
+  [[nodiscard]] bool comesRound(int azimuth);
 
-  /** The same for a LiDAR whose packets do not count azimuths. \param anew another scan begins
-   * here */
+  /** The firings that follow begin at this time. \param anew another scan begins here */
   void beginBlock(std::int64_t stamp_ns, bool anew, ObservationQueue& out);
 
   /** \param after_ns after the time of the block; may be negative */
