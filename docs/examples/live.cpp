@@ -155,8 +155,7 @@ int main(int argc, char** argv)
   std::signal(SIGTERM, askToStop);
   try
   {
-    run(static_cast<std::uint16_t>(std::stoi(argv[1])),
-        static_cast<std::uint16_t>(std::stoi(argv[2])), argc > 3 ? argv[3] : "");
+    run(fastlio::udpPort(argv[1]), fastlio::udpPort(argv[2]), argc > 3 ? argv[3] : "");
     return EXIT_SUCCESS;
   }
   catch (const std::exception& error)

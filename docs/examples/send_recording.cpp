@@ -1,7 +1,9 @@
 // mrpt_fastlio: sends a recording of a Velodyne and an IMU over the network, as fast as the sensors
 // did. SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/live/udp_receiver.h>
 #include <fastlio/math/time.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/rawlog/rawlog_source.h>
 #include <fastlio/sensors/conversions.h>
 
@@ -111,6 +113,15 @@ void sleepUntil(std::int64_t time_ns)
   }
 }
 
+double speedOf(const std::string& text)
+{
+  const auto speed = fastlio::parsed<double>(text);
+  if (!speed || !(*speed > 0.0))
+    throw std::invalid_argument(
+        "'" + text + "' is no speed; give a number above 0, 1 for that of the sensors");
+  return *speed;
+}
+
 void run(const std::string& file, std::uint16_t lidar_port, std::uint16_t imu_port, double speed)
 {
   const std::vector<Message> messages = messagesOf(file);
@@ -142,9 +153,8 @@ int main(int argc, char** argv)
   }
   try
   {
-    const auto port = [argv](int index)
-    { return static_cast<std::uint16_t>(std::stoi(argv[index])); };
-    run(argv[1], port(2), port(3), argc > 4 ? std::stod(argv[4]) : 1.0);
+    run(argv[1], fastlio::udpPort(argv[2]), fastlio::udpPort(argv[3]),
+        argc > 4 ? speedOf(argv[4]) : 1.0);
     return EXIT_SUCCESS;
   }
   catch (const std::exception& error)

@@ -113,9 +113,26 @@ TEST_F(LiveUse, WrongUsageIsReported)
   const UdpReceiver taken({0});
   const std::string port = std::to_string(taken.ports()[0]);
   const ProcessResult busy =
-      Process({FASTLIO_LIVE_EXAMPLE, port, "0"}, folder_.file("log.txt")).wait();
+      Process({FASTLIO_LIVE_EXAMPLE, port, "5000"}, folder_.file("log.txt")).wait();
   EXPECT_EQ(busy.exit_status, 1);
   EXPECT_NE(busy.output.find(port), std::string::npos) << busy.output;
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{FASTLIO_LIVE_EXAMPLE, "eth0", "5000"},
+        {FASTLIO_SENDER_EXAMPLE, recording_.rawlog, "5000", "eth0"}})
+  {
+    const ProcessResult no_port = Process(command, folder_.file("log.txt")).wait();
+    EXPECT_EQ(no_port.exit_status, 1);
+    EXPECT_NE(no_port.output.find("'eth0' is no UDP port; give a whole number"), std::string::npos)
+        << no_port.output;
+  }
+  const ProcessResult no_speed =
+      Process(
+          {FASTLIO_SENDER_EXAMPLE, recording_.rawlog, "5000", "5001", "fast"},
+          folder_.file("log.txt"))
+          .wait();
+  EXPECT_EQ(no_speed.exit_status, 1);
+  EXPECT_NE(no_speed.output.find("'fast' is no speed; give a number"), std::string::npos)
+      << no_speed.output;
 }
 }  // namespace
 }  // namespace fastlio::testing

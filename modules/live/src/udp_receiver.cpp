@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/live/udp_receiver.h>
+#include <fastlio/options/number_text.h>
+#include <fastlio/options/printable.h>
 
 #include <algorithm>
 #include <arpa/inet.h>
@@ -69,6 +71,15 @@ std::int64_t arrivalOf(msghdr& message)
   return nanoseconds(time);
 }
 }  // namespace
+
+std::uint16_t udpPort(std::string_view text)
+{
+  const auto port = parsed<std::uint16_t>(text);
+  if (!port || *port == 0)
+    throw std::invalid_argument(
+        "'" + printable(text) + "' is no UDP port; give a whole number from 1 to 65535");
+  return *port;
+}
 
 UdpReceiver::UdpReceiver(const std::vector<std::uint16_t>& ports) : bytes_(kLargestPacket)
 {

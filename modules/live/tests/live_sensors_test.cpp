@@ -18,6 +18,7 @@
 #include <cstring>
 #include <ctime>
 #include <netinet/in.h>
+#include <stdexcept>
 #include <string>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -74,6 +75,18 @@ TEST(UdpReceiver, GetsPacketsOfAllItsPortsWithTheTimeOfTheirArrival)
     EXPECT_LE(packet->stamp_ns, after.tv_sec * 1'000'000'000LL + after.tv_nsec);
   }
   EXPECT_FALSE(receiver.next(std::chrono::milliseconds(1)).has_value());
+}
+
+TEST(UdpReceiver, TextThatIsNoPortIsNamed)
+{
+  EXPECT_EQ(udpPort("2368"), 2368);
+  EXPECT_EQ(udpPort("65535"), 65535);
+  for (const char* text : {"", "0", "65536", "-1", "23x", "eth0"})
+  {
+    const auto message = failureOf<std::invalid_argument>([&] { (void)udpPort(text); });
+    EXPECT_EQ(
+        message, "'" + std::string(text) + "' is no UDP port; give a whole number from 1 to 65535");
+  }
 }
 
 TEST(UdpReceiver, APortInUseIsNamed)

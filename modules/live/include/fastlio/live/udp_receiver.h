@@ -10,10 +10,14 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
 {
+/** The port that a user names, from 1 to 65535. \exception std::invalid_argument it is none */
+[[nodiscard]] std::uint16_t udpPort(std::string_view text);
+
 /** Listens on UDP ports of all interfaces. Packets are stamped by the system when they arrive
  * (CLOCK_REALTIME), before they wait for the program. */
 class UdpReceiver
