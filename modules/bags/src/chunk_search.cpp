@@ -7,6 +7,8 @@
 #include "mcap_record.h"
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 
 namespace fastlio
 {
@@ -72,14 +74,6 @@ std::optional<std::uint64_t> findBagChunk(FileBytes& file, std::uint64_t from)
 std::optional<std::uint64_t> findMcapChunk(FileBytes& file, std::uint64_t from)
 {
   return search(file, from, isMcapChunk);
-}
-
-ReadProblem problemAt(
-    const std::string& path, ReadProblemKind kind, std::uint64_t offset, const std::string& what)
-{
-  return {
-      path, kind, "",
-      path + ": the chunk or record at byte " + std::to_string(offset) + ": " + what};
 }
 
 }  // namespace fastlio

@@ -172,6 +172,17 @@ TEST_F(BagFileTest, AnUnknownCompressionIsNamedAndTheRestIsRead)
   EXPECT_TRUE(contains(bag.problems[0].message, "zpaq")) << bag.problems[0].message;
 }
 
+TEST_F(BagFileTest, AChunkWithoutACompressionIsNotLostInSilence)
+{
+  const auto messages = smallRecording(Wire::Ros1);
+  std::string bytes = bagOf(messages, {"none", 20, true});
+  bytes.replace(bytes.find("compression=none"), 4, "comb");
+  const Recorded bag = readRecording(fileOf(bytes));
+  EXPECT_EQ(bag.observations.size(), messages.size() - 20);
+  ASSERT_EQ(bag.problems.size(), 1U);
+  EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::NotSupported) << bag.problems[0].message;
+}
+
 TEST_F(BagFileTest, MessagesWhoseConnectionIsLostAreNotLostInSilence)
 {
   std::string bytes = bagOf(smallRecording(Wire::Ros1), {"none", 20, false});

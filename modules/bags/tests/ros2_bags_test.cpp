@@ -96,16 +96,19 @@ TEST_F(RosTwoBags, DamageInAChunkOfMcapIsReportedAndCostsThisChunkOnly)
 TEST_F(RosTwoBags, McapGoesOnAtTheNextChunkBehindGarbage)
 {
   const auto messages = smallRecording(Wire::Cdr);
-  for (const char* compression : {"lz4", "zstd"})
-  {
-    std::string bytes = mcapOf(messages, {compression, 20, true});
-    const std::size_t second = bytes.find(compression, bytes.find(compression) + 1) - 41;
-    bytes.insert(second, std::string(100'000, '\x55'));
-    const Recorded bag = readRecording(fileOf(bytes));
-    EXPECT_EQ(bag.observations.size(), messages.size()) << compression;
-    ASSERT_EQ(bag.problems.size(), 1U);
-    EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::Corrupt) << bag.problems[0].message;
-  }
+  const std::string attachment_of_a_wrong_length =
+      WireWriter(Wire::Ros1).number(std::uint8_t{9}).number(std::uint64_t{1} << 40U).bytes();
+  for (const std::string& garbage : {std::string(100'000, '\x55'), attachment_of_a_wrong_length})
+    for (const char* compression : {"lz4", "zstd"})
+    {
+      std::string bytes = mcapOf(messages, {compression, 20, true});
+      const std::size_t second = bytes.find(compression, bytes.find(compression) + 1) - 41;
+      bytes.insert(second, garbage);
+      const Recorded bag = readRecording(fileOf(bytes));
+      EXPECT_EQ(bag.observations.size(), messages.size()) << compression;
+      ASSERT_EQ(bag.problems.size(), 1U);
+      EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::Corrupt) << bag.problems[0].message;
+    }
 }
 
 TEST_F(RosTwoBags, SearchesBehindDamageAreBounded)
