@@ -219,7 +219,7 @@ void MapOutputs::take(const PlacedScan& scan)
   if (!plan_.wantsMap() || !map_problem_.empty()) return;
   try
   {
-    map_.insert(outputPointsOf(scan.points, scan.fields));
+    map_.insert({scan.points, scan.fields});
   }
   catch (const std::exception& e)
   {

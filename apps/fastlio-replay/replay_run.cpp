@@ -68,9 +68,9 @@ OutputMapOptions outputMapOptions(const RunSetup& setup)
 /** A map that grows on is saved as a whole. */
 OutputPoints withoutFields(const WorldPoints& points)
 {
-  return outputPointsOf(
-      points,
-      {std::vector<float>(points.size(), 0.0F), std::vector<std::int64_t>(points.size(), 0)});
+  OutputPoints output{points, {}};
+  output.resize(points.size());
+  return output;
 }
 
 ExportTarget outputOptions(const RunSetup& setup)
@@ -213,7 +213,7 @@ void ReplayRun::extendOutputMap()
   if (!exporters_.needMap()) return;
   try
   {
-    output_map_.insert(outputPointsOf(odometry_.registeredPoints(), odometry_.registeredFields()));
+    output_map_.insert({odometry_.registeredPoints(), odometry_.registeredFields()});
   }
   catch (const std::exception& e)
   {

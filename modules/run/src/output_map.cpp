@@ -1,8 +1,6 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <fastlio/interface/scan_result.h>
-#include <fastlio/map/surface_map.h>
 #include <fastlio/pointmap/incremental_points_map.h>
 #include <fastlio/run/output_map.h>
 
@@ -39,6 +37,13 @@ void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
   to.stamp_ns.push_back(from.stamp_ns[i]);
 }
 }  // namespace
+
+void OutputPoints::resize(std::size_t n)
+{
+  WorldPoints::resize(n);
+  intensity.resize(n);
+  stamp_ns.resize(n);
+}
 
 /** Either in memory (index) or in a file. */
 struct OutputMap::Tile
@@ -140,11 +145,7 @@ void OutputMap::store(const Key& key, Tile& tile)
 OutputPoints OutputMap::readBack(const Tile& tile) const
 {
   OutputPoints p;
-  p.x.resize(tile.size);
-  p.y.resize(tile.size);
-  p.z.resize(tile.size);
-  p.intensity.resize(tile.size);
-  p.stamp_ns.resize(tile.size);
+  p.resize(tile.size);
   folder_.read(tile.file, p.x, p.y, p.z, p.intensity, p.stamp_ns);
   return p;
 }
@@ -176,17 +177,6 @@ void OutputMap::forEachTile(const std::function<void(const OutputPoints&)>& use)
     else
       use(readBack(*tile));
   }
-}
-
-OutputPoints outputPointsOf(const WorldPoints& points, const RegisteredFields& fields)
-{
-  OutputPoints output;
-  output.x = points.x;
-  output.y = points.y;
-  output.z = points.z;
-  output.intensity = fields.intensity;
-  output.stamp_ns = fields.stamp_ns;
-  return output;
 }
 
 }  // namespace fastlio

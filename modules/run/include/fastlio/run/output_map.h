@@ -6,6 +6,8 @@
 #pragma once
 
 #include <fastlio/files/scratch_folder.h>
+#include <fastlio/interface/scan_result.h>
+#include <fastlio/map/surface_map.h>
 #include <fastlio/math/so3.h>
 
 #include <cstddef>
@@ -15,23 +17,16 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace fastlio
 {
 class CIncrementalPointsMap;
-struct RegisteredFields;
-struct WorldPoints;
 
 /** Points in the world frame, counted from the map's origin, and what was measured with them, as
  * columns of equal length. */
-struct OutputPoints
+struct OutputPoints : WorldPoints, RegisteredFields
 {
-  std::vector<float> x, y, z;          //!< [m]
-  std::vector<float> intensity;        //!< sensor's own scale
-  std::vector<std::int64_t> stamp_ns;  //!< when the point was measured, UNIX epoch
-
-  [[nodiscard]] std::size_t size() const { return x.size(); }
+  void resize(std::size_t n);
 };
 
 /** Options of an OutputMap. */
@@ -89,9 +84,5 @@ class OutputMap
   std::uint64_t insertions_ = 0;
   ScratchFolder folder_;
 };
-
-/** The points that a scan added to the odometry's map (Odometry::registeredPoints()). */
-[[nodiscard]] OutputPoints outputPointsOf(
-    const WorldPoints& points, const RegisteredFields& fields);
 
 }  // namespace fastlio
