@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 
 namespace fastlio
 {
@@ -54,12 +53,7 @@ void validate(const Config& config)
   for (const auto& more :
        {optionProblems(config.odometry), problemsOf(exportOptionTable(), config.exporters)})
     problems.insert(problems.end(), more.begin(), more.end());
-  if (problems.empty()) return;
-  std::string text = "Config: " + std::to_string(problems.size()) +
-                     (problems.size() == 1 ? " problem:" : " problems:");
-  for (const auto& problem : problems)
-    text += "\n  " + problem;
-  throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
+  requireNone(problems, "Config");
 }
 
 }  // namespace fastlio

@@ -34,19 +34,16 @@ struct Problem
 };
 using Problems = std::vector<Problem>;
 
-[[noreturn]] void throwProblems(const std::string& source, Problems problems)
+void requireNoProblems(Problems problems, const std::string& source)
 {
   std::stable_sort(
       problems.begin(), problems.end(),
       [](const Problem& a, const Problem& b) { return a.line < b.line; });
-  std::string text = source + ": " + std::to_string(problems.size()) +
-                     (problems.size() == 1 ? " problem" : " problems") + " in the configuration:";
-  for (const auto& problem : problems)
-  {
-    const std::string place = problem.line > 0 ? "line " + std::to_string(problem.line) + ", " : "";
-    text += "\n  " + place + problem.text;
-  }
-  throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
+  std::vector<std::string> texts;
+  for (const Problem& problem : problems)
+    texts.push_back(
+        (problem.line > 0 ? "line " + std::to_string(problem.line) + ", " : "") + problem.text);
+  requireNone(texts, source);
 }
 
 Problem problemAt(const yaml::node_t& node, const std::string& key, const std::string& what)
@@ -238,7 +235,7 @@ YamlText parsedFile(const std::string& path)
 Config loadConfig(const yaml& document, const std::string& source)
 {
   const Loading result = loading(document);
-  if (!result.problems.empty()) throwProblems(source, result.problems);
+  requireNoProblems(result.problems, source);
   return result.config;
 }
 
@@ -247,7 +244,7 @@ ConfigFile readConfigFile(const std::string& path)
   const YamlText text = parsedFile(path);
   Loading result = loading(text.document);
   append(result.problems, repetitions(text.repeated));
-  if (!result.problems.empty()) throwProblems(path, result.problems);
+  requireNoProblems(result.problems, path);
   ConfigFile file{result.config, {}};
   for (const auto& row : configTable())
     if (const int line = lineOf(row.key, text.document); line > 0)

@@ -3,8 +3,6 @@
 
 #include "odometry_option_rows.h"
 
-#include <stdexcept>
-
 namespace fastlio
 {
 namespace
@@ -37,13 +35,7 @@ std::vector<std::string> optionProblems(const OdometryOptions& options)
 
 void validate(const OdometryOptions& options)
 {
-  const auto problems = optionProblems(options);
-  if (problems.empty()) return;
-  std::string text = "OdometryOptions: " + std::to_string(problems.size()) +
-                     (problems.size() == 1 ? " problem:" : " problems:");
-  for (const auto& problem : problems)
-    text += "\n  " + problem;
-  throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
+  requireNone(optionProblems(options), "OdometryOptions");
 }
 
 }  // namespace fastlio

@@ -121,6 +121,10 @@ std::vector<std::string> problemsOf(const OptionTable<Options>& table, Options o
   return problems;
 }
 
+/** \param source what has the problems, for the message
+ * \exception std::invalid_argument there are problems: lists them */
+void requireNone(const std::vector<std::string>& problems, const std::string& source);
+
 /** An option for documents. */
 struct OptionText
 {
