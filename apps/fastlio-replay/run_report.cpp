@@ -5,6 +5,7 @@
 
 #include "run_counts.h"
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,12 +15,6 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kLabelWidth = 14;
-
-std::string padded(std::string text, std::size_t width)
-{
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
 
 std::string line(const std::string& label, const std::string& text)
 {

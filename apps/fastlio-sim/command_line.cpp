@@ -4,6 +4,7 @@
 #include "command_line.h"
 
 #include "../shared/parsing.h"
+#include <fastlio/options/split_text.h>
 #include <fastlio/scenarios/realistic.h>
 #include <fastlio/scenarios/scenario.h>
 #include <fastlio/scenarios/settings_table.h>
@@ -140,8 +141,7 @@ std::string scenarioList()
 {
   std::ostringstream text;
   for (const auto& scenario : scenarioTable())
-    text << "  " << scenario.name << std::string(12 - scenario.name.size(), ' ') << scenario.summary
-         << '\n';
+    text << "  " << padded(scenario.name, 12) << scenario.summary << '\n';
   return text.str();
 }
 

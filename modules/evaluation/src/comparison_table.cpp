@@ -5,6 +5,7 @@
 #include <fastlio/evaluation/report.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/options/printable.h>
+#include <fastlio/options/split_text.h>
 
 #include <algorithm>
 
@@ -41,11 +42,6 @@ std::string rowOf(const EvaluationReport& r)
          cell(drift.has_value(), drift ? toPercent(*drift) : 0.0, 3) +
          cell(nees, nees ? r.nees->pose.mean : 0.0, 2);
 }
-
-std::string paddedName(const std::string& name, std::size_t width)
-{
-  return name + std::string(width - std::min(width, name.size()), ' ');
-}
 }  // namespace
 
 std::string toTable(const std::vector<NamedReport>& reports)
@@ -57,12 +53,12 @@ std::string toTable(const std::vector<NamedReport>& reports)
     width = std::max(width, printable(named.name).size());
   std::string text = "reference   " + printable(reports.front().report.reference_source) +
                      "\nalignment   " + toString(reports.front().report.options.alignment) + "\n\n";
-  text += paddedName("estimate", width) + cell("poses") + cell("time") + cell("APE") +
-          cell("APE max") + cell("APE rot.") + cell("RPE") + cell("drift") + cell("NEES") + "\n" +
-          paddedName("", width) + cell("") + cell("%") + cell("m") + cell("m") + cell("deg") +
-          cell("m/s") + cell("%") + cell("(6)") + "\n";
+  text += padded("estimate", width) + cell("poses") + cell("time") + cell("APE") + cell("APE max") +
+          cell("APE rot.") + cell("RPE") + cell("drift") + cell("NEES") + "\n" + padded("", width) +
+          cell("") + cell("%") + cell("m") + cell("m") + cell("deg") + cell("m/s") + cell("%") +
+          cell("(6)") + "\n";
   for (const NamedReport& named : reports)
-    text += paddedName(printable(named.name), width) + rowOf(named.report) + "\n";
+    text += padded(printable(named.name), width) + rowOf(named.report) + "\n";
   const bool is_turned = std::any_of(
       reports.begin(), reports.end(),
       [](const NamedReport& named) { return named.report.uncertain_turn.has_value(); });

@@ -123,8 +123,6 @@ std::string fileHelpLine(
     std::string_view name, std::string_view file, std::string_view content, bool standard)
 {
   constexpr std::size_t kNameWidth = 12, kFileWidth = 21;
-  const auto padded = [](std::string_view text, std::size_t width)
-  { return std::string(text) + std::string(width - std::min(width, text.size()), ' '); };
   return "  " + padded(name, kNameWidth) + padded(file, kFileWidth) + std::string(content) +
          (standard ? "" : " *") + "\n";
 }

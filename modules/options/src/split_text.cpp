@@ -52,4 +52,11 @@ std::string joined(const std::vector<std::string>& parts, std::string_view separ
   return text;
 }
 
+std::string padded(std::string_view text, std::size_t width)
+{
+  std::string result(text);
+  result.resize(std::max(width, text.size()), ' ');
+  return result;
+}
+
 }  // namespace fastlio

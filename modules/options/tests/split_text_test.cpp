@@ -28,5 +28,11 @@ TEST(SplitText, PartsAreBetweenCommas)
   EXPECT_EQ(joined({"a", "b"}), "a, b");
   EXPECT_EQ(joined({}), "");
 }
+
+TEST(SplitText, PaddedTextIsNeverCut)
+{
+  EXPECT_EQ(padded("ab", 4), "ab  ");
+  EXPECT_EQ(padded("abcd", 2), "abcd");
+}
 }  // namespace
 }  // namespace fastlio

@@ -25,4 +25,7 @@ namespace fastlio
 [[nodiscard]] std::string joined(
     const std::vector<std::string>& parts, std::string_view separator = ", ");
 
+/** With blanks behind it, up to so many bytes; a longer text as it is. */
+[[nodiscard]] std::string padded(std::string_view text, std::size_t width);
+
 }  // namespace fastlio
