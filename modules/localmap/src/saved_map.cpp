@@ -75,19 +75,12 @@ std::size_t nearestDirection(const std::vector<Vec3>& directions, const Vec3& no
   return best;
 }
 
-void append(WorldPoints& points, const WorldPoints& from, std::size_t i)
-{
-  points.x.push_back(from.x[i]);
-  points.y.push_back(from.y[i]);
-  points.z.push_back(from.z[i]);
-}
-
 WorldPoints finitePoints(const WorldPoints& points)
 {
   WorldPoints finite;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::isfinite(points.x[i]) && std::isfinite(points.y[i]) && std::isfinite(points.z[i]))
-      append(finite, points, i);
+      finite.add(points.x[i], points.y[i], points.z[i]);
   return finite;
 }
 }  // namespace
@@ -103,11 +96,7 @@ void insertSavedPoints(const WorldPoints& points, SurfaceMap& map)
   {
     Vec3 normal = normalAt(index, i);
     if (normal.isZero()) normal = kSeenFromACorner;
-    const Vec3 p = pointOf(index, i);
-    WorldPoints& group = groups[nearestDirection(directions, normal)];
-    group.x.push_back(static_cast<float>(p.x()));
-    group.y.push_back(static_cast<float>(p.y()));
-    group.z.push_back(static_cast<float>(p.z()));
+    groups[nearestDirection(directions, normal)].add(pointOf(index, i));
   }
   for (std::size_t i = 0; i < groups.size(); ++i)
     if (groups[i].size() > 0) map.insert(groups[i], kFar * directions[i]);

@@ -18,13 +18,6 @@ namespace
 using mrpt::obs::CObservation;
 using mrpt::poses::CPose3D;
 
-void append(WorldPoints& points, double x, double y, double z)
-{
-  points.x.push_back(static_cast<float>(x));
-  points.y.push_back(static_cast<float>(y));
-  points.z.push_back(static_cast<float>(z));
-}
-
 WorldPoints transformed(const mrpt::maps::CPointsMap& cloud, const CPose3D& T_map_cloud)
 {
   WorldPoints points;
@@ -35,7 +28,7 @@ WorldPoints transformed(const mrpt::maps::CPointsMap& cloud, const CPose3D& T_ma
   {
     double x = 0, y = 0, z = 0;
     T_map_cloud.composePoint(xs[i], ys[i], zs[i], x, y, z);
-    append(points, x, y, z);
+    points.add({x, y, z});
   }
   return points;
 }
@@ -112,7 +105,7 @@ std::size_t CVoxelPlanesMap::insertPoints(const WorldPoints& points, const Vec3&
   WorldPoints accepted;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (planes_.accepts(points.x[i], points.y[i], points.z[i]))
-      append(accepted, points.x[i], points.y[i], points.z[i]);
+      accepted.add(points.x[i], points.y[i], points.z[i]);
   planes_.insert(accepted, sensor_origin);
   points_.reset();
   return accepted.size();

@@ -174,9 +174,7 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) c
           planes.push_back(facingSensor(storage.voxel(voxel)));
           measured.push_back(spreadAcross(storage.voxel(voxel)));
           numbers.push_back(VoxelShards::numberOf(voxel, shard));
-          centroids.x.push_back(plane.qx);
-          centroids.y.push_back(plane.qy);
-          centroids.z.push_back(plane.qz);
+          centroids.add(plane.qx, plane.qy, plane.qz);
         }
       });
   std::vector<PlaneMatch> matches(numbers.size());

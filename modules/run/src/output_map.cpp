@@ -30,9 +30,7 @@ void makeRoom(OutputPoints& points, std::size_t more)
 
 void append(OutputPoints& to, const OutputPoints& from, std::size_t i)
 {
-  to.x.push_back(from.x[i]);
-  to.y.push_back(from.y[i]);
-  to.z.push_back(from.z[i]);
+  to.add(from.x[i], from.y[i], from.z[i]);
   to.intensity.push_back(from.intensity[i]);
   to.stamp_ns.push_back(from.stamp_ns[i]);
 }

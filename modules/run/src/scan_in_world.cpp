@@ -56,10 +56,7 @@ OutputPoints scanInWorld(const LidarScan& scan, const PoseTrack& track, const Ve
     const std::int64_t stamp_ns = scan.stamp_ns + points.time_offset_ns[i];
     const auto& T_world_lidar = path.at(stamp_ns);
     if (!T_world_lidar) continue;
-    const Vec3 p = *T_world_lidar * pointAt(points, i) - origin;
-    world.x.push_back(static_cast<float>(p.x()));
-    world.y.push_back(static_cast<float>(p.y()));
-    world.z.push_back(static_cast<float>(p.z()));
+    world.add(*T_world_lidar * pointAt(points, i) - origin);
     world.intensity.push_back(points.intensity[i]);
     world.stamp_ns.push_back(stamp_ns);
   }

@@ -29,9 +29,7 @@ void FilePoints::add(const std::array<double, 3>& p)
     // Plus zero: no -0 in messages.
     if (first.cwiseAbs().maxCoeff() > kNear) origin = kStep * (first / kStep).array().round() + 0.0;
   }
-  points.x.push_back(static_cast<float>(p[0] - origin.x()));
-  points.y.push_back(static_cast<float>(p[1] - origin.y()));
-  points.z.push_back(static_cast<float>(p[2] - origin.z()));
+  points.add(Vec3(p[0], p[1], p[2]) - origin);
 }
 
 }  // namespace fastlio

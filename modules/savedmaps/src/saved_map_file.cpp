@@ -159,12 +159,7 @@ WorldPoints withoutPiles(const WorldPoints& points)
     kept[sorted[i].second] = sorted[i].first != sorted[i - kMostCopies].first;
   WorldPoints few;
   for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (!kept[i]) continue;
-    few.x.push_back(points.x[i]);
-    few.y.push_back(points.y[i]);
-    few.z.push_back(points.z[i]);
-  }
+    if (kept[i]) few.add(points.x[i], points.y[i], points.z[i]);
   return few;
 }
 

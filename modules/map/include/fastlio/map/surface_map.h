@@ -26,6 +26,16 @@ struct WorldPoints
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void resize(std::size_t n);
+  void add(float px, float py, float pz)
+  {
+    x.push_back(px);
+    y.push_back(py);
+    z.push_back(pz);
+  }
+  void add(const Vec3& p)
+  {
+    add(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
+  }
 };
 
 /** A plane of the map near a point: the residual of eq. 12 is z = n . p + d. */
