@@ -160,9 +160,5 @@ CalibrateStatus run(const CalibrateArguments& arguments)
 
 int main(int argc, char** argv)
 {
-  const auto parsed = parseCommandLine(argc, argv);
-  if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  return endOf(
-      "fastlio-calibrate", CalibrateStatus::Usage,
-      [&] { return run(std::get<CalibrateArguments>(parsed)); });
+  return endOf("fastlio-calibrate", CalibrateStatus::Usage, parseCommandLine(argc, argv), run);
 }

@@ -10,9 +10,5 @@
 int main(int argc, char** argv)
 {
   using namespace fastlio;
-  const auto parsed = parseCommandLine(argc, argv);
-  if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  return endOf(
-      "fastlio-import", ImportStatus::Usage,
-      [&] { return runImport(std::get<ImportArguments>(parsed)); });
+  return endOf("fastlio-import", ImportStatus::Usage, parseCommandLine(argc, argv), runImport);
 }

@@ -71,8 +71,5 @@ InfoStatus run(const InfoArguments& arguments)
 
 int main(int argc, char** argv)
 {
-  const auto parsed = parseCommandLine(argc, argv);
-  if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  return endOf(
-      "fastlio-info", InfoStatus::Usage, [&] { return run(std::get<InfoArguments>(parsed)); });
+  return endOf("fastlio-info", InfoStatus::Usage, parseCommandLine(argc, argv), run);
 }

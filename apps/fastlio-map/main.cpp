@@ -215,15 +215,11 @@ ExitStatus run(const MapArguments& arguments)
 
 int main(int argc, char** argv)
 {
-  auto parsed = parseCommandLine(argc, argv);
-  if (const auto* status = std::get_if<int>(&parsed)) return *status;
-  auto& arguments = std::get<MapArguments>(parsed);
-  return endOf(
-      "fastlio-map", ExitStatus::Usage,
-      [&]
-      {
-        if (arguments.output_directory.empty())
-          arguments.output_directory = freeRunFolder(arguments.runs.front(), "-map");
-        return run(arguments);
-      });
+  const auto run_named = [](MapArguments& arguments)
+  {
+    if (arguments.output_directory.empty())
+      arguments.output_directory = freeRunFolder(arguments.runs.front(), "-map");
+    return run(arguments);
+  };
+  return endOf("fastlio-map", ExitStatus::Usage, parseCommandLine(argc, argv), run_named);
 }

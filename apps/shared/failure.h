@@ -9,6 +9,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <variant>
 
 namespace fastlio
 {
@@ -79,6 +80,15 @@ int endOf(const char* program, Status otherwise, Run run)
     std::cerr << program << ": " << failure.what() << '\n';
     return failure.status();
   }
+}
+
+/** The same of \a run with the arguments that the command line gives.
+ * \param parsed these, or the status of a command line after which nothing is to be run */
+template <typename Status, typename Arguments, typename Run>
+int endOf(const char* program, Status otherwise, std::variant<Arguments, int> parsed, Run run)
+{
+  if (const int* status = std::get_if<int>(&parsed)) return *status;
+  return endOf(program, otherwise, [&] { return run(std::get<Arguments>(parsed)); });
 }
 
 }  // namespace fastlio
