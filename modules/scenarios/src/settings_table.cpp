@@ -44,7 +44,7 @@ OptionTable<WorldSettings> worldRows()
 OptionTable<LidarSettings> lidarRows()
 {
   return {
-      {"lidar.kind", "", choice(&LidarSettings::kind, {"vlp16", "os64", "livox"}),
+      {"lidar.kind", "", choice(&LidarSettings::kind, {"vlp16", "os64", "livox", "vlp32c"}),
        "which sensor is simulated"},
       {"lidar.rate", "Hz", number(&LidarSettings::rate, 0.5, 200.0), "sweeps per second"},
       {"lidar.lines", "", wholeNumber(&LidarSettings::lines, 1, 256), "os64: laser lines"},

@@ -6,9 +6,11 @@
 #include <fastlio/simulation/lidar_model.h>
 #include <fastlio/simulation/vlp16.h>
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace fastlio
 {
@@ -84,28 +86,26 @@ class Vlp16Model : public LidarModel
 class SpinningModel : public LidarModel
 {
  public:
-  SpinningModel(const LidarSettings& settings, std::int64_t first_shot_ns)
-      : settings_(settings), zero_ns_(first_shot_ns)
+  /** \param elevations of the lines, the lowest first \param columns of a revolution */
+  SpinningModel(std::vector<Angle> elevations, int columns, double rate, std::int64_t first_shot_ns)
+      : elevations_(std::move(elevations)), columns_(columns), rate_(rate), zero_ns_(first_shot_ns)
   {
-    for (int line = 0; line < settings_.lines; ++line)
-      elevations_.emplace_back(elevation(line));
   }
 
   [[nodiscard]] std::int64_t stampOf(std::size_t index) const override
   {
-    return zero_ns_ + toNanoseconds(static_cast<double>(index) / settings_.rate);
+    return zero_ns_ + toNanoseconds(static_cast<double>(index) / rate_);
   }
 
   [[nodiscard]] Sweep sweep(std::size_t index) const override
   {
     Sweep sweep;
     sweep.stamp_ns = stampOf(index);
-    sweep.shots.reserve(
-        static_cast<std::size_t>(settings_.columns) * static_cast<std::size_t>(settings_.lines));
-    for (int column = 0; column < settings_.columns; ++column)
+    sweep.shots.reserve(static_cast<std::size_t>(columns_) * elevations_.size());
+    for (int column = 0; column < columns_; ++column)
     {
-      const double turn = static_cast<double>(column) / settings_.columns;
-      const auto offset_ns = static_cast<std::int32_t>(toNanoseconds(turn / settings_.rate));
+      const double turn = static_cast<double>(column) / columns_;
+      const auto offset_ns = static_cast<std::int32_t>(toNanoseconds(turn / rate_));
       const Angle azimuth(kTwoPi * turn);
       for (std::size_t line = 0; line < elevations_.size(); ++line)
         sweep.shots.push_back(
@@ -116,17 +116,42 @@ class SpinningModel : public LidarModel
   }
 
  private:
-  [[nodiscard]] double elevation(int line) const
-  {
-    if (settings_.lines == 1) return settings_.elevation;
-    const double fraction = static_cast<double>(line) / (settings_.lines - 1);
-    return settings_.elevation + settings_.vertical_fov * (fraction - 0.5);
-  }
-
-  LidarSettings settings_;
+  std::vector<Angle> elevations_;
+  int columns_;
+  double rate_;
   std::int64_t zero_ns_;
-  std::vector<Angle> elevations_;  // of the lines, the lowest first
 };
+
+/** Lines at equal distances. */
+std::vector<Angle> evenLines(const LidarSettings& settings)
+{
+  std::vector<Angle> elevations;
+  for (int line = 0; line < settings.lines; ++line)
+  {
+    const double fraction =
+        settings.lines == 1 ? 0.5 : static_cast<double>(line) / (settings.lines - 1);
+    elevations.emplace_back(settings.elevation + settings.vertical_fov * (fraction - 0.5));
+  }
+  return elevations;
+}
+
+// VLP-32C user manual 63-9325, section 9.3.
+constexpr std::array<double, 32> kVlp32cElevationDeg{
+    -25.0, -15.639, -11.31, -8.843, -7.254, -6.148, -5.333, -4.667, -4.0,   -3.667, -3.333,
+    -3.0,  -2.667,  -2.333, -2.0,   -1.667, -1.333, -1.0,   -0.667, -0.333, 0.0,    0.333,
+    0.667, 1.0,     1.333,  1.667,  2.333,  3.333,  4.667,  7.0,    10.333, 15.0};
+constexpr double kVlp32cFiring = 55.296e-6;  // [s]
+
+std::unique_ptr<const LidarModel> vlp32cModel(
+    const LidarSettings& settings, std::int64_t first_shot_ns)
+{
+  std::vector<Angle> elevations;
+  for (const double elevation : kVlp32cElevationDeg)
+    elevations.emplace_back(elevation * kRadPerDeg);
+  const auto columns = static_cast<int>(std::lround(1.0 / (settings.rate * kVlp32cFiring)));
+  return std::make_unique<SpinningModel>(
+      std::move(elevations), columns, settings.rate, first_shot_ns);
+}
 
 /** Two prisms that turn in opposite directions at incommensurable speeds bend the beam along a
  * rosette which never repeats; six lasers side by side take turns. */
@@ -219,6 +244,8 @@ std::size_t lineCount(const LidarSettings& settings)
       return vlp16::kLasers;
     case LidarKind::Os64:
       return static_cast<std::size_t>(settings.lines);
+    case LidarKind::Vlp32c:
+      return kVlp32cElevationDeg.size();
     case LidarKind::Livox:
       return RosetteModel::kLasers;
   }
@@ -233,6 +260,7 @@ std::size_t shotsPerPacket(const LidarSettings& settings)
     case LidarKind::Vlp16:
       return vlp16::kShotsPerPacket;
     case LidarKind::Os64:
+    case LidarKind::Vlp32c:
       return kColumnsPerPacket * lineCount(settings);
     case LidarKind::Livox:
       return kRosetteShots;
@@ -249,7 +277,10 @@ std::unique_ptr<const LidarModel> makeLidarModel(
     case LidarKind::Vlp16:
       return std::make_unique<Vlp16Model>(settings, first_shot_ns);
     case LidarKind::Os64:
-      return std::make_unique<SpinningModel>(settings, first_shot_ns);
+      return std::make_unique<SpinningModel>(
+          evenLines(settings), settings.columns, settings.rate, first_shot_ns);
+    case LidarKind::Vlp32c:
+      return vlp32cModel(settings, first_shot_ns);
     case LidarKind::Livox:
       return std::make_unique<RosetteModel>(settings, first_shot_ns);
   }

@@ -17,7 +17,8 @@ enum class LidarKind
 {
   Vlp16,  //!< Velodyne VLP-16: raw packets in the recording
   Os64,   //!< spinning, all lines of a column at once
-  Livox   //!< non-repetitive rosette
+  Livox,  //!< non-repetitive rosette
+  Vlp32c  //!< Velodyne VLP-32C: most lines near the horizon, few on the ground
 };
 
 /** In which class a recording has the scans. */
