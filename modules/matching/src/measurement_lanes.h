@@ -77,7 +77,7 @@ struct MeasurementLanes
 
 template <std::size_t N>
 MeasurementLanes<N> measure(
-    const Pose& T_world_imu, const MatchLanes<N>& match, double range_variance)
+    const Pose& T_world_imu, const MatchLanes<N>& match, const ResidualModel& model)
 {
   const Mat3 R = T_world_imu.R;
   const Vec3 t = T_world_imu.p;
@@ -98,7 +98,9 @@ MeasurementLanes<N> measure(
     m.h[5][l] = uz;
     m.z[l] = (bx * x + by * y + bz * z) + (ux * t.x() + uy * t.y() + uz * t.z()) + match.d[l];
     const double cosine = bx * match.beam[0][l] + by * match.beam[1][l] + bz * match.beam[2][l];
-    m.variance[l] = range_variance * cosine * cosine + match.plane_variance[l];
+    const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
+    m.variance[l] = model.range_variance * cosine * cosine + match.plane_variance[l] +
+                    model.map_attitude_variance * lever;
   }
   return m;
 }
@@ -109,7 +111,7 @@ inline void measure(
     const Pose& T_world_scan, const MatchLanes<kLanes>& lanes, std::size_t filled,
     const ResidualModel& model, MeasurementBlock& block)
 {
-  const MeasurementLanes<kLanes> m = measure(T_world_scan, lanes, model.range_variance);
+  const MeasurementLanes<kLanes> m = measure(T_world_scan, lanes, model);
   bool counts[kLanes];
   for (std::size_t l = 0; l < kLanes; ++l)
   {

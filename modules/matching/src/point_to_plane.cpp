@@ -32,7 +32,7 @@ PlaneMeasurement planeMeasurement(
 {
   MatchLanes<1> match;
   load(match, 0, body, i, plane);
-  const MeasurementLanes<1> one = measure(T_world_imu, match, model.range_variance);
+  const MeasurementLanes<1> one = measure(T_world_imu, match, model);
   PlaneMeasurement m;
   for (int k = 0; k < 6; ++k)
     m.h[k] = one.h[k][0];

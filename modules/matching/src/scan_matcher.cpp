@@ -169,6 +169,7 @@ MatchResult ScanMatcher::match(
   const FilterState& start = options.start ? *options.start : predicted;
   result.model = residualModelOf(
       options.measurement, options.gate_factor * scanPoseCovariance(start, scan.compensation));
+  result.model.map_attitude_variance = options.map_attitude_variance;
   const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
   result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;

@@ -57,7 +57,8 @@ TEST_P(EveryLidar, DirectionsAreUnitVectors)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, EveryLidar, ::testing::Values(LidarKind::Vlp16, LidarKind::Os64, LidarKind::Livox));
+    Kinds, EveryLidar,
+    ::testing::Values(LidarKind::Vlp16, LidarKind::Os64, LidarKind::Livox, LidarKind::Vlp32c));
 
 TEST(Vlp16, FiresAsTheManualSays)
 {
@@ -100,6 +101,27 @@ TEST(Os64, LooksUpOrDownByItsElevation)
   const Sweep sweep = makeLidarModel(settings, 0)->sweep(0);
   EXPECT_NEAR(std::asin(sweep.shots[0].direction.z()), -0.5925, 1e-12);
   EXPECT_NEAR(std::asin(sweep.shots[63].direction.z()), 0.1925, 1e-12);
+}
+
+TEST(Vlp32c, HasMostLinesNearTheHorizon)
+{
+  const LidarSettings settings = lidarOf(LidarKind::Vlp32c, 10.0);
+  const Sweep sweep = makeLidarModel(settings, 0)->sweep(0);
+  const std::size_t lines = lineCount(settings);
+  ASSERT_EQ(lines, 32U);
+  ASSERT_EQ(sweep.shots.size(), 1808U * lines);  // 100 ms / 55.296 us
+  const auto elevation = [&](std::size_t line)
+  { return std::asin(sweep.shots[line].direction.z()) * kDegPerRad; };
+  EXPECT_NEAR(elevation(0), -25.0, 1e-9);
+  EXPECT_NEAR(elevation(31), 15.0, 1e-9);
+  std::size_t near_horizon = 0;
+  for (std::size_t line = 0; line < lines; ++line)
+  {
+    EXPECT_EQ(sweep.shots[line].ring, line);
+    EXPECT_GE(elevation(line), elevation(line == 0 ? 0 : line - 1));
+    near_horizon += std::abs(elevation(line)) <= 4.0 ? 1 : 0;
+  }
+  EXPECT_EQ(near_horizon, 20U);
 }
 
 TEST(Livox, NeverShootsTheSamePatternTwice)
