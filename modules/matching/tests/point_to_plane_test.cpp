@@ -86,6 +86,30 @@ TEST(PlaneMeasurement, ItsVarianceIsTheRangesAcrossThePlanePlusThePlanes)
   }
 }
 
+// The map turned by a small angle moves a residual by the angle's lever arm.
+TEST(PlaneMeasurement, TheMapsAttitudeCountsByTheLeverArm)
+{
+  constexpr double kStd = 0.002;  // [rad]
+  const Matching m = randomMatching(300, 4);
+  ResidualModel model = wideOpen(), turned = wideOpen();
+  turned.map_attitude_variance = kStd * kStd;
+  for (std::size_t i = 0; i < m.body.size(); ++i)
+  {
+    const auto measured = [&](const Pose& pose, const ResidualModel& by)
+    { return planeMeasurement(pose, m.body, i, m.matches[i], by); };
+    const PlaneMeasurement straight = measured(m.x.pose(), model);
+    double squares = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Pose pose = m.x.pose();
+      pose.R = pose.R * expSO3(kStd * Vec3::Unit(axis));
+      squares += std::pow(measured(pose, model).z - straight.z, 2);
+    }
+    const double added = measured(m.x.pose(), turned).variance - straight.variance;
+    EXPECT_NEAR(added, squares, 0.01 * squares + 1e-8);
+  }
+}
+
 TEST(IsConsistent, GatesByTheStandardDeviationOfResidualAndPrediction)
 {
   ResidualModel model;

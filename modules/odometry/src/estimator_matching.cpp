@@ -141,8 +141,9 @@ MatchResult Estimator::matchPrediction(const Work& work)
   {
     how.measurement.min_signal_to_noise *= kStartSignalToNoise;
     how.at_start = true;
-    how.map_attitude_variance =
-        run.motion_window->insertion_covariance(kAttitude, kAttitude);  // as about the other axes
+    // A pass begins far off, where a wider gate would take one post of a fence for the next.
+    if (!run.motion_window->trial)
+      how.map_attitude_variance = run.motion_window->mapAttitudeVariance();
   }
   how.deskew_std = deskewStd(work.deskewed, work.predicted);
   how.gate_factor = settles ? 1.0 : calibration_.expectedInnovation();

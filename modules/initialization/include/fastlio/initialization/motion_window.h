@@ -29,6 +29,12 @@ struct MotionWindow
   /** Added to the covariance of the scan poses from which planes are created: scans that were
    * compensated with a wrong velocity warp the map. */
   Matrix6 insertion_covariance = Matrix6::Zero();
+
+  /** Its attitude about one axis [rad^2]. */
+  [[nodiscard]] double mapAttitudeVariance() const
+  {
+    return insertion_covariance(kAttitude, kAttitude);
+  }
 };
 
 }  // namespace fastlio

@@ -35,8 +35,8 @@ struct ResidualModel
   /** How far the prediction's position may be off, world frame [m^2]. */
   Mat3 prior_position_covariance = Mat3::Zero();
   double prior_attitude_variance = 0.0;  //!< of the prediction, summed over the axes [rad^2]
-  /** Of the scans that the planes were made of, beside what the planes know: the farther away a
-   * plane, the less certain it is, above all the ground, seen at a grazing angle [rad^2]. */
+  /** Of the scans that the planes were made of, where the planes do not hold it [rad^2]. A line of
+   * ground far away, seen at a grazing angle, would else be known to millimetres. */
   double map_attitude_variance = 0.0;
   /** Of each point, over the inverse of its variance: less than 1 where all points of a scan share
    * an error, so that their number does not average it out. */

@@ -34,7 +34,7 @@ struct MatchOptions
   /** How far deskewing may have moved the points beside the sensor's noise, all of them together
    * [m]. */
   double deskew_std = 0.0;
-  double map_attitude_variance = 0.0;  //!< of ResidualModel [rad^2]
+  double map_attitude_variance = 0.0;  //!< of the ResidualModel [rad^2]
   /** The gate takes the prediction to be so much less certain, as a factor of its covariance. */
   double gate_factor = 1.0;
 };
