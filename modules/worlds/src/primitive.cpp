@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "flat_faces.h"
 #include <fastlio/worlds/primitive.h>
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kNearestHit = 1e-6;
 constexpr double kNoHit = std::numeric_limits<double>::infinity();
 
 void keepNearer(BodyHit& best, double t, const Vec3& normal)
@@ -21,32 +21,11 @@ void keepNearer(BodyHit& best, double t, const Vec3& normal)
   if (t > kNearestHit && t < best.range) best = {t, normal};
 }
 
-BodyHit hitRectangle(const Vec3& o, const Vec3& d, const Vec3& size)
+/** The hit of the only ray. */
+BodyHit onlyHit(const FaceHits<1>& hits)
 {
-  const double t = -o.z() / d.z();
-  const Vec3 p = o + t * d;
-  BodyHit hit;
-  if (std::abs(p.x()) <= size.x() && std::abs(p.y()) <= size.y()) keepNearer(hit, t, Vec3::UnitZ());
-  return hit;
-}
-
-BodyHit hitBox(const Vec3& o, const Vec3& d, const Vec3& size)
-{
-  double enter = -kNoHit, leave = kNoHit;
-  int enter_axis = 0, leave_axis = 0;
-  for (int i = 0; i < 3; ++i)
-  {
-    const double inverse = 1.0 / d[i];
-    const double a = (-size[i] - o[i]) * inverse;
-    const double b = (size[i] - o[i]) * inverse;
-    if (std::min(a, b) > enter) enter = std::min(a, b), enter_axis = i;
-    if (std::max(a, b) < leave) leave = std::max(a, b), leave_axis = i;
-  }
-  BodyHit hit;
-  if (enter > leave) return hit;
-  keepNearer(hit, enter, Vec3::Unit(enter_axis));
-  keepNearer(hit, leave, Vec3::Unit(leave_axis));
-  return hit;
+  if (!(hits.range[0] < kNoHit)) return {};
+  return {hits.range[0], Vec3::Unit(static_cast<Eigen::Index>(hits.axis[0]))};
 }
 
 BodyHit hitSphere(const Vec3& o, const Vec3& d, double radius)
@@ -138,12 +117,13 @@ Vec3 localHalfExtents(const Primitive& primitive)
 BodyHit intersectLocal(const Primitive& primitive, const Ray& local)
 {
   const auto& [o, d] = local;
+  const LocalRays<1> alone{o, {{{d.x()}, {d.y()}, {d.z()}}}};
   switch (primitive.shape)
   {
     case Primitive::Shape::Rectangle:
-      return hitRectangle(o, d, primitive.size);
+      return onlyHit(hitRectangle(alone, primitive.size));
     case Primitive::Shape::Box:
-      return hitBox(o, d, primitive.size);
+      return onlyHit(hitBox(alone, primitive.size));
     case Primitive::Shape::Cylinder:
       return hitCylinder(o, d, primitive.size);
     case Primitive::Shape::Sphere:
@@ -157,9 +137,9 @@ BodyHit intersectLocal(const Primitive& primitive, const Ray& local)
 RayHit worldHit(const Primitive& primitive, const BodyHit& hit, const Vec3& local_direction)
 {
   const Vec3 towards = hit.normal.dot(local_direction) > 0.0 ? Vec3(-hit.normal) : hit.normal;
-  const bool flat =
-      primitive.shape == Primitive::Shape::Rectangle || primitive.shape == Primitive::Shape::Box;
-  return {hit.range, primitive.T_world_local.R * towards, primitive.reflectivity, flat};
+  return {
+      hit.range, primitive.T_world_local.R * towards, primitive.reflectivity,
+      isFlat(primitive.shape)};
 }
 
 std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)

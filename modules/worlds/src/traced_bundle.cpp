@@ -24,10 +24,12 @@ TracedBundle::TracedBundle(const RayBundle& rays, double max_range) : rays_(rays
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const auto component = static_cast<Eigen::Index>(axis);
+    directions_[axis].fill(rays.directions[0][component]);
     const double first = inverseOf(rays.directions[0][component]);
     axes_[axis] = {rays.origin[component], first, first, first < 0.0 ? 1U : 0U};
     for (std::size_t i = 1; i < rays.count; ++i)
     {
+      directions_[axis][i] = rays.directions[i][component];
       const double inverse = inverseOf(rays.directions[i][component]);
       axes_[axis].least = std::min(axes_[axis].least, inverse);
       axes_[axis].greatest = std::max(axes_[axis].greatest, inverse);
@@ -35,42 +37,55 @@ TracedBundle::TracedBundle(const RayBundle& rays, double max_range) : rays_(rays
   }
 }
 
-TracedBundle::Spans TracedBundle::through(const FourBoxes& boxes) const
+void TracedBundle::meet(const Primitive& body, const Vec3& position, std::uint32_t number)
 {
-  using Numbers = FourBoxes::Numbers;
-  Spans spans{Numbers::Zero(), Numbers::Constant(reach_)};
-  for (std::size_t i = 0; i < axes_.size(); ++i)
-  {
-    const Axis& axis = axes_[i];
-    const Numbers near = boxes.sides(i, axis.near) - axis.origin;
-    const Numbers far = boxes.sides(i, 1 - axis.near) - axis.origin;
-    spans.enter = spans.enter.max((near * axis.least).min(near * axis.greatest));
-    spans.leave = spans.leave.min((far * axis.least).max(far * axis.greatest));
-  }
-  return spans;
+  const bool is_flat = isFlat(body.shape);
+  if (is_flat && rays_.count == 1)
+    meetFlat<1>(body, position, number);
+  else if (is_flat)
+    meetFlat<RayBundle::kMost>(body, position, number);
+  else
+    meetCurved(body, position, number);
 }
 
-void TracedBundle::stop(std::size_t ray, double range)
-{
-  free_[ray] = range;
-  reach_ =
-      *std::max_element(free_.begin(), free_.begin() + static_cast<std::ptrdiff_t>(rays_.count));
-}
-
-void TracedBundle::meet(const Primitive& body, std::uint32_t number)
+template <std::size_t N>
+void TracedBundle::meetFlat(const Primitive& body, const Vec3& position, std::uint32_t number)
 {
   const Mat3& R = body.T_world_local.R;
-  const Vec3 origin = R.transpose() * (rays_.origin - body.T_world_local.p);
+  LocalRays<N> local;
+  local.origin = R.transpose() * (rays_.origin - position);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Vec3 along = R.col(static_cast<Eigen::Index>(axis));
+    for (std::size_t i = 0; i < N; ++i)
+      local.direction[axis][i] = along.x() * directions_[0][i] + along.y() * directions_[1][i] +
+                                 along.z() * directions_[2][i];
+  }
+  const FaceHits<N> hits = body.shape == Primitive::Shape::Box ? hitBox(local, body.size)
+                                                               : hitRectangle(local, body.size);
+  bool is_any = false;
+  for (std::size_t i = 0; i < std::min(N, rays_.count); ++i)
+  {
+    if (!isFirst(i, hits.range[i], number)) continue;
+    free_[i] = hits.range[i];
+    met_[i] = {true, number, &body, Vec3::Unit(static_cast<Eigen::Index>(hits.axis[i])), 0.0};
+    is_any = true;
+  }
+  if (is_any) updateReach();
+}
+
+void TracedBundle::meetCurved(const Primitive& body, const Vec3& position, std::uint32_t number)
+{
+  const Mat3& R = body.T_world_local.R;
+  const Vec3 origin = R.transpose() * (rays_.origin - position);
   for (std::size_t i = 0; i < rays_.count; ++i)
   {
-    const Ray local{origin, R.transpose() * rays_.directions[i]};
-    const BodyHit hit = intersectLocal(body, local);
-    if (!std::isfinite(hit.range) || hit.range > free_[i]) continue;
-    if (hits_[i] && hit.range == free_[i] && number < number_[i]) continue;
-    hits_[i] = worldHit(body, hit, local.direction);
-    number_[i] = number;
-    stop(i, hit.range);
+    const BodyHit hit = intersectLocal(body, {origin, R.transpose() * rays_.directions[i]});
+    if (!isFirst(i, hit.range, number)) continue;
+    free_[i] = hit.range;
+    met_[i] = {true, number, &body, hit.normal, 0.0};
   }
+  updateReach();
 }
 
 void TracedBundle::meet(const HeightField& ground)
@@ -79,9 +94,34 @@ void TracedBundle::meet(const HeightField& ground)
   {
     const auto hit = ground.cast(rays_.ray(i), free_[i]);
     if (!hit || hit->range > free_[i]) continue;
-    hits_[i] = hit;
-    stop(i, hit->range);
+    free_[i] = hit->range;
+    met_[i] = {true, 0, nullptr, hit->normal, hit->reflectivity};
   }
+  updateReach();
+}
+
+void TracedBundle::updateReach()
+{
+  reach_ = free_[0];
+  for (std::size_t i = 1; i < rays_.count; ++i)
+    reach_ = std::max(reach_, free_[i]);
+}
+
+BundleHits TracedBundle::hits() const
+{
+  BundleHits hits;
+  for (std::size_t i = 0; i < rays_.count; ++i)
+  {
+    const Met& met = met_[i];
+    if (!met.is_hit) continue;
+    if (met.body)
+      hits[i] = worldHit(
+          *met.body, {free_[i], met.normal},
+          met.body->T_world_local.R.transpose() * rays_.directions[i]);
+    else
+      hits[i] = RayHit{free_[i], met.normal, met.ground_reflectivity};
+  }
+  return hits;
 }
 
 }  // namespace fastlio

@@ -4,6 +4,7 @@
 /** \file traced_bundle.h How far each ray of a bundle is free, as far as is known (internal). */
 #pragma once
 
+#include "flat_faces.h"
 #include <fastlio/worlds/four_boxes.h>
 #include <fastlio/worlds/height_field.h>
 #include <fastlio/worlds/ray_bundle.h>
@@ -28,19 +29,39 @@ class TracedBundle
   };
 
   /** Where a ray of the bundle can be inside of the boxes. */
-  [[nodiscard]] Spans through(const FourBoxes& boxes) const;
+  [[nodiscard]] Spans through(const FourBoxes& boxes) const
+  {
+    using Numbers = FourBoxes::Numbers;
+    Spans spans{Numbers::Zero(), Numbers::Constant(reach_)};
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+    {
+      const Axis& axis = axes_[i];
+      const Numbers near = boxes.sides(i, axis.near) - axis.origin;
+      const Numbers far = boxes.sides(i, 1 - axis.near) - axis.origin;
+      spans.enter = spans.enter.max((near * axis.least).min(near * axis.greatest));
+      spans.leave = spans.leave.min((far * axis.least).max(far * axis.greatest));
+    }
+    return spans;
+  }
 
   /** Range [m] that the ray which is free the farthest has. */
   [[nodiscard]] double reach() const { return reach_; }
 
   /** The rays meet a body, if it is not behind another one. Of two bodies that touch, that of the
-   * higher number counts, in whatever order they come. */
-  void meet(const Primitive& body, std::uint32_t number);
+   * higher number counts, in whatever order they come. The bundle refers to the body. */
+  void meet(const Primitive& body, std::uint32_t number)
+  {
+    meet(body, body.T_world_local.p, number);
+  }
+
+  /** The same for a body that has moved to \a position. */
+  void meet(const Primitive& body, const Vec3& position, std::uint32_t number);
 
   /** The rays meet the ground, if it is not behind a body. */
   void meet(const HeightField& ground);
 
-  [[nodiscard]] const BundleHits& hits() const { return hits_; }
+  /** What the rays have met. */
+  [[nodiscard]] BundleHits hits() const;
 
  private:
   /** What the rays have in common along an axis. */
@@ -51,15 +72,35 @@ class TracedBundle
     std::size_t near;        // side of a box that is met first: 0 or 1
   };
 
-  /** The ray is free up to range [m] only. */
-  void stop(std::size_t ray, double range);
+  /** What a ray meets first. */
+  struct Met
+  {
+    bool is_hit = false;
+    std::uint32_t number = 0;          // of the body
+    const Primitive* body = nullptr;   // none: it is the ground
+    Vec3 normal = Vec3::Zero();        // in the frame of the body
+    double ground_reflectivity = 0.0;  // where there is no body
+  };
+
+  template <std::size_t N>
+  void meetFlat(const Primitive& body, const Vec3& position, std::uint32_t number);
+  void meetCurved(const Primitive& body, const Vec3& position, std::uint32_t number);
+
+  /** Whether a body is the first on a ray's way, as far as is known. */
+  [[nodiscard]] bool isFirst(std::size_t ray, double range, std::uint32_t number) const
+  {
+    if (!(range <= free_[ray]) || !std::isfinite(range)) return false;
+    return range < free_[ray] || !met_[ray].is_hit || number >= met_[ray].number;
+  }
+
+  void updateReach();
 
   const RayBundle& rays_;
+  std::array<Lanes<RayBundle::kMost>, 3> directions_;  // x, y and z of the rays
   std::array<Axis, 3> axes_;
-  std::array<double, RayBundle::kMost> free_;  // [m]
-  double reach_;                               // the greatest of them
-  BundleHits hits_;
-  std::array<std::uint32_t, RayBundle::kMost> number_{};  // of the body that is hit
+  Lanes<RayBundle::kMost> free_;  // [m]
+  double reach_;                  // the greatest of them
+  std::array<Met, RayBundle::kMost> met_;
 };
 
 }  // namespace fastlio

@@ -23,10 +23,15 @@ Bounds sweptBounds(const MovingObject& object)
 
 }  // namespace
 
+Vec3 MovingObject::positionAt(double t) const
+{
+  return body.T_world_local.p + amplitude * std::sin(angular_frequency * t + phase);
+}
+
 Primitive MovingObject::at(double t) const
 {
   Primitive moved = body;
-  moved.T_world_local.p += amplitude * std::sin(angular_frequency * t + phase);
+  moved.T_world_local.p = positionAt(t);
   return moved;
 }
 
@@ -47,7 +52,10 @@ void World::castMoving(TracedBundle& rays, double t) const
     const auto [enter, leave] = rays.through(swept_[four]);
     for (std::size_t slot = 0; slot < FourBoxes::kCount; ++slot)
       if (enter[static_cast<Eigen::Index>(slot)] <= leave[static_cast<Eigen::Index>(slot)])
-        rays.meet(description_.moving[four * FourBoxes::kCount + slot].at(t), kInFront);
+      {
+        const MovingObject& object = description_.moving[four * FourBoxes::kCount + slot];
+        rays.meet(object.body, object.positionAt(t), kInFront);
+      }
   }
 }
 

@@ -45,6 +45,12 @@ struct Primitive
   double reflectivity = 0.4;
 };
 
+/** Whether all faces of a shape are flat, so that a pane can be there. */
+[[nodiscard]] inline bool isFlat(Primitive::Shape shape)
+{
+  return shape == Primitive::Shape::Rectangle || shape == Primitive::Shape::Box;
+}
+
 /** Nearest intersection farther than 1e-6 m. */
 [[nodiscard]] std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray);
 

@@ -20,6 +20,8 @@ struct MovingObject
   double angular_frequency = 0.0;  //!< w [rad/s]
   double phase = 0.0;              //!< [rad]
 
+  /** Where its centre is at t [s]. */
+  [[nodiscard]] Vec3 positionAt(double t) const;
   /** The body where it is at t [s]. */
   [[nodiscard]] Primitive at(double t) const;
 };
