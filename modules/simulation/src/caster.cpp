@@ -19,11 +19,11 @@ Caster::Caster(const Simulation& simulation)
 {
 }
 
-Caster::Instant Caster::instantOf(double t, const Pose& T_world_imu) const
+void Caster::moveTo(Instant& instant, double t, const Pose& T_world_imu) const
 {
-  return {
-      t, T_world_imu * simulation_->lidarErrors().T_imu_lidar,
-      nearBodies(simulation_->settings().carrier, t, T_world_imu)};
+  instant.t = t;
+  instant.T_world_lidar = T_world_imu * simulation_->lidarErrors().T_imu_lidar;
+  placeNearBodies(instant.people, simulation_->settings().carrier, t, T_world_imu);
 }
 
 std::vector<Echo> Caster::cast(const Sweep& sweep) const
@@ -43,7 +43,7 @@ std::vector<Echo> Caster::cast(const Sweep& sweep) const
     {
       posed_at = shot.offset_ns;
       const double t = sweep_time + static_cast<double>(shot.offset_ns) / kNsPerSecond;
-      instant = instantOf(t, motion.at(t));
+      moveTo(instant, t, motion.at(t));
     }
     echoes[i] = echo(shot, instant);
   }
@@ -64,26 +64,15 @@ Echo Caster::echo(const Shot& shot, const Instant& at) const
 
 BeamReturns Caster::returnsOf(const RayBundle& rays, const Instant& at) const
 {
+  const World& world = simulation_->world();
   const double max_range = simulation_->settings().lidar.max_range;
   const FirstHit behind_a_pane = [&](const Ray& ray, double reach)
-  { return firstHits(RayBundle(ray), at, reach)[0]; };
-  const BundleHits hits = firstHits(rays, at, max_range);
+  { return world.cast(RayBundle(ray), at.t, reach, at.people)[0]; };
+  const BundleHits hits = world.cast(rays, at.t, max_range, at.people);
   BeamReturns backs;
   for (std::size_t i = 0; i < rays.count; ++i)
     backs[i] = panes_.follow(rays.ray(i), hits[i], max_range, behind_a_pane);
   return backs;
-}
-
-BundleHits Caster::firstHits(const RayBundle& rays, const Instant& at, double max_range) const
-{
-  BundleHits nearest = simulation_->world().cast(rays, at.t, max_range);
-  for (const Primitive& person : at.people)
-    for (std::size_t i = 0; i < rays.count; ++i)
-    {
-      const auto hit = intersect(person, rays.ray(i));
-      if (hit && hit->range <= (nearest[i] ? nearest[i]->range : max_range)) nearest[i] = hit;
-    }
-  return nearest;
 }
 
 }  // namespace fastlio

@@ -25,14 +25,12 @@ class Caster
   {
     double t = 0.0;  // [s] since the start
     Pose T_world_lidar;
-    std::vector<Primitive> people;
+    BoxedBodies people;
   };
 
-  [[nodiscard]] Instant instantOf(double t, const Pose& T_world_imu) const;
+  void moveTo(Instant& instant, double t, const Pose& T_world_imu) const;
   [[nodiscard]] Echo echo(const Shot& shot, const Instant& at) const;
   [[nodiscard]] BeamReturns returnsOf(const RayBundle& rays, const Instant& at) const;
-  [[nodiscard]] BundleHits firstHits(
-      const RayBundle& rays, const Instant& at, double max_range) const;
 
   const Simulation* simulation_;
   Beam beam_;

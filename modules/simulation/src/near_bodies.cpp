@@ -17,10 +17,10 @@ Primitive upright(const Pose& T, const Vec3& center, double radius, double half_
 }
 
 /** The trunk of a person who holds the sensors in front of the chest, and the head above. */
-void appendCarrier(std::vector<Primitive>& bodies, const Pose& T_world_imu)
+void addCarrier(BoxedBodies& bodies, const Pose& T_world_imu)
 {
-  bodies.push_back(upright(T_world_imu, {-0.65, 0.0, -0.55}, 0.2, 0.7));
-  bodies.push_back(
+  bodies.add(upright(T_world_imu, {-0.65, 0.0, -0.55}, 0.2, 0.7));
+  bodies.add(
       {Primitive::Shape::Sphere,
        {Mat3::Identity(), T_world_imu * Vec3(-0.62, 0.0, 0.3)},
        Vec3::Constant(0.12),
@@ -37,14 +37,13 @@ Primitive companion(int i, int count, double t, const Vec3& imu)
 }
 }  // namespace
 
-std::vector<Primitive> nearBodies(
-    const CarrierSettings& settings, double t, const Pose& T_world_imu)
+void placeNearBodies(
+    BoxedBodies& bodies, const CarrierSettings& settings, double t, const Pose& T_world_imu)
 {
-  std::vector<Primitive> bodies;
-  if (settings.body) appendCarrier(bodies, T_world_imu);
+  bodies.clear();
+  if (settings.body) addCarrier(bodies, T_world_imu);
   for (int i = 0; i < settings.crowd; ++i)
-    bodies.push_back(companion(i, settings.crowd, t, T_world_imu.p));
-  return bodies;
+    bodies.add(companion(i, settings.crowd, t, T_world_imu.p));
 }
 
 }  // namespace fastlio

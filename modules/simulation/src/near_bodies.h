@@ -5,15 +5,13 @@
 #pragma once
 
 #include <fastlio/scenarios/settings.h>
-#include <fastlio/worlds/primitive.h>
-
-#include <vector>
+#include <fastlio/worlds/boxed_bodies.h>
 
 namespace fastlio
 {
-/** The person who carries the sensors, and people who walk along with them, at t [s]: the carrier
- * moves with the IMU, the others with its position only. */
-[[nodiscard]] std::vector<Primitive> nearBodies(
-    const CarrierSettings& settings, double t, const Pose& T_world_imu);
+/** Replaces the bodies by the person who carries the sensors, and people who walk along with them,
+ * at t [s]: the carrier moves with the IMU, the others with its position only. */
+void placeNearBodies(
+    BoxedBodies& bodies, const CarrierSettings& settings, double t, const Pose& T_world_imu);
 
 }  // namespace fastlio

@@ -21,6 +21,18 @@ Bounds sweptBounds(const MovingObject& object)
   return {middle.min - reach, middle.max + reach};
 }
 
+/** meet(i) for each box of the list that the rays can reach. */
+template <typename Meet>
+void forEachOnTheWay(const BoxList& list, const TracedBundle& rays, const Meet& meet)
+{
+  for (std::size_t four = 0; four < list.fours().size(); ++four)
+  {
+    const auto [enter, leave] = rays.through(list.fours()[four]);
+    for (std::size_t slot = 0; slot < FourBoxes::kCount; ++slot)
+      if (enter[static_cast<Eigen::Index>(slot)] <= leave[static_cast<Eigen::Index>(slot)])
+        meet(four * FourBoxes::kCount + slot);
+  }
+}
 }  // namespace
 
 Vec3 MovingObject::positionAt(double t) const
@@ -38,40 +50,32 @@ Primitive MovingObject::at(double t) const
 World::World(WorldDescription description)
     : description_(std::move(description)), tree_(description_.bodies)
 {
-  const auto& moving = description_.moving;
-  swept_.resize((moving.size() + FourBoxes::kCount - 1) / FourBoxes::kCount);
-  for (std::size_t i = 0; i < moving.size(); ++i)
-    swept_[i / FourBoxes::kCount].set(i % FourBoxes::kCount, sweptBounds(moving[i]));
+  for (const MovingObject& object : description_.moving)
+    swept_.add(sweptBounds(object));
 }
 
-void World::castMoving(TracedBundle& rays, double t) const
+BundleHits World::cast(
+    const RayBundle& rays, double t, double max_range, const BoxedBodies& near) const
 {
   constexpr auto kInFront = std::numeric_limits<std::uint32_t>::max();
-  for (std::size_t four = 0; four < swept_.size(); ++four)
-  {
-    const auto [enter, leave] = rays.through(swept_[four]);
-    for (std::size_t slot = 0; slot < FourBoxes::kCount; ++slot)
-      if (enter[static_cast<Eigen::Index>(slot)] <= leave[static_cast<Eigen::Index>(slot)])
-      {
-        const MovingObject& object = description_.moving[four * FourBoxes::kCount + slot];
-        rays.meet(object.body, object.positionAt(t), kInFront);
-      }
-  }
-}
-
-BundleHits World::cast(const RayBundle& rays, double t, double max_range) const
-{
-  BundleHits hits;
   if (!rays.isOfOneOctant())
   {
+    BundleHits hits;
     for (std::size_t i = 0; i < rays.count; ++i)
-      hits[i] = cast(rays.ray(i), t, max_range);
+      hits[i] = cast(RayBundle(rays.ray(i)), t, max_range, near)[0];
     return hits;
   }
   TracedBundle traced(rays, max_range);
   tree_.cast(description_.bodies, traced);
   if (description_.ground) traced.meet(*description_.ground);
-  castMoving(traced, t);
+  const auto meet_moving = [&](std::size_t i)
+  {
+    const MovingObject& object = description_.moving[i];
+    traced.meet(object.body, object.positionAt(t), kInFront);
+  };
+  forEachOnTheWay(swept_, traced, meet_moving);
+  forEachOnTheWay(
+      near.boxes(), traced, [&](std::size_t i) { traced.meet(near.bodies()[i], kInFront); });
   return traced.hits();
 }
 

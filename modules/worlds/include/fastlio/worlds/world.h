@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/worlds/box_tree.h>
+#include <fastlio/worlds/boxed_bodies.h>
 #include <fastlio/worlds/height_field.h>
 #include <fastlio/worlds/ray_bundle.h>
 
@@ -43,17 +44,17 @@ class World
   /** The nearest surface within max_range [m] along the ray at t [s]. */
   [[nodiscard]] std::optional<RayHit> cast(const Ray& ray, double t, double max_range) const;
 
-  /** The same for each ray of a bundle, in a fraction of the time. */
-  [[nodiscard]] BundleHits cast(const RayBundle& rays, double t, double max_range) const;
+  /** The same for each ray of a bundle, in a fraction of the time.
+   * \param near more bodies, which stand in front of what they touch */
+  [[nodiscard]] BundleHits cast(
+      const RayBundle& rays, double t, double max_range, const BoxedBodies& near = {}) const;
 
   [[nodiscard]] const WorldDescription& description() const { return description_; }
 
  private:
-  void castMoving(TracedBundle& rays, double t) const;
-
   WorldDescription description_;
-  BoxTree tree_;                  //!< of the bodies
-  std::vector<FourBoxes> swept_;  //!< where the moving objects can be, four by four
+  BoxTree tree_;   //!< of the bodies
+  BoxList swept_;  //!< where the moving objects can be
 };
 
 }  // namespace fastlio
