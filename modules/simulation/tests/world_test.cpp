@@ -102,6 +102,31 @@ TEST(World, OfBodiesInTheSamePlaceTheSameOneIsHitFromEverySide)
   EXPECT_GT(seen.size(), 30U);
 }
 
+TEST(World, RowsThatGetWiderAndWiderAreSearchedToTheirEnd)
+{
+  // Each cut leaves most of such a row on one side, so that its tree gets deep.
+  constexpr int kCount = 500;
+  WorldDescription parts;
+  for (int i = 0; i < kCount; ++i)
+  {
+    const double at = std::pow(2.0, i);
+    parts.bodies.push_back(
+        {Primitive::Shape::Sphere, {Mat3::Identity(), {at, 0.0, at}}, Vec3::Constant(0.25 * at)});
+  }
+  const World world(parts);
+  for (int i = 0; i < kCount; ++i)
+  {
+    const double at = std::pow(2.0, i);
+    const auto hit = world.cast({{at, 0.0, 0.0}, Vec3::UnitZ()}, 0.0, 2.0 * at);
+    ASSERT_TRUE(hit) << "sphere " << i;
+    EXPECT_NEAR(hit->range / at, 0.75, 1e-9) << "sphere " << i;
+  }
+  // All of them on one ray.
+  const auto first = world.cast({Vec3::Zero(), Vec3(1.0, 0.0, 1.0).normalized()}, 0.0, 1e300);
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->range, std::sqrt(2.0) - 0.25, 1e-9);
+}
+
 TEST(HeightField, RaysEndOnTheSurfaceAndPassNothingBefore)
 {
   Dice dice;

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "side_by_side.h"
 #include "traced_bundle.h"
 #include <fastlio/worlds/world.h>
 
@@ -47,9 +48,10 @@ Primitive MovingObject::at(double t) const
   return moved;
 }
 
-World::World(WorldDescription description)
-    : description_(std::move(description)), tree_(description_.bodies)
+World::World(WorldDescription description) : description_(std::move(description))
 {
+  sortSideBySide(description_.bodies);
+  tree_ = BoxTree(description_.bodies);
   for (const MovingObject& object : description_.moving)
     swept_.add(sweptBounds(object));
 }

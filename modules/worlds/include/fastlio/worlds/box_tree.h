@@ -14,6 +14,7 @@
 namespace fastlio
 {
 class TracedBundle;
+struct Leaves;
 
 /** A bounding volume hierarchy. Four boxes are tested at once, and for all rays of a bundle at
  * once. */
@@ -22,11 +23,10 @@ class BoxTree
  public:
   BoxTree() = default;
 
-  /** Sorts the bodies: those of a branch lie side by side. */
-  explicit BoxTree(std::vector<Primitive>& bodies);
+  explicit BoxTree(const std::vector<Primitive>& bodies);
 
   /** The rays meet the bodies that they can reach. \param rays of one octant, see
-   * RayBundle::isOfOneOctant() \param bodies as they were sorted */
+   * RayBundle::isOfOneOctant() \param bodies those of the tree */
   void cast(const std::vector<Primitive>& bodies, TracedBundle& rays) const;
 
  private:
@@ -37,7 +37,7 @@ class BoxTree
     std::array<bool, FourBoxes::kCount> is_body{};
   };
 
-  std::uint32_t build(std::vector<Primitive>& bodies, std::size_t first, std::size_t last);
+  std::uint32_t build(const Leaves& leaves, std::size_t level);
 
   std::vector<Node> nodes_;
 };
