@@ -33,20 +33,57 @@ Span clip(const Span& span, double origin, double direction, double low, double 
   return {std::max(span.begin, std::min(a, b)), std::min(span.end, std::max(a, b))};
 }
 
+using Two = Eigen::Array2d;  // x and y, or both triangles of a cell
+
+/** The same for x and y within [0, high]. */
+Span clip(Span span, const Two& origin, const Two& direction, const Two& high)
+{
+  const Two a = -origin / direction, b = (high - origin) / direction;
+  const Two begin = a.min(b), end = a.max(b);
+  for (Eigen::Index axis = 0; axis < 2; ++axis)
+    span = direction[axis] != 0.0
+               ? Span{std::max(span.begin, begin[axis]), std::min(span.end, end[axis])}
+               : clip(span, origin[axis], 0.0, 0.0, high[axis]);
+  return span;
+}
+
 /** Walks along one axis of the grid. */
 struct AxisWalk
 {
   int cell, step;
   double next, delta;  // ray parameter at the next cell border, and between borders
+
+  /** Passes the next border, or stays. No branch: nobody can tell which axis is next. */
+  void pass(bool is_next)
+  {
+    cell += is_next ? step : 0;
+    next += is_next ? delta : 0.0;
+  }
 };
 
-AxisWalk startWalk(double origin, double direction, double at, double cell, int cells)
+/** Both walks of a ray that enters the grid at the point \a entry of it. */
+std::array<AxisWalk, 2> startWalks(
+    const Two& origin, const Two& direction, const Two& entry, const HeightField::Extent& grid)
 {
-  const int index = std::clamp(static_cast<int>(std::floor(at / cell)), 0, cells - 1);
-  if (direction == 0.0) return {index, 0, kInfinity, kInfinity};
-  const int step = direction > 0.0 ? 1 : -1;
-  const double border = cell * (index + (step > 0 ? 1 : 0));
-  return {index, step, (border - origin) / direction, cell / std::abs(direction)};
+  const std::array<int, 2> cells{grid.cells_x, grid.cells_y};
+  const Two place = entry / grid.cell, delta = grid.cell / direction.abs();
+  std::array<AxisWalk, 2> walks;
+  Two border;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const auto i = static_cast<Eigen::Index>(axis);
+    const int cell = std::clamp(static_cast<int>(place[i]), 0, cells[axis] - 1);
+    const int step = direction[i] > 0.0 ? 1 : -1;
+    border[i] = grid.cell * (cell + (step > 0 ? 1 : 0));
+    walks[axis] = {cell, step, kInfinity, delta[i]};
+  }
+  const Two next = (border - origin) / direction;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const auto i = static_cast<Eigen::Index>(axis);
+    if (direction[i] != 0.0) walks[axis].next = next[i];
+  }
+  return walks;
 }
 }  // namespace
 
@@ -63,6 +100,11 @@ HeightField::HeightField(
     for (int i = 0; i <= extent.cells_x; ++i)
       heights_.push_back(static_cast<float>(
           height(extent.min_x + i * extent.cell, extent.min_y + j * extent.cell)));
+  for (int j = 0; j < extent.cells_y; ++j)
+    for (int i = 0; i < extent.cells_x; ++i)
+      tops_.push_back(std::max(
+          std::max(heights_[nodeIndex(i, j)], heights_[nodeIndex(i + 1, j)]),
+          std::max(heights_[nodeIndex(i, j + 1)], heights_[nodeIndex(i + 1, j + 1)])));
   const auto [low, high] = std::minmax_element(heights_.begin(), heights_.end());
   lowest_ = static_cast<double>(*low) - kNearest;
   highest_ = static_cast<double>(*high) + kNearest;
@@ -70,12 +112,15 @@ HeightField::HeightField(
     throw std::invalid_argument("HeightField: a height is not a finite number.");
 }
 
+std::size_t HeightField::nodeIndex(int i, int j) const
+{
+  return static_cast<std::size_t>(j) * static_cast<std::size_t>(extent_.cells_x + 1) +
+         static_cast<std::size_t>(i);
+}
+
 double HeightField::node(int i, int j) const
 {
-  return static_cast<double>(
-      heights_
-          [static_cast<std::size_t>(j) * static_cast<std::size_t>(extent_.cells_x + 1) +
-           static_cast<std::size_t>(i)]);
+  return static_cast<double>(heights_[nodeIndex(i, j)]);
 }
 
 double HeightField::height(double x, double y) const
@@ -92,9 +137,12 @@ double HeightField::height(double x, double y) const
                : node(i, j) + b * (middle - node(i, j)) + a * (node(i + 1, j + 1) - middle);
 }
 
-double HeightField::highestNode(int i, int j) const
+double HeightField::top(int i, int j) const
 {
-  return std::max({node(i, j), node(i + 1, j), node(i, j + 1), node(i + 1, j + 1)});
+  return static_cast<double>(
+      tops_
+          [static_cast<std::size_t>(j) * static_cast<std::size_t>(extent_.cells_x) +
+           static_cast<std::size_t>(i)]);
 }
 
 std::optional<RayHit> HeightField::castCell(const Ray& ray, int i, int j, double max_range) const
@@ -103,24 +151,28 @@ std::optional<RayHit> HeightField::castCell(const Ray& ray, int i, int j, double
   const double z00 = node(i, j), z11 = node(i + 1, j + 1);
   const double z10 = node(i + 1, j), z01 = node(i, j + 1);
   const double x0 = extent_.min_x + i * extent_.cell, y0 = extent_.min_y + j * extent_.cell;
-  const std::array<std::array<double, 2>, 2> slopes{
-      {{z10 - z00, z11 - z10}, {z11 - z01, z01 - z00}}};
-  std::optional<RayHit> best;
-  for (std::size_t triangle = 0; triangle < 2; ++triangle)
+  const Two ga(z10 - z00, z11 - z01), gb(z11 - z10, z01 - z00);
+  const Two nx = -ga / extent_.cell, ny = -gb / extent_.cell;  // of the normals (nx, ny, 1)
+  const Vec3 from_corner = ray.origin - Vec3(x0, y0, z00);
+  const Two above = nx * from_corner.x() + ny * from_corner.y() + from_corner.z();
+  const Two climb = nx * ray.direction.x() + ny * ray.direction.y() + ray.direction.z();
+  const Two t = -above / climb;
+  const Two a = (ray.origin.x() + t * ray.direction.x() - x0) / extent_.cell;
+  const Two b = (ray.origin.y() + t * ray.direction.y() - y0) / extent_.cell;
+  double range = max_range;
+  Eigen::Index hit = -1;
+  for (Eigen::Index triangle = 0; triangle < 2; ++triangle)
   {
-    const auto [ga, gb] = slopes[triangle];
-    const Vec3 n(-ga / extent_.cell, -gb / extent_.cell, 1.0);
-    const double t = -n.dot(ray.origin - Vec3(x0, y0, z00)) / n.dot(ray.direction);
-    const double a = (ray.origin.x() + t * ray.direction.x() - x0) / extent_.cell;
-    const double b = (ray.origin.y() + t * ray.direction.y() - y0) / extent_.cell;
-    const double low = triangle == 0 ? b : a;
-    const double high = triangle == 0 ? a : b;
+    const double low = triangle == 0 ? b[triangle] : a[triangle];
+    const double high = triangle == 0 ? a[triangle] : b[triangle];
     const bool inside = low >= -kSeam && low <= high + kSeam && high <= 1.0 + kSeam;
-    if (!inside || !(t > kNearest) || t > (best ? best->range : max_range)) continue;
-    const double side = n.dot(ray.direction) > 0.0 ? -1.0 : 1.0;
-    best = RayHit{t, side * n.normalized(), reflectivity_};
+    if (!inside || !(t[triangle] > kNearest) || t[triangle] > range) continue;
+    range = t[triangle];
+    hit = triangle;
   }
-  return best;
+  if (hit < 0) return std::nullopt;
+  const double side = climb[hit] > 0.0 ? -1.0 : 1.0;
+  return RayHit{range, side * Vec3(nx[hit], ny[hit], 1.0).normalized(), reflectivity_};
 }
 
 std::optional<RayHit> HeightField::cast(const Ray& ray, double max_range) const
@@ -128,26 +180,25 @@ std::optional<RayHit> HeightField::cast(const Ray& ray, double max_range) const
   const auto& e = extent_;
   const Vec3 o = ray.origin - Vec3(e.min_x, e.min_y, 0.0);
   const Vec3& d = ray.direction;
-  Span span{0.0, max_range};
-  span = clip(span, o.z(), d.z(), lowest_, highest_);
-  span = clip(span, o.x(), d.x(), 0.0, e.cell * e.cells_x);
-  span = clip(span, o.y(), d.y(), 0.0, e.cell * e.cells_y);
+  const Two origin(o.x(), o.y()), direction(d.x(), d.y());
+  Span span = clip({0.0, max_range}, o.z(), d.z(), lowest_, highest_);
   if (span.begin > span.end) return std::nullopt;
-  const Vec3 entry = o + span.begin * d;
-  AxisWalk x = startWalk(o.x(), d.x(), entry.x(), e.cell, e.cells_x);
-  AxisWalk y = startWalk(o.y(), d.y(), entry.y(), e.cell, e.cells_y);
+  span = clip(span, origin, direction, {e.cell * e.cells_x, e.cell * e.cells_y});
+  if (span.begin > span.end) return std::nullopt;
+  auto [x, y] = startWalks(origin, direction, origin + span.begin * direction, e);
   double entered = span.begin;
   while (x.cell >= 0 && x.cell < e.cells_x && y.cell >= 0 && y.cell < e.cells_y)
   {
-    AxisWalk& nearer = x.next < y.next ? x : y;
+    const bool x_is_next = x.next < y.next;
+    const double left = x_is_next ? x.next : y.next;
     // Most cells lie below all of the ray's way through them.
-    const double lowest = o.z() + std::min(entered * d.z(), nearer.next * d.z());
-    if (!(lowest > highestNode(x.cell, y.cell) + kAbove))
+    const double lowest = o.z() + std::min(entered * d.z(), left * d.z());
+    if (!(lowest > top(x.cell, y.cell) + kAbove))
       if (auto hit = castCell(ray, x.cell, y.cell, max_range)) return hit;
-    if (nearer.next > span.end) return std::nullopt;
-    entered = nearer.next;
-    nearer.cell += nearer.step;
-    nearer.next += nearer.delta;
+    if (left > span.end) return std::nullopt;
+    entered = left;
+    x.pass(x_is_next);
+    y.pass(!x_is_next);
   }
   return std::nullopt;
 }

@@ -36,14 +36,16 @@ class HeightField
   [[nodiscard]] std::optional<RayHit> cast(const Ray& ray, double max_range) const;
 
  private:
+  [[nodiscard]] std::size_t nodeIndex(int i, int j) const;
   [[nodiscard]] double node(int i, int j) const;
-  [[nodiscard]] double highestNode(int i, int j) const;
+  [[nodiscard]] double top(int i, int j) const;
   [[nodiscard]] std::optional<RayHit> castCell(
       const Ray& ray, int i, int j, double max_range) const;
 
   Extent extent_;
   double reflectivity_;
-  std::vector<float> heights_;
+  std::vector<float> heights_;  // of the nodes
+  std::vector<float> tops_;     // of the cells: the highest of their nodes
   double lowest_ = 0.0, highest_ = 0.0;
 };
 
