@@ -83,9 +83,15 @@ RayBundle Beam::rays(const Ray& middle, const Vec3& up) const
   const Vec3& d = middle.direction;
   const Vec3 aside = half_width_ * kOuter * up.cross(d).normalized();
   const Vec3 upward = half_height_ * kOuter * d.cross(up.cross(d)).normalized();
-  for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
-      rays.directions[rays.count++] = (d + x * aside + y * upward).normalized();
+  using Four = Eigen::Array4d;
+  const Four sideways(-1.0, -1.0, 1.0, 1.0), upwards(-1.0, 1.0, -1.0, 1.0);
+  const auto along = [&](Eigen::Index axis) -> Four
+  { return d[axis] + sideways * aside[axis] + upwards * upward[axis]; };
+  const Four x = along(0), y = along(1), z = along(2);
+  const Four length = (x * x + y * y + z * z).sqrt();
+  const Four unit_x = x / length, unit_y = y / length, unit_z = z / length;
+  for (Eigen::Index i = 0; i < 4; ++i)
+    rays.directions[rays.count++] = {unit_x[i], unit_y[i], unit_z[i]};
   return rays;
 }
 

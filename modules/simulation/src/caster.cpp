@@ -56,23 +56,28 @@ Echo Caster::echo(const Shot& shot, const Instant& at) const
   const LidarErrors& errors = simulation_->lidarErrors();
   const Pose& T = at.T_world_lidar;
   const RayBundle rays = beam_.rays({T.p, T.R * trueDirection(shot, errors)}, T.R.col(2));
-  const auto back = beam_.receive(returnsOf(rays, at));
+  const auto back = returnOf(rays, at);
   if (!back || back->range < lidar.min_range) return {};
   const double range = back->range + errors.range_offset[shot.ring] + rangeBias(lidar.beam, *back);
   return {std::max(range, 0.0), static_cast<float>(255.0 * back->reflectivity * back->facing)};
 }
 
-BeamReturns Caster::returnsOf(const RayBundle& rays, const Instant& at) const
+std::optional<Return> Caster::returnOf(const RayBundle& rays, const Instant& at) const
 {
   const World& world = simulation_->world();
   const double max_range = simulation_->settings().lidar.max_range;
-  const FirstHit behind_a_pane = [&](const Ray& ray, double reach)
-  { return world.cast(RayBundle(ray), at.t, reach, at.people)[0]; };
+  const FirstHit first_hit = [&](const Ray& ray, double reach)
+  { return world.cast(ray, at.t, reach, at.people); };
+  if (rays.count == 1)
+  {
+    const Ray ray = rays.ray(0);
+    return panes_.follow(ray, first_hit(ray, max_range), max_range, first_hit);
+  }
   const BundleHits hits = world.cast(rays, at.t, max_range, at.people);
   BeamReturns backs;
   for (std::size_t i = 0; i < rays.count; ++i)
-    backs[i] = panes_.follow(rays.ray(i), hits[i], max_range, behind_a_pane);
-  return backs;
+    backs[i] = panes_.follow(rays.ray(i), hits[i], max_range, first_hit);
+  return beam_.receive(backs);
 }
 
 }  // namespace fastlio

@@ -30,7 +30,7 @@ class Caster
 
   void moveTo(Instant& instant, double t, const Pose& T_world_imu) const;
   [[nodiscard]] Echo echo(const Shot& shot, const Instant& at) const;
-  [[nodiscard]] BeamReturns returnsOf(const RayBundle& rays, const Instant& at) const;
+  [[nodiscard]] std::optional<Return> returnOf(const RayBundle& rays, const Instant& at) const;
 
   const Simulation* simulation_;
   Beam beam_;

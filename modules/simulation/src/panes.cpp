@@ -15,6 +15,13 @@ constexpr double kGlare = 0.9986;  // cosine of 3 deg: so near to the normal a p
 constexpr double kPassed = 0.8;    // fraction of light that comes back through a pane, both ways
 constexpr double kSkip = 1e-6;     // past a surface that was met [m]
 
+/** std::floor() without a call, for numbers that fit. */
+std::int64_t floorOf(double value)
+{
+  const auto truncated = static_cast<std::int64_t>(value);
+  return truncated - (static_cast<double>(truncated) > value ? 1 : 0);
+}
+
 /** A fixed number in [0, 1) for a square of 1.5 m. Along the normal the cells are longer and
  * shifted, so that both faces of a thin wall belong to one. */
 double chanceOf(const Vec3& point, const Vec3& normal)
@@ -25,7 +32,7 @@ double chanceOf(const Vec3& point, const Vec3& normal)
   {
     const bool along_normal = axis == (faces_x ? 0 : 1);
     const double cell = along_normal ? 3.7 : 1.5;
-    const auto index = static_cast<std::int64_t>(std::floor((point[axis] + 0.613) / cell));
+    const std::int64_t index = floorOf((point[axis] + 0.613) / cell);
     hash = (hash ^ static_cast<std::uint64_t>(index)) * 0x9E3779B97F4A7C15U;
     hash ^= hash >> 29U;
   }

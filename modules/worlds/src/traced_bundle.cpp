@@ -107,21 +107,13 @@ void TracedBundle::updateReach()
     reach_ = std::max(reach_, free_[i]);
 }
 
-BundleHits TracedBundle::hits() const
+std::optional<RayHit> TracedBundle::hit(std::size_t ray) const
 {
-  BundleHits hits;
-  for (std::size_t i = 0; i < rays_.count; ++i)
-  {
-    const Met& met = met_[i];
-    if (!met.is_hit) continue;
-    if (met.body)
-      hits[i] = worldHit(
-          *met.body, {free_[i], met.normal},
-          met.body->T_world_local.R.transpose() * rays_.directions[i]);
-    else
-      hits[i] = RayHit{free_[i], met.normal, met.ground_reflectivity};
-  }
-  return hits;
+  const Met& met = met_[ray];
+  if (!met.is_hit) return std::nullopt;
+  if (!met.body) return RayHit{free_[ray], met.normal, met.ground_reflectivity};
+  const Mat3& R = met.body->T_world_local.R;
+  return worldHit(*met.body, {free_[ray], met.normal}, R.transpose() * rays_.directions[ray]);
 }
 
 }  // namespace fastlio

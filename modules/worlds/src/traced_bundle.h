@@ -60,8 +60,8 @@ class TracedBundle
   /** The rays meet the ground, if it is not behind a body. */
   void meet(const HeightField& ground);
 
-  /** What the rays have met. */
-  [[nodiscard]] BundleHits hits() const;
+  /** What a ray has met. */
+  [[nodiscard]] std::optional<RayHit> hit(std::size_t ray) const;
 
  private:
   /** What the rays have in common along an axis. */
@@ -75,11 +75,11 @@ class TracedBundle
   /** What a ray meets first. */
   struct Met
   {
-    bool is_hit = false;
-    std::uint32_t number = 0;          // of the body
-    const Primitive* body = nullptr;   // none: it is the ground
-    Vec3 normal = Vec3::Zero();        // in the frame of the body
-    double ground_reflectivity = 0.0;  // where there is no body
+    bool is_hit = false;         // without a hit, nothing else is set
+    std::uint32_t number;        // of the body
+    const Primitive* body;       // none: it is the ground
+    Vec3 normal;                 // in the frame of the body
+    double ground_reflectivity;  // where there is no body
   };
 
   template <std::size_t N>

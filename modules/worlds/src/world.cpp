@@ -56,34 +56,47 @@ World::World(WorldDescription description) : description_(std::move(description)
     swept_.add(sweptBounds(object));
 }
 
-BundleHits World::cast(
-    const RayBundle& rays, double t, double max_range, const BoxedBodies& near) const
+void World::trace(TracedBundle& rays, double t, const BoxedBodies& near) const
 {
   constexpr auto kInFront = std::numeric_limits<std::uint32_t>::max();
-  if (!rays.isOfOneOctant())
-  {
-    BundleHits hits;
-    for (std::size_t i = 0; i < rays.count; ++i)
-      hits[i] = cast(RayBundle(rays.ray(i)), t, max_range, near)[0];
-    return hits;
-  }
-  TracedBundle traced(rays, max_range);
-  tree_.cast(description_.bodies, traced);
-  if (description_.ground) traced.meet(*description_.ground);
+  tree_.cast(description_.bodies, rays);
+  if (description_.ground) rays.meet(*description_.ground);
   const auto meet_moving = [&](std::size_t i)
   {
     const MovingObject& object = description_.moving[i];
-    traced.meet(object.body, object.positionAt(t), kInFront);
+    rays.meet(object.body, object.positionAt(t), kInFront);
   };
-  forEachOnTheWay(swept_, traced, meet_moving);
-  forEachOnTheWay(
-      near.boxes(), traced, [&](std::size_t i) { traced.meet(near.bodies()[i], kInFront); });
-  return traced.hits();
+  forEachOnTheWay(swept_, rays, meet_moving);
+  const auto meet_near = [&](std::size_t i) { rays.meet(near.bodies()[i], kInFront); };
+  forEachOnTheWay(near.boxes(), rays, meet_near);
 }
 
-std::optional<RayHit> World::cast(const Ray& ray, double t, double max_range) const
+BundleHits World::cast(
+    const RayBundle& rays, double t, double max_range, const BoxedBodies& near) const
 {
-  return cast(RayBundle(ray), t, max_range)[0];
+  BundleHits hits;
+  if (rays.isOfOneOctant())
+  {
+    TracedBundle traced(rays, max_range);
+    trace(traced, t, near);
+    for (std::size_t i = 0; i < rays.count; ++i)
+      hits[i] = traced.hit(i);
+  }
+  else
+  {
+    for (std::size_t i = 0; i < rays.count; ++i)
+      hits[i] = cast(rays.ray(i), t, max_range, near);
+  }
+  return hits;
+}
+
+std::optional<RayHit> World::cast(
+    const Ray& ray, double t, double max_range, const BoxedBodies& near) const
+{
+  const RayBundle alone(ray);
+  TracedBundle traced(alone, max_range);
+  trace(traced, t, near);
+  return traced.hit(0);
 }
 
 }  // namespace fastlio

@@ -41,17 +41,20 @@ class World
  public:
   explicit World(WorldDescription description);
 
-  /** The nearest surface within max_range [m] along the ray at t [s]. */
-  [[nodiscard]] std::optional<RayHit> cast(const Ray& ray, double t, double max_range) const;
-
-  /** The same for each ray of a bundle, in a fraction of the time.
+  /** The nearest surface within max_range [m] along the ray at t [s].
    * \param near more bodies, which stand in front of what they touch */
+  [[nodiscard]] std::optional<RayHit> cast(
+      const Ray& ray, double t, double max_range, const BoxedBodies& near = {}) const;
+
+  /** The same for each ray of a bundle, in a fraction of the time. */
   [[nodiscard]] BundleHits cast(
       const RayBundle& rays, double t, double max_range, const BoxedBodies& near = {}) const;
 
   [[nodiscard]] const WorldDescription& description() const { return description_; }
 
  private:
+  void trace(TracedBundle& rays, double t, const BoxedBodies& near) const;
+
   WorldDescription description_;
   BoxTree tree_;   //!< of the bodies
   BoxList swept_;  //!< where the moving objects can be
