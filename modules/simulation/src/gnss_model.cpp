@@ -86,6 +86,9 @@ std::vector<SimulatedFix> simulateGnss(const Motion& motion, const SimulationSet
   if (settings.gnss.rate <= 0.0) return fixes;
   FixNoise noise(settings);
   Multipath multipath(settings);
+  Outages outages(
+      settings.gnss.outage_interval, settings.gnss.outage_length, settings.seed,
+      NoiseSource::GnssOutage);
   for (std::size_t i = 0;; ++i)
   {
     const double t = static_cast<double>(i) / settings.gnss.rate;
@@ -94,9 +97,7 @@ std::vector<SimulatedFix> simulateGnss(const Motion& motion, const SimulationSet
     const Vec3 reflected = multipath.at(t);
     SimulatedFix fix;
     fix.stamp_ns = settings.start_ns + toNanoseconds(t);
-    fix.known = !isInOutage(
-        t, settings.gnss.outage_interval, settings.gnss.outage_length, settings.seed,
-        NoiseSource::GnssOutage);
+    fix.known = !outages.at(t);
     fix.multipath = reflected != Vec3::Zero();
     fix.error = noise.next() + reflected;
     fix.antenna = motion.pose(t) * settings.gnss.lever_arm + fix.error;

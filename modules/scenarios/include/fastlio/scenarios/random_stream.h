@@ -73,17 +73,39 @@ class RandomStream
   std::uniform_real_distribution<double> uniform_;
 };
 
-/** Whether t [s] is in an outage: there is one in each interval, at a random time of it.
- * \param interval, length [s]; interval 0: there are none */
-[[nodiscard]] inline bool isInOutage(
-    double t, double interval, double length, std::uint64_t seed, NoiseSource source)
+/** Outages: there is one in each interval, at a random time of it. */
+class Outages
 {
-  if (interval == 0.0) return false;
-  const double turn = std::max(0.0, std::floor(t / interval));
-  RandomStream random(seed, source, static_cast<std::uint64_t>(turn));
-  const double room = std::max(0.0, interval - length);
-  const double past = t - turn * interval - room * random.uniform();
-  return past >= 0.0 && past < length;
-}
+ public:
+  /** \param interval, length [s]; interval 0: there are none */
+  Outages(double interval, double length, std::uint64_t seed, NoiseSource source)
+      : interval_(interval), length_(length), seed_(seed), source_(source)
+  {
+  }
+
+  /** Whether one is on at t [s]. */
+  [[nodiscard]] bool at(double t)
+  {
+    if (interval_ == 0.0) return false;
+    const double turn = std::max(0.0, std::floor(t / interval_));
+    // A stream takes longer to start than to ask, and most questions are about the same interval.
+    if (turn != turn_)
+    {
+      RandomStream random(seed_, source_, static_cast<std::uint64_t>(turn));
+      turn_ = turn;
+      place_ = random.uniform();
+    }
+    const double room = std::max(0.0, interval_ - length_);
+    const double past = t - turn * interval_ - room * place_;
+    return past >= 0.0 && past < length_;
+  }
+
+ private:
+  double interval_, length_;  // [s]
+  std::uint64_t seed_;
+  NoiseSource source_;
+  double turn_ = -1.0;  // number of the interval that was asked for last
+  double place_ = 0.0;  // of its outage, in [0, 1)
+};
 
 }  // namespace fastlio
