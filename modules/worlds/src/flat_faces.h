@@ -20,6 +20,28 @@ constexpr double kNearestHit = 1e-6;  // rays meet nothing nearer to their origi
 template <std::size_t N>
 using Lanes = std::array<double, N>;
 
+/** The first N of some directions in the frame of a body. \param R its axes in the rays' frame */
+template <std::size_t N, std::size_t All>
+std::array<Lanes<N>, 3> turned(const Mat3& R, const std::array<Lanes<All>, 3>& directions)
+{
+  const auto& [x, y, z] = directions;
+  std::array<Lanes<N>, 3> local;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const Vec3 along = R.col(static_cast<Eigen::Index>(axis));
+    for (std::size_t i = 0; i < N; ++i)
+      local[axis][i] = along.x() * x[i] + along.y() * y[i] + along.z() * z[i];
+  }
+  return local;
+}
+
+/** The same for one direction: the same digits, whatever instructions the compiler takes. */
+inline Vec3 turned(const Mat3& R, const Vec3& d)
+{
+  const auto [x, y, z] = turned<1>(R, std::array<Lanes<1>, 3>{{{d.x()}, {d.y()}, {d.z()}}});
+  return {x[0], y[0], z[0]};
+}
+
 /** Rays in the frame of a body. */
 template <std::size_t N>
 struct LocalRays

@@ -146,7 +146,7 @@ std::optional<RayHit> intersect(const Primitive& primitive, const Ray& ray)
 {
   const Mat3& R = primitive.T_world_local.R;
   const Ray local{
-      R.transpose() * (ray.origin - primitive.T_world_local.p), R.transpose() * ray.direction};
+      R.transpose() * (ray.origin - primitive.T_world_local.p), turned(R, ray.direction)};
   const BodyHit hit = intersectLocal(primitive, local);
   if (!(hit.range < kNoHit)) return std::nullopt;
   return worldHit(primitive, hit, local.direction);

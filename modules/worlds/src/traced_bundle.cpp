@@ -52,15 +52,7 @@ template <std::size_t N>
 void TracedBundle::meetFlat(const Primitive& body, const Vec3& position, std::uint32_t number)
 {
   const Mat3& R = body.T_world_local.R;
-  LocalRays<N> local;
-  local.origin = R.transpose() * (rays_.origin - position);
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const Vec3 along = R.col(static_cast<Eigen::Index>(axis));
-    for (std::size_t i = 0; i < N; ++i)
-      local.direction[axis][i] = along.x() * directions_[0][i] + along.y() * directions_[1][i] +
-                                 along.z() * directions_[2][i];
-  }
+  const LocalRays<N> local{R.transpose() * (rays_.origin - position), turned<N>(R, directions_)};
   const FaceHits<N> hits = body.shape == Primitive::Shape::Box ? hitBox(local, body.size)
                                                                : hitRectangle(local, body.size);
   bool is_any = false;
@@ -80,7 +72,7 @@ void TracedBundle::meetCurved(const Primitive& body, const Vec3& position, std::
   const Vec3 origin = R.transpose() * (rays_.origin - position);
   for (std::size_t i = 0; i < rays_.count; ++i)
   {
-    const BodyHit hit = intersectLocal(body, {origin, R.transpose() * rays_.directions[i]});
+    const BodyHit hit = intersectLocal(body, {origin, turned(R, rays_.directions[i])});
     if (!isFirst(i, hit.range, number)) continue;
     free_[i] = hit.range;
     met_[i] = {true, number, &body, hit.normal, 0.0};
@@ -113,7 +105,7 @@ std::optional<RayHit> TracedBundle::hit(std::size_t ray) const
   if (!met.is_hit) return std::nullopt;
   if (!met.body) return RayHit{free_[ray], met.normal, met.ground_reflectivity};
   const Mat3& R = met.body->T_world_local.R;
-  return worldHit(*met.body, {free_[ray], met.normal}, R.transpose() * rays_.directions[ray]);
+  return worldHit(*met.body, {free_[ray], met.normal}, turned(R, rays_.directions[ray]));
 }
 
 }  // namespace fastlio
