@@ -196,7 +196,7 @@ SavedMap fromSeveral(ObjectStream& stream, const ObjectHeader& header)
   const auto size = header.length + 1;
   if (!stream.holds(0, size + 4) || stream.byteAt(header.length) != kVersion)
     throw std::runtime_error("is cut off or of a version of CMultiMetricMap that is not known");
-  const std::uint32_t count = stream.numberAt<std::uint32_t>(size);
+  const auto count = stream.numberAt<std::uint32_t>(size);
   stream.rewindTo(size + 4);
   if (count > kMostMaps)
     throw std::runtime_error("claims to hold " + std::to_string(count) + " maps");

@@ -28,7 +28,7 @@ class FixNoise
 
   [[nodiscard]] Vec3 next()
   {
-    const Vec3 error = std::sqrt(0.5) * deviation_.cwiseProduct(white_.normal3() + lasting_);
+    Vec3 error = std::sqrt(0.5) * deviation_.cwiseProduct(white_.normal3() + lasting_);
     lasting_ = keeps_ * lasting_ + std::sqrt(1.0 - keeps_ * keeps_) * drift_.normal3();
     return error;
   }

@@ -146,6 +146,7 @@ std::unique_ptr<const LidarModel> vlp32cModel(
     const LidarSettings& settings, std::int64_t first_shot_ns)
 {
   std::vector<Angle> elevations;
+  elevations.reserve(kVlp32cElevationDeg.size());
   for (const double elevation : kVlp32cElevationDeg)
     elevations.emplace_back(elevation * kRadPerDeg);
   const auto columns = static_cast<int>(std::lround(1.0 / (settings.rate * kVlp32cFiring)));

@@ -67,7 +67,7 @@ FaceHits<N> hitRectangle(const LocalRays<N>& rays, const Vec3& size)
   {
     const double t = -o.z() / d[2][i];
     const double x = std::abs(o.x() + t * d[0][i]), y = std::abs(o.y() + t * d[1][i]);
-    const bool is_hit = (x <= size.x()) & (y <= size.y()) & (t > kNearestHit);
+    const bool is_hit = x <= size.x() && y <= size.y() && t > kNearestHit;
     hits.range[i] = is_hit ? t : std::numeric_limits<double>::infinity();
     hits.axis[i] = 2.0;
   }
@@ -105,7 +105,7 @@ FaceHits<N> hitBox(const LocalRays<N>& rays, const Vec3& size)
     const bool from_outside = enter.range[i] > kNearestHit;
     const double range = from_outside ? enter.range[i] : leave.range[i];
     enter.axis[i] = from_outside ? enter.axis[i] : leave.axis[i];
-    enter.range[i] = misses | !(range > kNearestHit) ? kInfinity : range;
+    enter.range[i] = misses || !(range > kNearestHit) ? kInfinity : range;
   }
   return enter;
 }

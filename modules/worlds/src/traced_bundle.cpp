@@ -103,7 +103,7 @@ std::optional<RayHit> TracedBundle::hit(std::size_t ray) const
 {
   const Met& met = met_[ray];
   if (!met.is_hit) return std::nullopt;
-  if (!met.body) return RayHit{free_[ray], met.normal, met.ground_reflectivity};
+  if (met.body == nullptr) return RayHit{free_[ray], met.normal, met.ground_reflectivity};
   const Mat3& R = met.body->T_world_local.R;
   return worldHit(*met.body, {free_[ray], met.normal}, turned(R, rays_.directions[ray]));
 }
