@@ -14,12 +14,17 @@ const std::string kBagMagic = "#ROSBAG V";
 const std::string kBagVersion = "#ROSBAG V2.0\n";
 constexpr std::size_t kLargestHead = 65536;
 constexpr std::size_t kMostConnections = 100'000;  // more than any recorder opens
-const ChunkedFormat kBagFormat = {
-    "a bag",
-    kBagVersion.size(),
-    "none, bz2 and lz4",
-    {{"none", nullptr}, {"bz2", makeBzip2Inflater}, {"lz4", makeLz4Inflater}},
-    findBagChunk};
+
+const ChunkedFormat& bagFormat()
+{
+  static const ChunkedFormat format = {
+      "a bag",
+      kBagVersion.size(),
+      "none, bz2 and lz4",
+      {{"none", nullptr}, {"bz2", makeBzip2Inflater}, {"lz4", makeLz4Inflater}},
+      findBagChunk};
+  return format;
+}
 }  // namespace
 
 bool isBag(const std::string& path)
@@ -27,7 +32,7 @@ bool isBag(const std::string& path)
   return headOf(path, kBagMagic.size()) == kBagMagic;
 }
 
-BagFile::BagFile(const std::string& path) : ChunkedFile(path, path, kBagFormat)
+BagFile::BagFile(const std::string& path) : ChunkedFile(path, path, bagFormat())
 {
   const std::string head = headOf(path, kBagVersion.size());
   if (head != kBagVersion)
