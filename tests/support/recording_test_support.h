@@ -111,6 +111,18 @@ class RecordingTest : public ::testing::Test
     return folder_.file(name);
   }
 
+  /** All but a chunk whose compression is not known is read. \param rest observations
+   * \return the message about the chunk */
+  std::string expectAChunkIsLeftOut(const std::string& bytes, std::size_t rest)
+  {
+    const Recorded bag = readRecording(fileOf(bytes));
+    EXPECT_EQ(bag.observations.size(), rest);
+    EXPECT_EQ(bag.problems.size(), 1U);
+    if (bag.problems.empty()) return {};
+    EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::NotSupported) << bag.problems[0].message;
+    return bag.problems[0].message;
+  }
+
   TemporaryFolder folder_;
 };
 

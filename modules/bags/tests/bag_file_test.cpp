@@ -165,11 +165,8 @@ TEST_F(BagFileTest, AnUnknownCompressionIsNamedAndTheRestIsRead)
   std::string bytes = bagOf(messages, {"none", 20, true});
   const std::string name = "compression=none";
   bytes.replace(bytes.find(name), name.size(), "compression=zpaq");
-  const Recorded bag = readRecording(fileOf(bytes));
-  EXPECT_EQ(bag.observations.size(), messages.size() - 20);
-  ASSERT_EQ(bag.problems.size(), 1U);
-  EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::NotSupported);
-  EXPECT_TRUE(contains(bag.problems[0].message, "zpaq")) << bag.problems[0].message;
+  const std::string message = expectAChunkIsLeftOut(bytes, messages.size() - 20);
+  EXPECT_TRUE(contains(message, "zpaq")) << message;
 }
 
 TEST_F(BagFileTest, AChunkWithoutACompressionIsNotLostInSilence)
@@ -177,10 +174,7 @@ TEST_F(BagFileTest, AChunkWithoutACompressionIsNotLostInSilence)
   const auto messages = smallRecording(Wire::Ros1);
   std::string bytes = bagOf(messages, {"none", 20, true});
   bytes.replace(bytes.find("compression=none"), 4, "comb");
-  const Recorded bag = readRecording(fileOf(bytes));
-  EXPECT_EQ(bag.observations.size(), messages.size() - 20);
-  ASSERT_EQ(bag.problems.size(), 1U);
-  EXPECT_EQ(bag.problems[0].kind, ReadProblemKind::NotSupported) << bag.problems[0].message;
+  expectAChunkIsLeftOut(bytes, messages.size() - 20);
 }
 
 TEST_F(BagFileTest, MessagesWhoseConnectionIsLostAreNotLostInSilence)

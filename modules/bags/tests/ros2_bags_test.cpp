@@ -140,10 +140,8 @@ TEST_F(RosTwoBags, AnUnknownCompressionOfMcapIsNamed)
   const auto messages = smallRecording(Wire::Cdr);
   std::string bytes = mcapOf(messages, {"zstd", 20, true});
   bytes.replace(bytes.find("zstd"), 4, "xyzw");
-  const Recorded bag = readRecording(fileOf(bytes));
-  EXPECT_EQ(bag.observations.size(), messages.size() - 20);
-  ASSERT_EQ(bag.problems.size(), 1U);
-  EXPECT_TRUE(contains(bag.problems[0].message, "xyzw")) << bag.problems[0].message;
+  const std::string message = expectAChunkIsLeftOut(bytes, messages.size() - 20);
+  EXPECT_TRUE(contains(message, "xyzw")) << message;
 }
 
 TEST_F(RosTwoBags, SqliteIsRead)
