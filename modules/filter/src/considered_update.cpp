@@ -61,21 +61,25 @@ UpdateStep consideringStep(
     const MeasurementEvaluation& evaluation)
 {
   const StateVector d = boxminus(iterate, prior.x);
-  const Square J_inv = priorJacobianInverse(iterate, prior.x);
-  const Square P = transformedCovariance(J_inv, prior.P);
   const Square projection = estimatedPart(evaluation.unconstrained, evaluation.by_state, iterate.R);
-  const Eigen::Matrix<double, 6, kStateDim> B = evaluation.by_state;
-  const Eigen::Matrix<double, 6, 6> S = evaluation.sums.HtRinvH;
-  const Eigen::Matrix<double, kStateDim, 6> gain = product(projection, step.gain);
-  const Eigen::Matrix<double, kStateDim, 6> gain_S = gain * S;
-  const Square keep = Square::Identity() - product(gain_S, B);
 
   UpdateStep partial;
   partial.dx = -d + product(projection, StateVector(step.dx + d));
-  partial.gain = gain;
-  partial.P = transformedCovariance(keep, P) + productByTransposed(gain_S, gain);
-  partial.P = 0.5 * (partial.P + partial.P.transpose()).eval();
+  partial.gain = product(projection, step.gain);
   return partial;
+}
+
+StateMatrix consideringCovariance(
+    const FilterState& prior, const NavState& iterate, const ScanGain& gain,
+    const MeasurementEvaluation& evaluation)
+{
+  const StateMatrix P = transformedCovariance(priorJacobianInverse(iterate, prior.x), prior.P);
+  const Eigen::Matrix<double, 6, kStateDim> B = evaluation.by_state;
+  const Eigen::Matrix<double, 6, 6> S = evaluation.sums.HtRinvH;
+  const Eigen::Matrix<double, kStateDim, 6> gain_S = gain * S;
+  const Square keep = Square::Identity() - product(gain_S, B);
+  const StateMatrix posterior = transformedCovariance(keep, P) + productByTransposed(gain_S, gain);
+  return 0.5 * (posterior + posterior.transpose());
 }
 
 }  // namespace fastlio

@@ -246,10 +246,14 @@ UpdateResult iteratedUpdate(
     result.last = evaluation.sums;
     if (evaluation.sums.count == 0 || !isFinite(evaluation.sums)) return result;
     step = stepWith(gain, prior, iterate, evaluation);
-    if (!evaluation.unconstrained.empty()) step = consideringStep(prior, iterate, step, evaluation);
+    const bool considering = !evaluation.unconstrained.empty();
+    if (considering) step = consideringStep(prior, iterate, step, evaluation);
+    const bool converged = isConverged(step.dx, limits);
+    if (considering && (converged || result.iterations == limits.max_iterations))
+      step.P = consideringCovariance(prior, iterate, step.gain, evaluation);
     if (!isFinite(step)) return result;
     iterate = boxplus(iterate, step.dx);
-    result.converged = isConverged(step.dx, limits);
+    result.converged = converged;
   }
   result.posterior = posteriorAt(iterate, step);
   result.gain = step.gain;

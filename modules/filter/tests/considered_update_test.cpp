@@ -19,6 +19,15 @@ MeasurementEvaluation evaluationOf(const StackedMeasurements& m)
   return e;
 }
 
+UpdateStep consideringStepWithCovariance(
+    const FilterState& prior, const NavState& iterate, const UpdateStep& full,
+    const MeasurementEvaluation& evaluation)
+{
+  UpdateStep step = consideringStep(prior, iterate, full, evaluation);
+  step.P = consideringCovariance(prior, iterate, step.gain, evaluation);
+  return step;
+}
+
 TEST(ConsideringStep, IsTheFullStepWhenAllDirectionsAreConstrained)
 {
   Random random(71);
@@ -26,7 +35,7 @@ TEST(ConsideringStep, IsTheFullStepWhenAllDirectionsAreConstrained)
   const NavState iterate = boxplus(prior.x, random.stateVector(0.05));
   const auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   const UpdateStep full = informationStep(prior, iterate, evaluation.sums);
-  const UpdateStep same = consideringStep(prior, iterate, full, evaluation);
+  const UpdateStep same = consideringStepWithCovariance(prior, iterate, full, evaluation);
   EXPECT_LT((same.dx - full.dx).norm(), 1e-12);
   EXPECT_LT((same.P - full.P).norm(), 1e-9 * full.P.norm());
 }
@@ -39,7 +48,7 @@ TEST(ConsideringStep, LeavesTheDirectionAloneInAllBlocks)
   const Vec3 u = random.axis();
   evaluation.unconstrained = {{false, u}};
   const UpdateStep full = informationStep(prior, prior.x, evaluation.sums);
-  const UpdateStep step = consideringStep(prior, prior.x, full, evaluation);
+  const UpdateStep step = consideringStepWithCovariance(prior, prior.x, full, evaluation);
   const Vec3 u_body = prior.x.R.transpose() * u;
   for (const auto& [block, axis] :
        {std::pair(kPosition, u), std::pair(kVelocity, u), std::pair(kAccelBias, u_body),
@@ -70,7 +79,7 @@ TEST(ConsideringStep, LeavesTheCalibrationAloneAndMovesTheScanAsTheFullStep)
       prior.x, {prior.x.extrinsic_correction, prior.x.time_offset, random.vector(1.0)});
   evaluation.unconstrained = {{true, random.axis()}};
   const UpdateStep full = informationStep(prior, prior.x, evaluation.sums, evaluation.by_state);
-  const UpdateStep step = consideringStep(prior, prior.x, full, evaluation);
+  const UpdateStep step = consideringStepWithCovariance(prior, prior.x, full, evaluation);
   EXPECT_EQ(step.dx.tail<kCalibrationDim>().norm(), 0.0);
   EXPECT_GT(full.dx.tail<kCalibrationDim>().norm(), 1e-4);
   const Vector6 moved = evaluation.by_state * step.dx, full_move = evaluation.by_state * full.dx;
@@ -90,7 +99,7 @@ TEST(ConsideringStep, LeavesARotationAlone)
   auto evaluation = evaluationOf(testing::randomMeasurements(random, 50, 0.02));
   evaluation.unconstrained = {{true, Vec3::UnitZ()}};
   const UpdateStep full = informationStep(prior, prior.x, evaluation.sums);
-  const UpdateStep step = consideringStep(prior, prior.x, full, evaluation);
+  const UpdateStep step = consideringStepWithCovariance(prior, prior.x, full, evaluation);
   EXPECT_NEAR(step.dx[kAttitude + 2], 0.0, 1e-14);
   EXPECT_NEAR(step.dx[kGyroBias + 2], 0.0, 1e-14);
   EXPECT_GT(std::abs(step.dx[kAttitude]), 1e-6);

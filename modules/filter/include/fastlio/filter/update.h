@@ -123,16 +123,24 @@ struct UpdateStep
 
 /** The same step without touching what belongs to unconstrained directions: of a translation
  * position, velocity, accelerometer bias and gravity along it, of a rotation attitude and gyro bias
- * about it. These are considered in the sense of Schmidt: their rows of the gain are zero, and
- * P = (I - K H) P (I - K H)^T + K R K^T holds for such a gain, too. Otherwise every scan would
- * pretend to know a little more of them, because no two scans agree exactly on the direction. */
+ * about it. These are considered in the sense of Schmidt: their rows of the gain are zero.
+ * Otherwise every scan would pretend to know a little more of them, because no two scans agree
+ * exactly on the direction.
+ * \return dx and the gain; P is zero, see consideringCovariance() */
 [[nodiscard]] UpdateStep consideringStep(
     const FilterState& prior, const NavState& iterate, const UpdateStep& step,
     const MeasurementEvaluation& evaluation);
 
+/** The covariance after consideringStep(): P = (I - K H) P (I - K H)^T + K R K^T, which holds for
+ * any gain. Only the last iteration needs it.
+ * \param iterate the one that the step began at \param gain the one of consideringStep() */
+[[nodiscard]] StateMatrix consideringCovariance(
+    const FilterState& prior, const NavState& iterate, const ScanGain& gain,
+    const MeasurementEvaluation& evaluation);
+
 /** Eq. 15-20: iterate until every step (but that of the time offset) is below its limit, or
- * max_iterations. The  * posterior's covariance is symmetric and refers to the posterior's own
- * tangent space.
+ * max_iterations. The posterior's covariance is symmetric and refers to the posterior's own tangent
+ * space.
  * \param start of the iterations: the prior's mean, or what an earlier update has found
  * \throw std::invalid_argument when max_iterations < 1, or when the standard gain is chosen and the
  * model does not stack as many measurements as it counts */
