@@ -10,7 +10,7 @@ build_packages="g++ cmake ninja-build
   libmrpt-maps-dev libmrpt-slam-dev libmrpt-topography-dev libeigen3-dev libnanoflann-dev robin-map-dev
   libcli11-dev nlohmann-json3-dev libre2-dev libyaml-dev libboost-dev libgtest-dev
   zlib1g-dev libbz2-dev liblz4-dev libzstd-dev libsqlite3-dev libpcap-dev libproj-dev"
-# Inflates rawlogs 2.5 times as fast as zlib, which does it where Debian has none.
+# Inflates rawlogs 2.5 times as fast as zlib and compresses ten times as fast; zlib does both where Debian has none.
 if [ "$(dpkg --print-architecture 2>/dev/null)" = amd64 ]; then
   build_packages="$build_packages libisal-dev"
 fi

@@ -36,11 +36,11 @@ class GzipFile
   OutputFile commit();
 
  private:
-  void deflate(int flush);
+  void pack(std::string_view bytes, bool end);
 
   AtomicFile file_;
-  struct Zlib;
-  std::unique_ptr<Zlib> zlib_;
+  struct Packing;
+  std::unique_ptr<Packing> packing_;
 };
 
 }  // namespace fastlio
