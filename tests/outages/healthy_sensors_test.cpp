@@ -36,5 +36,26 @@ TEST(HealthySensors, ContradictEachOtherAmongTreesWithoutAStep)
   EXPECT_LT(positionError(run, run.scans.back()), 0.3);
 }
 
+// On a landing, a LiDAR that looks ahead turns from a wall to stairs that are not in the map yet.
+// Few points matched, so their scans did not join the map, and then none matched for the rest of
+// the way.
+TEST(HealthySensors, ANarrowViewThatTurnsToWhatIsNotMappedIsNotLost)
+{
+  SimulationSettings settings = defaultSettings("stairs");
+  settings.lidar.kind = LidarKind::Livox;
+  settings.lidar.stride = 2;
+  settings.speed = 2.0;
+  settings.duration = 25.0;
+  settings.seed = 3;
+  OdometryOptions options = matchingParameters(settings);
+  options.threads = 1;
+  const SimulatedRun run = runOdometry(Simulation(settings), options);
+  for (const JudgedScan& scan : run.scans)
+  {
+    ASSERT_NE(scan.result.status, ScanStatus::Diverged) << scan.result.message;
+    EXPECT_LT(positionError(run, scan), 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace fastlio::testing

@@ -108,7 +108,7 @@ ConsideredUpdate LocalMap::considerUpdate(
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
 {
-  return isSparse() || matchesAsUsual(statistics, points);
+  return isSparse() || matchesAsUsual(statistics, points) || fitsWhatIsMapped(statistics);
 }
 
 void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)

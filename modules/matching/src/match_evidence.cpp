@@ -5,6 +5,12 @@
 
 namespace fastlio
 {
+namespace
+{
+// Of the points where the map has a plane. Usual are nine of ten, at a wrong pose less than four.
+constexpr double kFittingPart = 0.5;
+}  // namespace
+
 double inlierRatio(std::size_t inliers, std::size_t points)
 {
   return points > 0 ? static_cast<double>(inliers) / static_cast<double>(points) : 0.0;
@@ -18,6 +24,12 @@ double inlierRatio(const ScanStatistics& s, std::size_t points)
 bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points)
 {
   return inlierRatio(statistics, points) >= kMinUsualFraction * statistics.usual_inlier_ratio;
+}
+
+bool fitsWhatIsMapped(const ScanStatistics& s)
+{
+  return s.points_effective > 0 && s.normalized_innovation <= kMaxInnovation &&
+         inlierRatio(s, s.points_mapped) >= kFittingPart;
 }
 
 }  // namespace fastlio

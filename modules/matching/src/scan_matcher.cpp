@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -26,6 +27,13 @@ bool isSmallStep(const Pose& from, const Pose& to)
 {
   const Vec3 turn = logSO3(from.R.transpose() * to.R);
   return (to.p - from.p).norm() + kLeverArm * turn.norm() < kSmallStep;
+}
+
+template <class Match>
+std::size_t countValid(const std::vector<Match>& matches)
+{
+  return static_cast<std::size_t>(std::count_if(
+      matches.begin(), matches.end(), [](const Match& match) { return match.valid(); }));
 }
 
 /** The prediction's uncertainty of position, as the gate takes it. One direction may be far more
@@ -187,6 +195,7 @@ MatchResult ScanMatcher::match(
       // By reference: a copy of the captures would go to the heap.
       iteratedUpdate(predicted, start.x, std::cref(measurements), options.limits, options.gain);
   result.update.last.count = effective;
+  result.mapped = countValid(matches_) + countValid(edge_matches_);
   return result;
 }
 

@@ -17,6 +17,7 @@ namespace
 void describeMatch(const MatchResult& match, ScanStatistics& statistics)
 {
   const InformationSums& sums = match.update.last;
+  statistics.points_mapped = match.mapped;
   statistics.points_effective = sums.count;
   statistics.iterations = match.update.iterations;
   statistics.converged = match.update.converged;

@@ -129,6 +129,7 @@ struct ScanStatistics
   std::size_t dropped_far = 0;         //!< farther than lidar.max_range
   std::size_t dropped_own_body = 0;    //!< of what moves with the LiDAR
   std::size_t points_downsampled = 0;  //!< that were matched with the map
+  std::size_t points_mapped = 0;       //!< where the map has a plane or a line, fitting or not
   std::size_t points_effective = 0;    //!< matched with a plane in the last iteration
   double usual_inlier_ratio = 0.0;     //!< of the scans before, with this map; 0: none matched
   std::size_t imu_samples = 0;         //!< inertial samples of this scan's interval

@@ -25,4 +25,9 @@ inline constexpr double kMaxInnovation = 3.0;
  * but for one direction.) \param points of the scan that could have matched */
 [[nodiscard]] bool matchesAsUsual(const ScanStatistics& statistics, std::size_t points);
 
+/** What the map has where the scan is fits the scan, however little that is. A sensor with a narrow
+ * field of view that turns sees surroundings that are not in the map yet; at a wrong pose, the map
+ * contradicts. */
+[[nodiscard]] bool fitsWhatIsMapped(const ScanStatistics& statistics);
+
 }  // namespace fastlio

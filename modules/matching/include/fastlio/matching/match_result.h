@@ -41,6 +41,7 @@ struct MatchResult
   ResidualModel model;          //!< decided which matches count
   ScanConstraints constraints;  //!< degenerate directions, which the update left alone
   double association_ms = 0.0;  //!< time spent on searching the map [ms]
+  std::size_t mapped = 0;  //!< points where the map has a plane or a line, of the last association
   /** Of the last association, by surface point; storage of the matcher. */
   const std::vector<PlaneMatch>* matches = nullptr;
   /** At the last iterate; storage of the matcher. */
