@@ -138,22 +138,70 @@ std::string shortageOf(std::size_t agreeing, std::size_t fixes)
       agreeing, fixes);
 }
 
-/** Leaves out the fixes that contradict the others, and gives the rest the noise that was measured.
- */
-void keepAgreeing(
-    PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome, double lasting)
+/** Leaves the fixes out that contradict the map. */
+void keepAgreeing(PoseGraph& graph, GraphEstimate& estimate)
+{
+  std::vector<PositionFactor> kept;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+    if (agrees(estimate.position_weights[i])) kept.push_back(graph.positions[i]);
+  graph.positions = std::move(kept);
+  estimate.position_weights.assign(graph.positions.size(), 1.0);
+}
+
+/** Leaves the fixes out that the noise of all fixes does not explain. Where a receiver claims more
+ * noise than it has, its own account lets wrong fixes pass. \return false: nothing was left out */
+bool dropUnexplained(PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome)
+{
+  constexpr double kQuantile = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
+  const Vec3 std(outcome.horizontal_std, outcome.horizontal_std, outcome.vertical_std);
+  std::vector<PositionFactor> kept;
+  for (std::size_t i = 0; i < graph.positions.size(); ++i)
+  {
+    const PositionFactor& factor = graph.positions[i];
+    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
+    const bool is_explained = e.cwiseQuotient(std).squaredNorm() <= kQuantile;
+    if (agrees(estimate.position_weights[i]) && is_explained) kept.push_back(factor);
+  }
+  const bool too_few = !shortageOf(kept.size(), outcome.fixes).empty();
+  if (kept.size() == graph.positions.size() || too_few) return false;
+  graph.positions = std::move(kept);
+  return true;
+}
+
+void beginAt(PoseGraph& graph, const GraphEstimate& estimate)
+{
+  graph.nodes = estimate.nodes;
+  graph.T_earth_world = estimate.T_earth_world;
+}
+
+/** Measures the noise of the fixes in a graph that agree, and leaves out those that it does not
+ * explain. */
+void settleOnNoise(
+    PoseGraph& graph, GraphEstimate& estimate, const std::vector<Submap>& submaps,
+    GnssOutcome& outcome)
+{
+  constexpr int kMostRounds = 4;  // the noise without wrong fixes is smaller, and shows more
+  keepAgreeing(graph, estimate);
+  for (int round = 0; round < kMostRounds; ++round)
+  {
+    measure(graph, estimate, submaps, outcome);
+    if (!dropUnexplained(graph, estimate, outcome)) break;
+    beginAt(graph, estimate);
+    estimate = optimize(graph, false);
+  }
+  keepAgreeing(graph, estimate);
+  beginAt(graph, estimate);
+  outcome.rejected = outcome.fixes - graph.positions.size();
+}
+
+/** Gives the fixes the noise that was measured. */
+void setNoise(PoseGraph& graph, const GnssOutcome& outcome, double lasting)
 {
   const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
   const double v2 = lasting * std::pow(outcome.vertical_std, 2);
   // The wider covariance must not let wrong fixes in: those that were found out stay out.
-  std::vector<PositionFactor> kept;
-  for (std::size_t i = 0; i < graph.positions.size(); ++i)
-  {
-    if (!agrees(estimate.position_weights[i])) continue;
-    kept.push_back(graph.positions[i]);
-    kept.back().covariance = Vec3(h2, h2, v2).asDiagonal();
-  }
-  graph.positions = std::move(kept);
+  for (PositionFactor& factor : graph.positions)
+    factor.covariance = Vec3(h2, h2, v2).asDiagonal();
 }
 }  // namespace
 
@@ -205,10 +253,8 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   outcome.rejected = outcome.fixes - agreeing;
   outcome.reason = shortageOf(agreeing, outcome.fixes);
   if (!outcome.reason.empty()) return outcome;
-  measure(graph, estimate, result.submaps, outcome);
-  keepAgreeing(graph, estimate, outcome, lastingOf(graph, estimate, result.submaps));
-  graph.nodes = estimate.nodes;
-  graph.T_earth_world = estimate.T_earth_world;
+  settleOnNoise(graph, estimate, result.submaps, outcome);
+  setNoise(graph, outcome, lastingOf(graph, estimate, result.submaps));
   estimate = optimize(graph);
   result.graph = std::move(graph);
   result.estimate = std::move(estimate);

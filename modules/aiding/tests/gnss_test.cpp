@@ -83,6 +83,15 @@ class Road
       fixes_[i].place = frame_.geodeticOf(frame_.enuOf(fixes_[i].place) + by);
   }
 
+  /** Reflections: some successive positions are off, all by the same. \return how many */
+  std::size_t reflect(const Vec3& by)
+  {
+    const std::size_t begin = fixes_.size() / 4, end = begin + fixes_.size() / 20;
+    for (std::size_t i = begin; i < end; ++i)
+      fixes_[i].place = frame_.geodeticOf(frame_.enuOf(fixes_[i].place) + by);
+    return end - begin;
+  }
+
   [[nodiscard]] const std::vector<Pose>& truth() const { return truth_; }
   [[nodiscard]] const LocalFrame& frame() const { return frame_; }
 
@@ -174,6 +183,21 @@ TEST(Gnss, FiveKilometresWithAMetreOfNoise)
     EXPECT_LT(errors.horizontal, 0.3);
     EXPECT_NEAR(gnss.horizontal_std, kNoise, 0.15 * kNoise);
     EXPECT_LT(gnss.rejected, 5U);
+  }
+}
+
+/** By the account of the receiver these are possible. By the noise that it has they are not. */
+TEST(Gnss, LeavesReflectionsOutThatTheReceiversAccountAllows)
+{
+  for (unsigned seed = 1; seed <= 3; ++seed)
+  {
+    Road road(1200.0, seed, 2.0 * kNoise);
+    const std::size_t wrong = road.reflect({7.0, -5.0, 3.0});
+    const auto [map, gnss] = road.mapped();
+    ASSERT_TRUE(gnss.used) << gnss.reason;
+    EXPECT_GE(gnss.rejected, wrong);
+    EXPECT_LE(gnss.rejected, wrong + 2);
+    EXPECT_NEAR(gnss.horizontal_std, kNoise, 0.2 * kNoise);
   }
 }
 

@@ -55,7 +55,8 @@ class GnssFactors
 
   /** Adds them to the graph of a map and optimises it: first with the receiver's standard
    * deviations, then with those that the first optimum shows, and with the correlation of errors in
-   * time. The result stays as it is where too few of the fixes agree. */
+   * time. Either leaves fixes out that contradict the others. The result stays as it is where too
+   * few of the fixes agree. */
   [[nodiscard]] GnssOutcome applyTo(MappingResult& result) const;
 
  private:
