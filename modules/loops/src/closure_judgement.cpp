@@ -17,15 +17,16 @@ namespace
 constexpr double kOpen = 10.0;   // as of directions that nothing constrains [m]
 constexpr double kNarrow = 5.0;  // median range of stairwells and rooms, not of streets [m]
 
-/** A direction of the position that is known weakly counts as not known. \return whether there is
- * one */
+/** A direction of the position that is known weakly, or along which another place is nearly as
+ * likely, counts as not known. \return whether there is one */
 bool openWeakDirection(Registration& registration, const ClosureLimits& limits)
 {
   RelativePose& motion = registration.motion;
   const Mat3 position = motion.covariance.bottomRightCorner<3, 3>();
   const auto system = symmetricEigensystem(position);
   const bool is_known = system.values.z() <= std::pow(limits.max_position_std, 2) &&
-                        registration.evidence.planes_across[0] >= limits.min_planes_across;
+                        registration.evidence.planes_across[0] >= limits.min_planes_across &&
+                        registration.evidence.margin >= limits.min_margin;
   if (is_known) return false;
   const Vec3 direction = system.vectors.col(2);
   motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * direction * direction.transpose();
@@ -100,12 +101,13 @@ std::optional<Shortcoming> shortcomingOf(
             "%.0f %% of the counterparts agree (at least %.0f %%), to %.3f m (at most %.3f m)",
             100.0 * found.inlier_ratio, 100.0 * limits.min_inlier_ratio, found.residual_rms,
             limits.max_residual)};
-  if (found.margin < limits.min_margin)
+  const double margin = limits.open_directions > 0 ? found.margin_across : found.margin;
+  if (margin < limits.min_margin)
     return Shortcoming{
         ClosureVerdict::Ambiguous,
         mrpt::format(
             "another place, %.1f m away, is nearly as likely (margin %.1f, at least %.1f)",
-            found.rival.norm(), found.margin, limits.min_margin)};
+            found.rival.norm(), margin, limits.min_margin)};
   const double std = positionStd(registration.motion.covariance, 2 - limits.open_directions);
   const double across = found.planes_across[limits.open_directions];
   if (std > limits.max_position_std || across < limits.min_planes_across)
@@ -118,19 +120,21 @@ std::optional<Shortcoming> shortcomingOf(
   return std::nullopt;
 }
 
-ClosureLimits Mapper::limitsFor(const RelativePose& predicted, bool is_narrow) const
+ClosureLimits Mapper::limitsFor(const RelativePose& predicted, bool is_narrow, double range) const
 {
   ClosureLimits limits = limits_;
+  const double std = largestPositionStd(predicted.covariance);
   if (is_narrow) limits.max_deviation = limits.narrow_deviation;
-  if (largestPositionStd(predicted.covariance) > limits.known_place_std) return limits;
+  if (!is_narrow && std <= limits.maxStd(range)) limits.open_directions = 1;
+  if (std > limits.known_place_std) return limits;
   limits.min_overlap = limits.min_upright = limits.known_place_overlap;
   limits.open_directions = 1;
   return limits;
 }
 
-void Mapper::judge(Closure& closure, bool is_narrow) const
+void Mapper::judge(Closure& closure, bool is_narrow, double range) const
 {
-  const ClosureLimits limits = limitsFor(closure.predicted, is_narrow);
+  const ClosureLimits limits = limitsFor(closure.predicted, is_narrow, range);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
   GraphEdge edge{0, 1, closure.registration.motion, true};
@@ -173,7 +177,7 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   closure.registration =
       SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
   const bool is_narrow = below_ceiling || range < kNarrow;
-  judge(closure, is_narrow);
+  judge(closure, is_narrow, range);
   if (is_narrow && closure.verdict == ClosureVerdict::Accepted)
     judgePrediction(closure, up, below_ceiling, range);
   return closure;

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -196,6 +198,74 @@ TEST(ClosureJudgement, OutdoorsALongRideMayComeBack)
   const Closure closure =
       closureOf({submapAt(street, 0.0, 0.0, 0.0), submapAt(street, 3.0, 5.0, 60.0)});
   EXPECT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
+}
+
+/** A street whose fronts tell the place across, not along. */
+Submap streetWithoutCorners()
+{
+  Submap street = surroundings("town");
+  const auto seen = street.surfaces.get();
+  SubmapSurfaces fronts;
+  for (std::size_t i = 0; i < seen->planes.size(); ++i)
+  {
+    if (std::abs(seen->planes[i].normal().x()) > 0.05) continue;
+    fronts.planes.push_back(seen->planes[i]);
+    fronts.spreads.push_back(seen->spreads[i]);
+  }
+  street.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(fronts));
+  return street;
+}
+
+/** The closure of a place that an odometry passes again.
+ * \param std how well it knows where it is [m] */
+Closure closureOfSecondPass(const Submap& place, double std)
+{
+  Submap later = submapAt(place, 0.0, 0.0, 60.0);
+  later.reference.T_world_body.p += Vec3(0.3, 0.2, 0.1);
+  later.reference.map_covariance.diagonal().tail<3>().setConstant(std * std);
+  later.reference.covariance = later.reference.map_covariance + 1e-8 * Matrix6::Identity();
+  return closureOf({submapAt(place, 0.0, 0.0, 0.0), later});
+}
+
+/** What lies along the street stays as the odometry has it. The rest is worth knowing. */
+TEST(ClosureJudgement, AStreetClosesWithItsDirectionOpen)
+{
+  const Closure closure = closureOfSecondPass(streetWithoutCorners(), 1.0);
+  ASSERT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
+  EXPECT_NE(closure.reason.find("one direction stays open"), std::string::npos) << closure.reason;
+  const RelativePose& motion = closure.registration.motion;
+  EXPECT_LT(motion.T_a_b.p.tail<2>().norm(), 0.02);
+  EXPECT_GT(motion.covariance(3, 3), 1.0) << "along the street";
+  EXPECT_LT(motion.covariance(4, 4), 0.01);
+  EXPECT_LT(motion.covariance(5, 5), 0.01);
+}
+
+/** The next street may look the same, and so may the next corridor. */
+TEST(ClosureJudgement, NoDirectionStaysOpenWhereAnotherPlaceMayBeMeant)
+{
+  const Submap street = streetWithoutCorners();
+  ASSERT_LT(ClosureLimits{}.maxStd(street.range), 8.0);
+  EXPECT_NE(closureOfSecondPass(street, 8.0).verdict, ClosureVerdict::Accepted);
+  EXPECT_NE(closureOfSecondPass(surroundings("tunnel"), 1.0).verdict, ClosureVerdict::Accepted);
+}
+
+/** Fronts with the same window every few metres: no closure tells them apart along the street. */
+TEST(ClosureJudgement, WhatLooksTheSameAlongAStreetIsNoRival)
+{
+  Registration found;
+  found.converged = true;
+  found.evidence.overlap = found.evidence.upright_score = found.evidence.inlier_ratio = 0.9;
+  found.evidence.planes_across = {20.0, 100.0, 200.0};
+  found.evidence.margin = 5.0;
+  found.evidence.margin_across = 50.0;
+  ClosureLimits limits;
+  ASSERT_TRUE(shortcomingOf(found, limits));
+  EXPECT_EQ(shortcomingOf(found, limits)->verdict, ClosureVerdict::Ambiguous);
+  limits.open_directions = 1;
+  EXPECT_FALSE(shortcomingOf(found, limits));
+  found.evidence.margin_across = 5.0;
+  ASSERT_TRUE(shortcomingOf(found, limits));
+  EXPECT_EQ(shortcomingOf(found, limits)->verdict, ClosureVerdict::Ambiguous);
 }
 
 /** On the way, the odometry has lost the height and has found it again where it knew it before.

@@ -22,6 +22,8 @@ namespace fastlio
 namespace
 {
 constexpr double kSameBasin = 0.3;          // registrations nearer than this are the same one [m]
+constexpr double kSameAttitude = 0.05;      // and turned by less than this [rad]
+constexpr double kBesideDirection = 0.1;    // places along a direction are this near to it [m]
 constexpr std::size_t kCoarsePlanes = 200;  // for looking around
 constexpr std::size_t kFinePlanes = 1500;   // for comparing what was found
 constexpr std::size_t kMostRivals = 6;      // places that are compared
@@ -46,7 +48,7 @@ struct Found
 
 bool isSamePlace(const Pose& a, const Pose& b)
 {
-  return (a.p - b.p).norm() < kSameBasin && logSO3(a.R.transpose() * b.R).norm() < 0.05;
+  return (a.p - b.p).norm() < kSameBasin && logSO3(a.R.transpose() * b.R).norm() < kSameAttitude;
 }
 
 /** The likeliest places, each once. */
@@ -63,6 +65,31 @@ std::vector<Found> distinct(std::vector<Found> found, std::size_t most)
     if (places.size() == most) break;
   }
   return places;
+}
+
+/** Whether all that differs is the place along a direction. */
+bool isAlong(const Vec3& direction, const Pose& a, const Pose& b)
+{
+  const Vec3 moved = b.p - a.p;
+  const Vec3 across = moved - direction * direction.dot(moved);
+  return across.norm() < kBesideDirection && logSO3(a.R.transpose() * b.R).norm() < kSameAttitude;
+}
+
+/** How much likelier the first place is than the others. */
+void compareWithRivals(const std::vector<Found>& places, Registration& result)
+{
+  RegistrationEvidence& evidence = result.evidence;
+  evidence.margin = evidence.margin_across = std::numeric_limits<double>::infinity();
+  if (places.size() < 2) return;
+  const Found& best = places[0];
+  evidence.margin = places[1].cost - best.cost;
+  evidence.rival = places[1].pose.p - best.pose.p;
+  const Mat3 position = result.motion.covariance.bottomRightCorner<3, 3>();
+  const Vec3 weak = symmetricEigensystem(position).vectors.col(2);
+  const auto across = std::find_if(
+      places.begin() + 1, places.end(),
+      [&](const Found& place) { return !isAlong(weak, best.pose, place.pose); });
+  if (across != places.end()) evidence.margin_across = across->cost - best.cost;
 }
 
 /** Half of the squared normalized distance from the prediction. */
@@ -117,12 +144,7 @@ Registration SubmapRegistration::search(
   Registration result = aligner_->finish(all, refined.front().pose);
   result.evidence.upright_score = aligner_->uprightScore(all, refined.front().pose, up);
   result.evidence.starts = starts.size();
-  result.evidence.margin = std::numeric_limits<double>::infinity();
-  if (refined.size() > 1)
-  {
-    result.evidence.margin = refined[1].cost - refined[0].cost;
-    result.evidence.rival = refined[1].pose.p - refined[0].pose.p;
-  }
+  compareWithRivals(refined, result);
   return result;
 }
 

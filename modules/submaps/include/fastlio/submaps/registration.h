@@ -33,7 +33,10 @@ struct RegistrationEvidence
   /** How much likelier the pose is than any other place that was found (natural logarithm);
    * infinite: there was none. */
   double margin = 0.0;
-  Vec3 rival = Vec3::Zero();                          //!< that place, from the pose [m]
+  Vec3 rival = Vec3::Zero();  //!< that place, from the pose [m]
+  /** The same without places that lie along the least known direction of the position: a closure
+   * that leaves this direction open does not have to tell them apart. */
+  double margin_across = 0.0;
   Vector6 information_eigenvalues = Vector6::Zero();  //!< ascending
 };
 
