@@ -125,12 +125,20 @@ std::string bridgedGap(double gap_s, double max_gap)
 std::string relocalisationFailure(
     const ScanOutcome& outcome, const ScanStatistics& s, const InitializationOptions& p)
 {
-  return mrpt::format(
+  const double ratio = inlierRatio(s, std::max<std::size_t>(outcome.points, 1));
+  std::string fault = mrpt::format(
       "%.0f %% of the points match the given map around the initial pose, at least %.0f %% are "
-      "needed: give an initial pose that is nearer to the true one, or search farther with a "
-      "larger initialization.pose_position_std (now %.2f m) and pose_yaw_std",
-      100.0 * inlierRatio(s, std::max<std::size_t>(outcome.points, 1)),
-      100.0 * kGivenMapInlierRatio, p.pose_position_std);
+      "needed",
+      100.0 * ratio, 100.0 * kGivenMapInlierRatio);
+  if (ratio >= kGivenMapInlierRatio && s.normalized_innovation > kWrongPoseInnovation)
+    fault = mrpt::format(
+        "%.0f %% of the points match the given map around the initial pose, but badly: their "
+        "residuals are %.1f times what the noise explains, at most %.0f are allowed",
+        100.0 * ratio, s.normalized_innovation, kWrongPoseInnovation);
+  return fault + mrpt::format(
+                     ": give an initial pose that is nearer to the true one, or search farther "
+                     "with a larger initialization.pose_position_std (now %.2f m) and pose_yaw_std",
+                     p.pose_position_std);
 }
 
 /** The state is not trusted: the prediction overflowed, or no scan has corrected it for long. */

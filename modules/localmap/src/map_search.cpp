@@ -28,9 +28,6 @@ constexpr double kUsualPart = 0.5;
 constexpr double kUsualPartOnLevel = 0.75;
 // A carried pose is searched once in a while and by heading, too: some seconds are well spent.
 constexpr std::size_t kMostCarriedCandidates = 12000;
-// Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
-// that is set too small make a few times the noise: trouble, but a match.
-constexpr double kWrongPoseInnovation = 10.0;
 
 /** Standard deviation of the attitude about gravity [rad]. */
 double headingStd(const FilterState& s)
@@ -117,6 +114,11 @@ MapSearchResult MapSearch::aroundGivenPose(const FilterState& predicted) const
   latest = matcher_.match(scan_, from, map_.matched(), ordinaryMatching(options_));
   if (!latest.update.updated || ratioOf(latest.update) < kGivenMapInlierRatio)
     return notFound(std::move(latest), predicted, best.last);
+  if (normalizedInnovation(latest.update) > kWrongPoseInnovation)
+  {
+    const InformationSums refused = latest.update.last;
+    return notFound(std::move(latest), predicted, refused);
+  }
   return {std::move(latest), true, std::nullopt};
 }
 

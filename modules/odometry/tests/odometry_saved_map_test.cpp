@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 using namespace fastlio;
 using namespace fastlio::testing;
@@ -241,6 +242,31 @@ TEST(SavedMap, APlaceOutsideOfTheMapIsReportedInsteadOfBelieved)
   EXPECT_EQ(countOf(results, ScanStatus::Initializing), results.size());
   EXPECT_NE(results.back().message.find("match the given map"), std::string::npos)
       << results.back().message;
+}
+
+/** Half of the points match somewhere, as rooms are alike, but badly. Found on a later scan, the
+ * place may be the true one. */
+TEST(SavedMap, APlaceThatMatchesBadlyIsNotBelieved)
+{
+  for (const auto& [place, yaw] :
+       {std::pair{Vec3(0.0, 1.5, 0.0), 0.4},
+        {Vec3(1.5, 1.5, 0.0), 0.0},
+        {Vec3(4.0, 0.0, 0.0), 0.4}})
+  {
+    Odometry odometry(roomParameters());
+    SavedMap map;
+    map.points = earlierRun().points;
+    map.planes = earlierRun().planes;
+    map.T_map_imu = {expSO3({0.0, 0.0, yaw}), place};
+    odometry.startIn(map);
+    for (const ScanResult& result : runInOrder(odometry, earlierRun().recording))
+    {
+      if (result.status == ScanStatus::Initializing) continue;
+      const Pose truth = earlierRun().recording.truthAt(result.stamp_ns);
+      EXPECT_LT((result.filter.x.p - truth.p).norm(), 0.1) << place.transpose();
+      break;
+    }
+  }
 }
 
 TEST(SavedMap, MisuseIsRefused)

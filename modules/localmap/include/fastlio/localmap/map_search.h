@@ -17,6 +17,9 @@ namespace fastlio
 {
 /** Inliers of a first match with a given map: half of the scan may be new or have moved. */
 inline constexpr double kGivenMapInlierRatio = 0.5;
+/** Residuals that are so many times the noise come of a wrong pose. Clocks that are apart and noise
+ * that is set too small make a few times the noise: trouble, but a match. */
+inline constexpr double kWrongPoseInnovation = 10.0;
 
 /** The best match of a search. */
 struct MapSearchResult
@@ -48,7 +51,8 @@ class MapSearch
   {
   }
 
-  /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach. */
+  /** Tries places and headings around the prediction, as far as initialization.pose_*_std reach.
+   * Half of the points have to match, and not badly: rooms and streets are alike. */
   [[nodiscard]] MapSearchResult aroundGivenPose(const FilterState& predicted) const;
   /** As aroundPrediction(), from a pose that was carried over a time without inertial data: tries
    * more places, as it is searched once in a while. */
