@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace fastlio
 {
@@ -84,20 +85,39 @@ struct Stretch
   std::size_t begin = 0, end = 0;
 };
 
+bool isQuiet(const Moments& window, double quiet_gyro)
+{
+  return window.n >= kFewestSamples && window.gyroScatter() <= quiet_gyro &&
+         window.accelScatter() <= kQuietAccel * window.accelMean().norm();
+}
+
+/** The least rate of all quiet windows: at a rest, the bias. */
+Vec3 slowestRate(const std::vector<Moments>& windows, double quiet_gyro)
+{
+  std::optional<Vec3> slowest;
+  for (const Moments& window : windows)
+    if (isQuiet(window, quiet_gyro) && (!slowest || window.gyroMean().norm() < slowest->norm()))
+      slowest = window.gyroMean();
+  return slowest.value_or(Vec3::Zero());
+}
+
+/** A steady turn is as quiet as a rest, but its rate is another one. */
 Stretch longestRest(const std::vector<Moments>& windows)
 {
   const double quiet_gyro = quietGyro(windows);
+  const Vec3 bias = slowestRate(windows, quiet_gyro);
   Stretch longest, now;
   for (std::size_t i = 0; i < windows.size(); ++i)
   {
     const Moments& window = windows[i];
     const double magnitude = window.n > 0 ? window.accelMean().norm() : 0.0;
-    const bool quiet = window.n >= kFewestSamples && window.gyroScatter() <= quiet_gyro &&
-                       window.accelScatter() <= kQuietAccel * magnitude;
+    const bool quiet =
+        isQuiet(window, quiet_gyro) && (window.gyroMean() - bias).norm() <= quiet_gyro;
     const bool still = now.begin == now.end ||
                        (quiet && (window.accelMean() - windows[now.begin].accelMean()).norm() <=
                                      kStillForce * magnitude + kQuietAccel * kStillForce);
-    if (!quiet || !still) now = {i, i};
+    const std::size_t begin = quiet ? i : i + 1;
+    if (!quiet || !still) now = {begin, begin};
     if (quiet) now.end = i + 1;
     if (now.end - now.begin > longest.end - longest.begin) longest = now;
   }

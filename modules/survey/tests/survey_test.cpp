@@ -101,6 +101,28 @@ TEST(ImuSurvey, FindsTheRestAndWhatItShows)
   EXPECT_FALSE(surveyImu({}, 200.0).rests);
 }
 
+/** A wheelchair that turns on the spot, for longer than it has stood: turning has no more scatter.
+ */
+TEST(ImuSurvey, ASteadyTurnIsNoRest)
+{
+  std::mt19937 engine(4);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::vector<ImuSample> samples;
+  for (int i = 0; i < 12 * 200; ++i)
+  {
+    const bool turns = i > 3 * 200 && i < 9 * 200;
+    ImuSample& sample = samples.emplace_back();
+    sample.stamp_ns = kStart + i * 5'000'000LL;
+    sample.gyro = Vec3(0.01 + noise(engine), noise(engine), noise(engine) + (turns ? 1.0 : 0.0));
+    sample.accel = Vec3(noise(engine), noise(engine), 9.81 + noise(engine));
+  }
+  const ImuSurvey survey = surveyImu(samples, 200.0);
+  EXPECT_TRUE(survey.rests);
+  EXPECT_NEAR(survey.rest_seconds, 3.0, 0.5);
+  EXPECT_LT(survey.gyro_mean.norm(), 0.02);
+  EXPECT_NEAR(survey.gyro_noise_density, 0.01 / std::sqrt(200.0), 1e-4);
+}
+
 TEST(MotionCheck, FindsOffsetMountingAndUnit)
 {
   const Mat3 R_imu_lidar = expSO3(Vec3(0.3, -1.2, 2.0));
