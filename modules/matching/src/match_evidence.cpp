@@ -7,7 +7,8 @@ namespace fastlio
 {
 namespace
 {
-// Of the points where the map has a plane. Usual are nine of ten, at a wrong pose less than four.
+// Of the points where the map has a plane. Nine of ten are usual; at a wrong pose nearly all scans
+// have less than four.
 constexpr double kFittingPart = 0.5;
 }  // namespace
 
