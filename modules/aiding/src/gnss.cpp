@@ -152,14 +152,13 @@ void keepAgreeing(PoseGraph& graph, GraphEstimate& estimate)
  * noise than it has, its own account lets wrong fixes pass. \return false: nothing was left out */
 bool dropUnexplained(PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome)
 {
-  constexpr double kQuantile = 16.27;  // chi-square, 3 degrees of freedom, 99.9 %
   const Vec3 std(outcome.horizontal_std, outcome.horizontal_std, outcome.vertical_std);
   std::vector<PositionFactor> kept;
   for (std::size_t i = 0; i < graph.positions.size(); ++i)
   {
     const PositionFactor& factor = graph.positions[i];
     const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
-    const bool is_explained = e.cwiseQuotient(std).squaredNorm() <= kQuantile;
+    const bool is_explained = e.cwiseQuotient(std).squaredNorm() <= kPositionQuantile;
     if (agrees(estimate.position_weights[i]) && is_explained) kept.push_back(factor);
   }
   const bool too_few = !shortageOf(kept.size(), outcome.fixes).empty();

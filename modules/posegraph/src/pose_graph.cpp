@@ -23,12 +23,11 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Aligned6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kEdgeQuantile = 22.46;      // chi-square, 6 degrees of freedom, 99.9 %
-constexpr double kPositionQuantile = 16.27;  // 3 degrees of freedom
-constexpr int kMostIterations = 30;          // of Gauss-Newton
-constexpr int kMostStages = 60;              // of graduated non-convexity
-constexpr double kConvexityFactor = 1.4;     // by the paper
-constexpr double kSmallStep = 1e-9;          // [rad, m]
+constexpr double kEdgeQuantile = 22.46;   // chi-square, 6 degrees of freedom, 99.9 %
+constexpr int kMostIterations = 30;       // of Gauss-Newton
+constexpr int kMostStages = 60;           // of graduated non-convexity
+constexpr double kConvexityFactor = 1.4;  // by the paper
+constexpr double kSmallStep = 1e-9;       // [rad, m]
 
 class Optimizer
 {

@@ -51,6 +51,10 @@ struct TiltFactor
   Eigen::MatrixXd by_sensor = {};  //!< 3 x n: its derivative by the errors of the sensor
 };
 
+/** A position whose squared normalized error is larger is wrong: chi-square, 3 degrees of freedom,
+ * 99.9 %. */
+inline constexpr double kPositionQuantile = 16.27;
+
 /** A measured position, of GNSS for instance, in a frame whose pose is estimated too. */
 struct PositionFactor
 {
