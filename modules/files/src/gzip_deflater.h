@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string_view>
@@ -20,15 +21,18 @@ class GzipDeflater
   GzipDeflater(const GzipDeflater&) = delete;
   GzipDeflater& operator=(const GzipDeflater&) = delete;
 
-  /** Takes bytes from the front of \a input.
+  static constexpr std::size_t kMostAtATime = 1U << 16U;
+
+  /** Takes bytes from the front of \a input, which has less than 4 GiB.
    * \param end nothing follows \a input
-   * \return the number of bytes that are in \a output now; fewer than \a room when all of \a input
+   * \return compressed bytes, good until the next call; fewer than kMostAtATime when all of \a input
    * is taken */
-  std::size_t deflate(std::string_view& input, bool end, char* output, std::size_t room);
+  std::string_view deflate(std::string_view& input, bool end);
 
  private:
   struct Library;
   std::unique_ptr<Library> library_;
+  std::array<char, kMostAtATime> output_{};
 };
 
 }  // namespace fastlio

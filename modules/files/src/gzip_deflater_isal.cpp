@@ -29,18 +29,18 @@ GzipDeflater::GzipDeflater() : library_(std::make_unique<Library>())
 
 GzipDeflater::~GzipDeflater() = default;
 
-std::size_t GzipDeflater::deflate(std::string_view& input, bool end, char* output, std::size_t room)
+std::string_view GzipDeflater::deflate(std::string_view& input, bool end)
 {
   isal_zstream& stream = library_->stream;
-  if (stream.internal_state.state == ZSTATE_END) return 0;
+  if (stream.internal_state.state == ZSTATE_END) return {};
   stream.next_in = reinterpret_cast<std::uint8_t*>(const_cast<char*>(input.data()));  // not written
   stream.avail_in = static_cast<std::uint32_t>(input.size());
-  stream.next_out = reinterpret_cast<std::uint8_t*>(output);
-  stream.avail_out = static_cast<std::uint32_t>(room);
+  stream.next_out = reinterpret_cast<std::uint8_t*>(output_.data());
+  stream.avail_out = kMostAtATime;
   stream.end_of_stream = end ? 1 : 0;
   isal_deflate(&stream);
   input.remove_prefix(input.size() - stream.avail_in);
-  return room - stream.avail_out;
+  return {output_.data(), kMostAtATime - stream.avail_out};
 }
 
 }  // namespace fastlio

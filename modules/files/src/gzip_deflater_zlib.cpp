@@ -5,7 +5,6 @@
 
 #include "gzip_deflater.h"
 
-#include <algorithm>
 #include <new>
 #include <zlib.h>
 
@@ -32,16 +31,16 @@ GzipDeflater::~GzipDeflater()
   deflateEnd(&library_->stream);
 }
 
-std::size_t GzipDeflater::deflate(std::string_view& input, bool end, char* output, std::size_t room)
+std::string_view GzipDeflater::deflate(std::string_view& input, bool end)
 {
   z_stream& stream = library_->stream;
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(input.data()));  // not written to
   stream.avail_in = static_cast<uInt>(input.size());
-  stream.next_out = reinterpret_cast<Bytef*>(output);
-  stream.avail_out = static_cast<uInt>(room);
+  stream.next_out = reinterpret_cast<Bytef*>(output_.data());
+  stream.avail_out = kMostAtATime;
   ::deflate(&stream, end ? Z_FINISH : Z_NO_FLUSH);
   input.remove_prefix(input.size() - stream.avail_in);
-  return room - stream.avail_out;
+  return {output_.data(), kMostAtATime - stream.avail_out};
 }
 
 }  // namespace fastlio

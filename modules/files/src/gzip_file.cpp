@@ -5,30 +5,25 @@
 #include <fastlio/files/gzip_file.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace fastlio
 {
-struct GzipFile::Packing
+GzipFile::GzipFile(const std::string& path)
+    : file_(path), deflater_(std::make_unique<GzipDeflater>())
 {
-  GzipDeflater deflater;
-  std::array<char, 1U << 16U> out{};
-};
-
-GzipFile::GzipFile(const std::string& path) : file_(path), packing_(std::make_unique<Packing>()) {}
+}
 
 GzipFile::~GzipFile() = default;
 
 void GzipFile::pack(std::string_view bytes, bool end)
 {
-  std::array<char, 1U << 16U>& out = packing_->out;
-  std::size_t size = 0;
+  std::string_view packed;
   do
   {
-    size = packing_->deflater.deflate(bytes, end, out.data(), out.size());
-    file_.write({out.data(), size});
-  } while (size == out.size());
+    packed = deflater_->deflate(bytes, end);
+    file_.write(packed);
+  } while (packed.size() == GzipDeflater::kMostAtATime);
 }
 
 std::size_t GzipFile::Write(const void* data, std::size_t size)

@@ -1,14 +1,12 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "failure_message.h"
 #include "folder_listing.h"
 #include <fastlio/files/gzip_file.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <zlib.h>
 

@@ -14,6 +14,8 @@
 
 namespace fastlio
 {
+class GzipDeflater;
+
 /** Has what mrpt::serialization::archiveFrom() asks of a stream. */
 class GzipFile
 {
@@ -39,8 +41,7 @@ class GzipFile
   void pack(std::string_view bytes, bool end);
 
   AtomicFile file_;
-  struct Packing;
-  std::unique_ptr<Packing> packing_;
+  std::unique_ptr<GzipDeflater> deflater_;
 };
 
 }  // namespace fastlio
