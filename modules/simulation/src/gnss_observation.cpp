@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/compat/gnss_covariance.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/sensors/conversions.h>
@@ -9,7 +10,6 @@
 #include <mrpt/topography/conversions.h>
 
 #include <cmath>
-#include <type_traits>
 
 namespace fastlio
 {
@@ -79,28 +79,6 @@ Message_NMEA_GGA messageOf(const SimulatedFix& fix, const GnssSettings& settings
   return message;
 }
 
-template <typename Observation, typename = void>
-struct HasCovariance : std::false_type
-{
-};
-template <typename Observation>
-struct HasCovariance<Observation, std::void_t<decltype(Observation::covariance_enu)>>
-    : std::true_type
-{
-};
-
-/** Sets the covariance where the class has one, as it has in newer versions of MRPT. */
-template <typename Observation>
-void setCovariance(Observation& observation, double noise)
-{
-  if constexpr (HasCovariance<Observation>::value)
-  {
-    auto& covariance = observation.covariance_enu.emplace();
-    covariance.setZero();
-    covariance(0, 0) = covariance(1, 1) = noise * noise;
-    covariance(2, 2) = 4.0 * noise * noise;
-  }
-}
 }  // namespace
 
 CObservationGPS::Ptr toGnssObservation(const SimulatedFix& fix, const GnssSettings& settings)
@@ -112,7 +90,8 @@ CObservationGPS::Ptr toGnssObservation(const SimulatedFix& fix, const GnssSettin
   observation->has_satellite_timestamp = true;
   observation->sensorPose = toMrptPose({Mat3::Identity(), settings.lever_arm});
   observation->setMsg(messageOf(fix, settings));
-  if (fix.known) setCovariance(*observation, settings.noise);
+  const double h2 = settings.noise * settings.noise;
+  if (fix.known) setEnuCovariance(*observation, {h2, 0, 0, 0, h2, 0, 0, 0, 4.0 * h2});
   return observation;
 }
 
