@@ -131,6 +131,16 @@ std::string velodyneMessage(
   return out.bytes();
 }
 
+std::string navSatFixMessage(
+    Wire wire, std::int64_t stamp_ns, const std::vector<double>& covariance, std::uint8_t type,
+    std::int8_t status)
+{
+  WireWriter out(wire);
+  out.header(stamp_ns, "gps").number(status).number(std::uint16_t{1});
+  out.numbers({36.5, -4.25, 100.0}).numbers(covariance).number(type);
+  return out.bytes();
+}
+
 std::string transformMessage(
     Wire wire, const std::string& parent, const std::string& child, const Pose& T_parent_child)
 {

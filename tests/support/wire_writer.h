@@ -98,6 +98,11 @@ std::string cloudMessage(
 std::string livoxMessage(Wire wire, const LidarScan& scan, const std::string& frame = "livox");
 std::string velodyneMessage(
     Wire wire, std::int64_t stamp_ns, const std::vector<std::string>& packets);
+/** A fix at 36.5 deg north, 4.25 deg west. \param covariance east, north, up, row by row [m^2]
+ * \param type position_covariance_type: 0 unknown, 1 approximated, 2 diagonal known, 3 known */
+std::string navSatFixMessage(
+    Wire wire, std::int64_t stamp_ns, const std::vector<double>& covariance, std::uint8_t type,
+    std::int8_t status = 0);
 std::string transformMessage(
     Wire wire, const std::string& parent, const std::string& child, const Pose& T_parent_child);
 /** @} */

@@ -8,6 +8,7 @@
 #include "ros2_writers.h"
 #include <fastlio/compat/CPointsMapXYZIRT.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/gnss_accuracy.h>
 
 #include <mrpt/core/format.h>
 
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 
 namespace fastlio::testing
 {
@@ -70,6 +72,23 @@ TEST_F(ImportProgram, WritesEveryCompression)
     EXPECT_EQ(reading.seconds.size(), messages().size());
     EXPECT_EQ(reading.labels[0].substr(0, 1), "/");
   }
+}
+
+TEST_F(ImportProgram, KeepsWhatAReceiverStatesOfItsAccuracy)
+{
+  auto all = messages();
+  all.push_back(
+      {"/fix", "sensor_msgs/NavSatFix", all.back().stamp_ns,
+       navSatFixMessage(Wire::Ros1, all.back().stamp_ns, {0.25, 0, 0, 0, 4.0, 0, 0, 0, 9.0}, 2)});
+  const auto result = import({file("in.bag", bagOf(all)), "-o", out()});
+  ASSERT_EQ(result.exit_status, 0) << result.output;
+  RawlogSource source({out()});
+  std::optional<Vec3> std;
+  while (const auto observation = source.next())
+    if (const auto gps = std::dynamic_pointer_cast<mrpt::obs::CObservationGPS>(observation))
+      std = statedStdOf(*gps);
+  ASSERT_TRUE(std);
+  EXPECT_LT((*std - Vec3(0.5, 2.0, 3.0)).norm(), 1e-6);
 }
 
 TEST_F(ImportProgram, SplitsBySizeAndTimeWithoutLoss)

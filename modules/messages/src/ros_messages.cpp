@@ -4,6 +4,7 @@
 #include <fastlio/math/time.h>
 #include <fastlio/messages/ros_messages.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/gnss_accuracy.h>
 
 #include <mrpt/math/CQuaternion.h>
 #include <mrpt/obs/CObservationGPS.h>
@@ -132,6 +133,10 @@ RosObservation readNavSatFix(WireReader& in, const std::string& label)
   // No fix, a fix, with satellites' or with ground stations' corrections.
   gga.fields.fix_quality = status < 0 ? 0 : status == 0 ? 1 : status == 1 ? 2 : 4;
   gps->setMsg(gga);
+  const auto covariance = readDoubles<9>(in);
+  constexpr std::uint8_t kUnknown = 0;
+  const bool is_known = in.number<std::uint8_t>() != kUnknown;
+  if (is_known && status >= 0) setStatedCovariance(*gps, covariance);
   return {gps, header.frame};
 }
 

@@ -39,6 +39,8 @@ struct RosObservation
 [[nodiscard]] RosObservation readPointCloud2(WireReader& in, const std::string& label);
 [[nodiscard]] RosObservation readLivoxCustom(WireReader& in, const std::string& label);
 [[nodiscard]] RosObservation readVelodyneScan(WireReader& in, const std::string& label);
+/** A CObservationGPS with a GGA message and, where it is known, its covariance:
+ * setStatedCovariance(). */
 [[nodiscard]] RosObservation readNavSatFix(WireReader& in, const std::string& label);
 [[nodiscard]] RosObservation readOdometry(WireReader& in, const std::string& label);
 /** @} */
