@@ -1,9 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "gnss_noise.h"
 #include <fastlio/aiding/gnss.h>
 #include <fastlio/math/statistics.h>
-#include <fastlio/posegraph/graph_factors.h>
 
 #include <mrpt/core/format.h>
 
@@ -14,12 +14,9 @@ namespace fastlio
 {
 namespace
 {
-constexpr std::size_t kLeastFixes = 10;
-// Fewer that agree are chance: their residuals say nothing about the receiver. And where nearly as
-// many contradict them, as after a jump in the middle, the others may be right.
-constexpr double kLeastAgreeing = 0.6;     // part of the fixes
 constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
-constexpr double kMostCorrelation = 0.98;
+// Where fewer fixes agree to what their receiver states for each of them, it states too little.
+constexpr double kStatedRight = 0.9;
 }  // namespace
 
 std::string gnssSentence(const GnssOutcome& outcome)
@@ -53,173 +50,31 @@ void GnssFactors::add(
     sighting.factor.lever =
         submaps[*node].reference.T_world_body.inverse() * (pose->T_world_body * fix.antenna);
     sighting.factor.position = frame_->enuOf(fix.place);
-    const double h2 = fix.horizontal_std * fix.horizontal_std;
-    sighting.factor.covariance = Vec3(h2, h2, fix.vertical_std * fix.vertical_std).asDiagonal();
+    sighting.std = {fix.horizontal_std, fix.horizontal_std, fix.vertical_std};
+    if (fix.usual)
+      sighting.usual = Vec3(fix.usual->horizontal, fix.usual->horizontal, fix.usual->vertical);
     sightings_.push_back(sighting);
   }
 }
 
 namespace
 {
-/** How good the fixes are, and for how long their errors last, by what is left over. */
-void measure(
-    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps,
-    GnssOutcome& outcome)
+/** Positions with a noise for each, and how it came out to use them. */
+struct Attempt
 {
-  std::vector<double> horizontal, vertical;
-  double product = 0.0, square = 0.0;
-  Vec3 before = Vec3::Zero();
-  std::size_t session_before = 0;
-  for (std::size_t i = 0; i < graph.positions.size(); ++i)
-  {
-    const PositionFactor& factor = graph.positions[i];
-    if (estimate.position_weights[i] < 0.5) continue;
-    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
-    horizontal.push_back(std::abs(e.x()));
-    horizontal.push_back(std::abs(e.y()));
-    vertical.push_back(std::abs(e.z()));
-    const std::size_t session = submaps.at(factor.node).session;
-    if (square > 0.0 && session == session_before) product += e.head<2>().dot(before.head<2>());
-    square += e.head<2>().squaredNorm();
-    before = e;
-    session_before = session;
-  }
-  outcome.horizontal_std = std::max(0.005, kStdOverMedianDeviation * median(std::move(horizontal)));
-  outcome.vertical_std = std::max(0.01, kStdOverMedianDeviation * median(std::move(vertical)));
-  outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
-}
+  FixesInGraph fixes;
+  std::size_t agreeing = 0;
+  std::string reason;  //!< why the map has no place by them
+};
 
-/** The number of successive fixes that together are worth a single one: one, plus twice the
- * correlations over all lags, as far as they are significant. Errors of satellites last for half a
- * minute; the correlation with the next fix alone does not show that where white noise hides it. */
-double lastingOf(
-    const PoseGraph& graph, const GraphEstimate& estimate, const std::vector<Submap>& submaps)
+Attempt attempted(const MappingResult& result, FixesInGraph fixes)
 {
-  constexpr double kNoCorrelation = 0.05;
-  std::vector<Eigen::Vector2d> errors;
-  std::vector<std::size_t> sessions;
-  double square = 0.0;
-  for (std::size_t i = 0; i < graph.positions.size(); ++i)
-  {
-    const PositionFactor& factor = graph.positions[i];
-    if (estimate.position_weights[i] < 0.5) continue;
-    errors.emplace_back(
-        errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value.head<2>());
-    sessions.push_back(submaps.at(factor.node).session);
-    square += errors.back().squaredNorm();
-  }
-  double lasting = 1.0;
-  for (std::size_t lag = 1; lag < errors.size() / 4; ++lag)
-  {
-    double product = 0.0;
-    for (std::size_t i = lag; i < errors.size(); ++i)
-      if (sessions[i] == sessions[i - lag]) product += errors[i].dot(errors[i - lag]);
-    const double correlation = product / std::max(square, 1e-12);
-    if (correlation < kNoCorrelation) break;
-    lasting += 2.0 * correlation;
-  }
-  return lasting;
-}
-
-bool agrees(double weight)
-{
-  return weight >= 0.5;
-}
-
-/** Why fixes of which so many agree are not used; empty: they are. */
-std::string shortageOf(std::size_t agreeing, std::size_t fixes)
-{
-  const double least =
-      std::max(static_cast<double>(kLeastFixes), kLeastAgreeing * static_cast<double>(fixes));
-  if (static_cast<double>(agreeing) >= least) return {};
-  return mrpt::format(
-      "only %zu of %zu positions agree with each other and with the map as well as the receiver "
-      "claims",
-      agreeing, fixes);
-}
-
-/** Leaves the fixes out that contradict the map. */
-void keepAgreeing(PoseGraph& graph, GraphEstimate& estimate)
-{
-  std::vector<PositionFactor> kept;
-  for (std::size_t i = 0; i < graph.positions.size(); ++i)
-    if (agrees(estimate.position_weights[i])) kept.push_back(graph.positions[i]);
-  graph.positions = std::move(kept);
-  estimate.position_weights.assign(graph.positions.size(), 1.0);
-}
-
-/** Leaves the fixes out that the noise of all fixes does not explain. Where a receiver claims more
- * noise than it has, its own account lets wrong fixes pass. \return false: nothing was left out */
-bool dropUnexplained(PoseGraph& graph, const GraphEstimate& estimate, const GnssOutcome& outcome)
-{
-  const Vec3 std(outcome.horizontal_std, outcome.horizontal_std, outcome.vertical_std);
-  std::vector<PositionFactor> kept;
-  for (std::size_t i = 0; i < graph.positions.size(); ++i)
-  {
-    const PositionFactor& factor = graph.positions[i];
-    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
-    const bool is_explained = e.cwiseQuotient(std).squaredNorm() <= kPositionQuantile;
-    if (agrees(estimate.position_weights[i]) && is_explained) kept.push_back(factor);
-  }
-  const bool too_few = !shortageOf(kept.size(), outcome.fixes).empty();
-  if (kept.size() == graph.positions.size() || too_few) return false;
-  graph.positions = std::move(kept);
-  return true;
-}
-
-void beginAt(PoseGraph& graph, const GraphEstimate& estimate)
-{
-  graph.nodes = estimate.nodes;
-  graph.T_earth_world = estimate.T_earth_world;
-}
-
-/** Measures the noise of the fixes in a graph that agree, and leaves out those that it does not
- * explain. */
-void settleOnNoise(
-    PoseGraph& graph, GraphEstimate& estimate, const std::vector<Submap>& submaps,
-    GnssOutcome& outcome)
-{
-  constexpr int kMostRounds = 4;  // the noise without wrong fixes is smaller, and shows more
-  keepAgreeing(graph, estimate);
-  for (int round = 0; round < kMostRounds; ++round)
-  {
-    measure(graph, estimate, submaps, outcome);
-    if (!dropUnexplained(graph, estimate, outcome)) break;
-    beginAt(graph, estimate);
-    estimate = optimize(graph, false);
-  }
-  keepAgreeing(graph, estimate);
-  beginAt(graph, estimate);
-  outcome.rejected = outcome.fixes - graph.positions.size();
-}
-
-/** Gives the fixes the noise that was measured. */
-void setNoise(PoseGraph& graph, const GnssOutcome& outcome, double lasting)
-{
-  const double h2 = lasting * std::pow(outcome.horizontal_std, 2);
-  const double v2 = lasting * std::pow(outcome.vertical_std, 2);
-  // The wider covariance must not let wrong fixes in: those that were found out stay out.
-  for (PositionFactor& factor : graph.positions)
-    factor.covariance = Vec3(h2, h2, v2).asDiagonal();
-}
-}  // namespace
-
-GnssOutcome GnssFactors::applyTo(MappingResult& result) const
-{
-  GnssOutcome outcome;
-  outcome.fixes = sightings_.size();
-  if (sightings_.size() < kLeastFixes)
-  {
-    outcome.reason = "there are " + std::to_string(sightings_.size()) +
-                     " positions of GNSS at poses of the run: too few";
-    return outcome;
-  }
-  outcome.datum = frame_->datum();
+  Attempt attempt{std::move(fixes), 0, {}};
+  std::vector<PositionFactor> positions = std::move(attempt.fixes.graph.positions);
   std::vector<Correspondence> points;
   double way = 0.0;
-  for (const Sighting& sighting : sightings_)
+  for (const PositionFactor& factor : positions)
   {
-    const PositionFactor& factor = sighting.factor;
     points.push_back(
         {result.estimate.nodes.at(factor.node) * factor.lever,
          factor.position,
@@ -233,30 +88,85 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
   options.words = {
       "positions", "check the antenna's place (sensorPose), the receiver's clock and its reception",
       "on a longer way they would"};
-  PoseGraph graph = result.graph;
+  PoseGraph& graph = attempt.fixes.graph;
+  graph = result.graph;
   try
   {
     graph.T_earth_world = fitToEarth(points, options).T_enu_map;
   }
   catch (const std::exception& e)
   {
-    outcome.reason = e.what();
-    return outcome;
+    attempt.reason = e.what();
+    return attempt;
   }
   graph.nodes = result.estimate.nodes;
+  graph.positions = std::move(positions);
+  attempt.fixes.estimate = optimize(graph, false);
+  const std::vector<double>& weights = attempt.fixes.estimate.position_weights;
+  attempt.agreeing =
+      static_cast<std::size_t>(std::count_if(weights.begin(), weights.end(), agrees));
+  attempt.reason = shortageOf(attempt.agreeing, weights.size());
+  return attempt;
+}
+}  // namespace
+
+FixesInGraph GnssFactors::withNoise(bool at_least_usual) const
+{
+  std::vector<Vec3> stds;
+  std::vector<double> horizontal, vertical;  // of those that are stated
   for (const Sighting& sighting : sightings_)
-    graph.positions.push_back(sighting.factor);
-  GraphEstimate estimate = optimize(graph, false);
-  const auto agreeing = static_cast<std::size_t>(
-      std::count_if(estimate.position_weights.begin(), estimate.position_weights.end(), agrees));
-  outcome.rejected = outcome.fixes - agreeing;
-  outcome.reason = shortageOf(agreeing, outcome.fixes);
+  {
+    stds.push_back(sighting.std);
+    if (!sighting.usual) continue;
+    if (at_least_usual) stds.back() = stds.back().cwiseMax(*sighting.usual);
+    horizontal.push_back(stds.back().x());
+    vertical.push_back(stds.back().z());
+  }
+  Vec3 typical = Vec3::Ones();
+  if (!horizontal.empty()) typical.head<2>().setConstant(median(std::move(horizontal)));
+  if (!vertical.empty()) typical.z() = median(std::move(vertical));
+  FixesInGraph fixes;
+  for (std::size_t i = 0; i < sightings_.size(); ++i)
+  {
+    Vec3 relative = Vec3::Ones();
+    if (sightings_[i].usual)
+    {
+      relative = stds[i].cwiseQuotient(typical).cwiseMax(kLeastRelative);
+      stds[i] = typical.cwiseProduct(relative);
+    }
+    fixes.relative.push_back(relative);
+    fixes.graph.positions.push_back(sightings_[i].factor);
+    fixes.graph.positions.back().covariance = stds[i].cwiseAbs2().asDiagonal();
+  }
+  return fixes;
+}
+
+GnssOutcome GnssFactors::applyTo(MappingResult& result) const
+{
+  GnssOutcome outcome;
+  outcome.fixes = sightings_.size();
+  if (sightings_.size() < kLeastFixes)
+  {
+    outcome.reason = "there are " + std::to_string(sightings_.size()) +
+                     " positions of GNSS at poses of the run: too few";
+    return outcome;
+  }
+  outcome.datum = frame_->datum();
+  Attempt attempt = attempted(result, withNoise(false));
+  const bool any_stated = std::any_of(
+      sightings_.begin(), sightings_.end(), [](const Sighting& s) { return s.usual.has_value(); });
+  const double wanted = kStatedRight * static_cast<double>(sightings_.size());
+  if (any_stated && static_cast<double>(attempt.agreeing) < wanted)
+    attempt = attempted(result, withNoise(true));
+  FixesInGraph& fixes = attempt.fixes;
+  if (attempt.agreeing > 0) outcome.rejected = outcome.fixes - attempt.agreeing;
+  outcome.reason = attempt.reason;
   if (!outcome.reason.empty()) return outcome;
-  settleOnNoise(graph, estimate, result.submaps, outcome);
-  setNoise(graph, outcome, lastingOf(graph, estimate, result.submaps));
-  estimate = optimize(graph);
-  result.graph = std::move(graph);
-  result.estimate = std::move(estimate);
+  settleOnNoise(fixes, result.submaps, outcome);
+  setNoise(fixes, result.submaps, outcome);
+  fixes.estimate = optimize(fixes.graph);
+  result.graph = std::move(fixes.graph);
+  result.estimate = std::move(fixes.estimate);
   makeLevel(result);
   outcome.used = true;
   outcome.T_enu_world = *result.estimate.T_earth_world;

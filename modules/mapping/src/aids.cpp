@@ -4,6 +4,7 @@
 #include <fastlio/mapping/aids.h>
 #include <fastlio/run/recording_access.h>
 #include <fastlio/sensors/conversions.h>
+#include <fastlio/sensors/gnss_accuracy.h>
 
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -22,6 +23,8 @@ using mrpt::obs::gnss::Message_NMEA_GGA;
 
 // Vertical errors of satellite positions are about twice the horizontal ones.
 constexpr double kVerticalOverHorizontal = 2.0;
+// No receiver knows its place better than this, whatever it states [m].
+constexpr double kLeastHorizontal = 0.005, kLeastVertical = 0.01;
 
 /** Standard deviation of a fix by its quality: field 6 of GGA [m]. */
 double stdOf(int quality)
@@ -51,6 +54,12 @@ GnssFix fixOf(const CObservationGPS& observation, const Pose& T_imu_vehicle)
   fix.horizontal_std = stdOf(fields.fix_quality) *
                        (has_dilution ? std::max(1.0, static_cast<double>(fields.HDOP)) : 1.0);
   fix.vertical_std = kVerticalOverHorizontal * fix.horizontal_std;
+  if (const auto stated = statedStdOf(observation))
+  {
+    fix.usual = GnssStd{fix.horizontal_std, fix.vertical_std};
+    fix.horizontal_std = std::max(kLeastHorizontal, stated->head<2>().norm() / std::sqrt(2.0));
+    fix.vertical_std = std::max(kLeastVertical, stated->z());
+  }
   const auto& sensor = observation.sensorPose;
   fix.antenna = T_imu_vehicle * Vec3(sensor.x(), sensor.y(), sensor.z());
   return fix;

@@ -17,6 +17,15 @@
 
 namespace fastlio
 {
+struct FixesInGraph;
+
+/** Standard deviations of a position [m]. */
+struct GnssStd
+{
+  double horizontal = 0.0;  //!< to the east and to the north, each
+  double vertical = 0.0;
+};
+
 /** A position as a receiver gave it. */
 struct GnssFix
 {
@@ -25,6 +34,9 @@ struct GnssFix
   double horizontal_std = 0.0;  //!< by the receiver's own account [m]
   double vertical_std = 0.0;    //!< likewise [m]
   Vec3 antenna = Vec3::Zero();  //!< in the IMU frame [m]
+  /** Where the receiver states standard deviations of its own: those that fixes of this quality
+   * usually have. They count where the stated ones turn out to be too small. */
+  std::optional<GnssStd> usual = {};
 };
 
 /** What the map and the fixes say about each other. */
@@ -36,7 +48,7 @@ struct GnssOutcome
   Pose T_enu_world;                                 //!< of the map
   std::size_t fixes = 0;                            //!< at poses of the runs
   std::size_t rejected = 0;                         //!< that contradict the others
-  double horizontal_std = 0.0, vertical_std = 0.0;  //!< of a fix, by what is left over [m]
+  double horizontal_std = 0.0, vertical_std = 0.0;  //!< of a typical fix, by what is left over [m]
   double correlation = 0.0;                         //!< of errors that follow each other
 };
 
@@ -55,16 +67,24 @@ class GnssFactors
 
   /** Adds them to the graph of a map and optimises it: first with the receiver's standard
    * deviations, then with those that the first optimum shows, and with the correlation of errors in
-   * time. Either leaves fixes out that contradict the others. The result stays as it is where too
-   * few of the fixes agree. */
+   * time. Where receivers state the noise of each fix, its size comes from the first optimum, too,
+   * and only the relation of the fixes to each other from them. Where a tenth of the fixes do not
+   * agree to what is stated, they count as fixes of their quality usually do. Either leaves fixes
+   * out that contradict the others. The result stays as it is where too few of the fixes agree. */
   [[nodiscard]] GnssOutcome applyTo(MappingResult& result) const;
 
  private:
   struct Sighting
   {
-    PositionFactor factor;
+    PositionFactor factor;  //!< its covariance is not set
     std::int64_t stamp_ns = 0;
+    Vec3 std = Vec3::Zero();  //!< by the receiver's account [m]
+    std::optional<Vec3> usual;
   };
+  /** The sightings as positions of a graph without nodes. \param at_least_usual stated standard
+   * deviations are not smaller than usual ones */
+  [[nodiscard]] FixesInGraph withNoise(bool at_least_usual) const;
+
   std::vector<Sighting> sightings_;
   std::optional<LocalFrame> frame_;
 };

@@ -16,8 +16,9 @@ namespace fastlio
 /** Both in order of time. */
 struct Aids
 {
-  /** CObservationGPS with a GGA message and a fix. Without dilution of precision in the message,
-   * the quality of the fix gives its standard deviation. */
+  /** CObservationGPS with a GGA message and a fix. The standard deviations are those that the
+   * receiver states (statedStdOf()), 5 mm horizontally and 1 cm vertically at least. Where it
+   * states none, the quality of the fix gives them, times the dilution of precision. */
   std::vector<GnssFix> fixes;
   /** CObservationOdometry, of the label that comes first. */
   std::vector<WheelPose> wheels;
