@@ -11,16 +11,48 @@
 
 namespace fastlio
 {
-Matrix6 extrinsicCovariance(const Pose& first, const Pose& T_world_imu, const Matrix6& moment)
+namespace
+{
+/** Takes the position error of a pose from the frame of the body to the world. */
+Matrix6 toWorld(const Pose& T_world_imu)
+{
+  Matrix6 turn = Matrix6::Identity();
+  turn.bottomRightCorner<3, 3>() = T_world_imu.R;
+  return turn;
+}
+
+/** How the first pose's error of the extrinsic moves a later pose, plus a multiple of that of the
+ * later pose itself. */
+Matrix6 byFirst(const Pose& first, const Pose& T_world_imu, double own)
 {
   const Pose back = T_world_imu.inverse() * first;  // A^-1
-  Matrix6 J = -Matrix6::Identity();
+  Matrix6 J = own * Matrix6::Identity();
   J.topLeftCorner<3, 3>() += back.R;
   J.bottomLeftCorner<3, 3>() += skew(back.p) * back.R;
   J.bottomRightCorner<3, 3>() += back.R;
-  Matrix6 turn = Matrix6::Identity();
-  turn.bottomRightCorner<3, 3>() = T_world_imu.R;
+  return J;
+}
+
+Matrix6 extrinsicMomentOf(const Submap& submap)
+{
+  return submap.calibration_moment.topLeftCorner<6, 6>().cast<double>();
+}
+}  // namespace
+
+Matrix6 extrinsicCovariance(const Pose& first, const Pose& T_world_imu, const Matrix6& moment)
+{
+  const Matrix6 J = byFirst(first, T_world_imu, -1.0);
+  const Matrix6 turn = toWorld(T_world_imu);
   return turn * J * moment * J.transpose() * turn.transpose();
+}
+
+Matrix6 extrinsicCovariance(
+    const Pose& first, const Matrix6& moment_of_first, const Pose& T_world_imu,
+    const Matrix6& moment)
+{
+  const Matrix6 J = byFirst(first, T_world_imu, 0.0);
+  const Matrix6 turn = toWorld(T_world_imu);
+  return turn * (J * moment_of_first * J.transpose() + moment) * turn.transpose();
 }
 
 CorrectedTrajectory::CorrectedTrajectory(const MappingResult& result, std::size_t session)
@@ -33,8 +65,12 @@ CorrectedTrajectory::CorrectedTrajectory(const MappingResult& result, std::size_
     if (submap.session != session) continue;
     nodes_.push_back(
         {submap.reference, result.estimate.nodes.at(i), result.estimate.covariances.at(i)});
-    extrinsic_moment_ = submap.calibration_moment.topLeftCorner<6, 6>().cast<double>();
+    extrinsic_moment_ = extrinsicMomentOf(submap);
   }
+  if (result.submaps.empty() || result.areOneRig(result.submaps.front().session, session)) return;
+  for (const Submap& submap : result.submaps)
+    if (submap.session == result.submaps.front().session)
+      moment_of_first_ = extrinsicMomentOf(submap);
 }
 
 CorrectedTrajectory::Place CorrectedTrajectory::placeOf(std::int64_t stamp_ns) const
@@ -57,6 +93,12 @@ Pose CorrectedTrajectory::poseAt(const Place& place, const Pose& T_world_imu) co
   if (place.after == nullptr) return a;
   const Pose between = interpolated(a, movedWith(*place.after), place.fraction);
   return {normalizeRotation(between.R), between.p};
+}
+
+Matrix6 CorrectedTrajectory::byExtrinsic(const Pose& T_world_imu) const
+{
+  if (!moment_of_first_) return extrinsicCovariance(first_, T_world_imu, extrinsic_moment_);
+  return extrinsicCovariance(first_, *moment_of_first_, T_world_imu, extrinsic_moment_);
 }
 
 Pose CorrectedTrajectory::correctionAt(std::int64_t stamp_ns, const Pose& T_world_imu) const
@@ -96,7 +138,7 @@ ScanResult CorrectedTrajectory::corrected(const ScanResult& result) const
   Matrix6 covariance = chain.covariance();
   if (place.after != nullptr)
     covariance = (1.0 - place.fraction) * covariance + place.fraction * place.after->covariance;
-  const Matrix6 by_extrinsic = extrinsicCovariance(first_, pose, extrinsic_moment_);
+  const Matrix6 by_extrinsic = byExtrinsic(pose);
   covariance += by_extrinsic;
   // What the pose shares with the rest of the state is not known any more.
   moved.filter.P.topRows<6>().setZero();

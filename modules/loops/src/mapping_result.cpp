@@ -26,6 +26,12 @@ bool MappingResult::moves(std::size_t session) const
   return corrected || was_placed;
 }
 
+bool MappingResult::areOneRig(std::size_t session, std::size_t other) const
+{
+  if (session == other) return true;
+  return std::max(session, other) < rigs.size() && rigs[session] == rigs[other];
+}
+
 void markContradicted(MappingResult& result)
 {
   // Edges are not in the order of closures: one that waits for agreement gets its edge later.

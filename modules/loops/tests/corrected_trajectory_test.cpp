@@ -3,8 +3,10 @@
 
 #include <fastlio/loops/corrected_trajectory.h>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -89,6 +91,53 @@ TEST(CorrectedTrajectory, VelocityAndGravityTurnWithThePose)
   const Mat3 by_bias_before = x.R.transpose() * before.P.block<3, 3>(kVelocity, kAccelBias);
   EXPECT_LT((by_bias - by_bias_before).norm(), 1e-9);
   EXPECT_LT((after.P - after.P.transpose()).norm(), 1e-9);
+}
+
+/** What two rigs whose LiDARs are mounted a bit otherwise than they say make of the poses of the
+ * second one in the map of the first one, and what the covariance says of it. */
+TEST(CorrectedTrajectory, AnotherRigHasAnErrorOfItsOwn)
+{
+  constexpr double kTurned = 0.005, kMoved = 0.01;  // of the LiDARs [rad], [m]
+  constexpr int kRigs = 2000;
+  const Pose T_world_second{expSO3({0.1, 0.0, 0.3}), {12.0, -3.0, 0.5}};
+  MappingResult map = twoSessions(T_world_second);
+  map.estimate.covariances.assign(2, Matrix6::Identity() * 1e-12);
+  for (Submap& submap : map.submaps)
+  {
+    submap.calibration_moment.diagonal().head<3>().setConstant(
+        static_cast<float>(kTurned * kTurned));
+    submap.calibration_moment.diagonal().segment<3>(3).setConstant(
+        static_cast<float>(kMoved * kMoved));
+  }
+  const Matrix6 other =
+      CorrectedTrajectory(map, 1).corrected(scanAt(kSecond, Pose{})).filter.P.topLeftCorner<6, 6>();
+  map.rigs = {0, 0};
+  const Matrix6 same =
+      CorrectedTrajectory(map, 1).corrected(scanAt(kSecond, Pose{})).filter.P.topLeftCorner<6, 6>();
+
+  std::mt19937 engine(1);
+  std::normal_distribution<double> normal;
+  const auto error = [&]
+  {
+    const auto vector = [&](double std)
+    {
+      const double x = normal(engine), y = normal(engine), z = normal(engine);
+      return Vec3(std * x, std * y, std * z);
+    };
+    const Vec3 turn = vector(kTurned);
+    return Pose{expSO3(turn), vector(kMoved)};
+  };
+  double nees = 0.0;
+  for (int i = 0; i < kRigs; ++i)
+  {
+    const Pose of_first = error(), of_second = error();
+    const Pose found = of_first * T_world_second * of_second.inverse();
+    Vector6 e;
+    e << logSO3(found.R.transpose() * T_world_second.R), T_world_second.p - found.p;
+    nees += e.dot(other.ldlt().solve(e)) / kRigs;
+  }
+  EXPECT_NEAR(nees, 6.0, 0.5);
+  EXPECT_LT(same(2, 2), 0.2 * other(2, 2)) << "turned by little, most of one error cancels";
 }
 
 }  // namespace fastlio

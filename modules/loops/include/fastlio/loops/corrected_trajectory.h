@@ -8,6 +8,7 @@
 #include <fastlio/loops/mapper.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace fastlio
@@ -16,10 +17,18 @@ namespace fastlio
  * the motion L of the LiDAR, and with T_imu_lidar = Exp(eta) X the motion of the IMU comes out as
  * Exp(eta) A Exp(-eta) instead of A = X L X^-1. No closure shows it, because it is the same for all
  * ways to a pose.
+ * \param first pose of the IMU in the world
  * \param moment of eta, a part of ScanResult::calibration_moment \return (attitude in the body frame, position in the
  * world frame) */
 [[nodiscard]] Matrix6 extrinsicCovariance(
     const Pose& first, const Pose& T_world_imu, const Matrix6& moment);
+
+/** The same where the first pose is that of another rig, whose extrinsic has an error of its own:
+ * the motion from there comes out as Exp(eta_first) A Exp(-eta), and nothing cancels.
+ * \param moment_of_first of eta_first \param moment of eta */
+[[nodiscard]] Matrix6 extrinsicCovariance(
+    const Pose& first, const Matrix6& moment_of_first, const Pose& T_world_imu,
+    const Matrix6& moment);
 
 /** Carries the correction of the submaps to every scan between them: the motion since the submap
  * before and the motion to the one after are those of the odometry; where they disagree about a
@@ -55,10 +64,12 @@ class CorrectedTrajectory
   };
   [[nodiscard]] Place placeOf(std::int64_t stamp_ns) const;
   [[nodiscard]] Pose poseAt(const Place& place, const Pose& T_world_imu) const;
+  [[nodiscard]] Matrix6 byExtrinsic(const Pose& T_world_imu) const;
 
   std::vector<Node> nodes_;
   Pose first_;
   Matrix6 extrinsic_moment_ = Matrix6::Zero();
+  std::optional<Matrix6> moment_of_first_;  //!< where another rig has made the first pose
   bool changes_ = false;
 };
 

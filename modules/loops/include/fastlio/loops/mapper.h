@@ -112,12 +112,17 @@ struct MappingResult
   PoseGraph graph;                     //!< with the accepted closures
   GraphEstimate estimate;
   bool corrected = false;  //!< false: nothing was added to what the odometry knows
+  /** A number for the rig of each session; empty: nobody knows them, and each session counts as one
+   * of another rig. */
+  std::vector<std::size_t> rigs;
 
   [[nodiscard]] std::size_t countOf(ClosureVerdict verdict) const;
   [[nodiscard]] std::size_t accepted() const { return countOf(ClosureVerdict::Accepted); }
   /** Whether poses of a session are not those of its odometry: something corrects them, or the
    * session was placed in the map of those before. */
   [[nodiscard]] bool moves(std::size_t session) const;
+  /** Whether two sessions are known to have the same errors of the pose of the LiDAR. */
+  [[nodiscard]] bool areOneRig(std::size_t session, std::size_t other) const;
 };
 
 /** Turns a result about its first node so that the estimated vertical is z. Covariances are
