@@ -25,6 +25,7 @@ struct MapArguments
   int threads = 0;                     //!< 0: all cores
   bool use_gnss = true;                //!< where a recording has it
   bool use_wheels = true;              //!< likewise
+  bool same_rig = false;               //!< all recordings are of one rig
   std::string crs;                     //!< of LAS files; empty: UTM where the place is known
   std::string control_points;          //!< file; empty: none
   bool remove_moving = false;          //!< leave moving objects out of the map

@@ -182,8 +182,9 @@ ExitStatus run(const MapArguments& arguments)
       [&]
       {
         return buildMap(
-            sessions, BuildOptions{{}, arguments.use_gnss, arguments.use_wheels, store}, workers,
-            hooks);
+            sessions,
+            BuildOptions{{}, arguments.use_gnss, arguments.use_wheels, arguments.same_rig, store},
+            workers, hooks);
       });
   endIfInterrupted(map.interrupted);
   if (!place) place = checked([&] { return georeference(map.gnss, {}, arguments.crs); });

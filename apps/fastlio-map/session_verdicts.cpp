@@ -96,6 +96,12 @@ std::vector<std::string> notesOf(const std::vector<Session>& sessions, const Bui
           map.sessions[i].name +
           ": no closure ties it to the sessions before; it lies where its submaps were recognised, "
           "which is known to about 1 m only");
+  for (std::size_t i = 1; i < map.result.rigs.size(); ++i)
+    if (!map.result.areOneRig(0, i))
+      notes.push_back(
+          map.sessions[i].name + ": its sensors are not those of " + map.sessions[0].name +
+          " (labels, place of the LiDAR in the IMU frame, or calibration.estimate_extrinsic): it "
+          "counts as a recording of another rig");
   if (map.wheels.readings > 0) notes.push_back(wheelSentence(map.wheels));
   if (const std::size_t fixes = map.gnss.fixes; fixes > 0) notes.push_back(gnssSentence(map.gnss));
   return notes;

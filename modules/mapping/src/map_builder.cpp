@@ -3,6 +3,7 @@
 
 #include <fastlio/mapping/aids.h>
 #include <fastlio/mapping/map_builder.h>
+#include <fastlio/mapping/rigs.h>
 #include <fastlio/run/pose_output.h>
 
 #include <utility>
@@ -87,6 +88,7 @@ BuiltMap buildMap(
     built.interrupted = built.sessions.back().pass.stopped;
   }
   built.result = std::move(mapper).result();
+  if (options.same_rig) built.result.rigs = rigsOf(sessions);
   built.wheels = wheels.applyTo(built.result);
   built.gnss = gnss.applyTo(built.result);
   return built;

@@ -45,6 +45,7 @@ Json sessionsJson(const BuiltMap& map)
          {"path_length_m", session.statistics.pathLength()},
          {"duration_s", session.statistics.duration()},
          {"in_map", anchorsJson(map.result, number)},
+         {"rig", number < map.result.rigs.size() ? map.result.rigs[number] : number},
          {"gnss_fixes", session.fixes},
          {"scans_in_trouble", session.statistics.health().troubled()},
          {"input_problems", problems},

@@ -66,6 +66,7 @@ struct BuildOptions
   ClosureLimits limits;
   bool use_gnss = true;    //!< where a recording has it
   bool use_wheels = true;  //!< likewise
+  bool same_rig = false;   //!< sessions that isOneRig() does not tell apart are of one rig
   /** Holds the surfaces of the submaps, also for those who use the result. */
   std::shared_ptr<SubmapStore> store = std::make_shared<SubmapStore>();
 };
