@@ -10,7 +10,9 @@
  * - inertial: matrices of gyro and accelerometer, see ScanResult::pose_by_calibration.
  *
  * The extrinsic is not among them: submaps are in the frame of the LiDAR, with the extrinsic in
- * use, and what its error makes of the poses of the IMU is added in the end
+ * use. So closures agree, also between sessions of different rigs. Gravity is turned in each
+ * session by the error of its extrinsic, which looks like a bias of its accelerometer as long as
+ * the platform stays upright. What the error makes of the poses of the IMU is added in the end
  * (extrinsicCovariance()). */
 #pragma once
 
