@@ -92,9 +92,8 @@ void addOptions(CLI::App& app, MapArguments& arguments)
       "Leave wheel odometry in the recordings out of the map");
   app.add_flag(
       "--same-rig", arguments.same_rig,
-      "All recordings are of one rig, which nobody has changed meanwhile: the same sensors, "
-      "mounted "
-      "in the same way; covariances are smaller");
+      "All recordings are of one rig, whose sensors nobody has moved in between; covariances are "
+      "smaller");
   app.add_option(
          "--crs", arguments.crs,
          "Reference system of map.las, for example EPSG:25832; default: the UTM zone of the place")
