@@ -28,6 +28,11 @@ constexpr float kKeepAll = std::numeric_limits<float>::infinity();
 constexpr int kMantissaBits = 2;
 constexpr int kFirstExponent = 127 - 16;
 
+// RMS range from where on lines of lasers that are 5 deg apart are a metre apart [m].
+constexpr double kSparseRange = 12.0;
+// Every so many-th point is enough for that: a prime, or some lasers would never count.
+constexpr std::size_t kSampled = 7;
+
 /** Some points on their way through the gates: short loops over columns, of which the compiler
  * makes vector instructions. */
 struct Block
@@ -42,6 +47,23 @@ void squareRanges(const PointColumns& points, std::size_t first, std::size_t n, 
   const float *x = &points.x[first], *y = &points.y[first], *z = &points.z[first];
   for (std::size_t i = 0; i < n; ++i)
     block.squared_range[i] = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+}
+
+bool areFar(const PointColumns& points, const DownsamplingLimits& limits)
+{
+  const float least = limits.min_range * limits.min_range;
+  const float most = limits.max_range * limits.max_range;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); i += kSampled)
+  {
+    const float x = points.x[i], y = points.y[i], z = points.z[i];
+    const float range2 = x * x + y * y + z * z;
+    if (!std::isfinite(range2) || range2 < least || range2 > most) continue;
+    squares += static_cast<double>(range2);
+    ++count;
+  }
+  return squares > kSparseRange * kSparseRange * static_cast<double>(count);
 }
 
 /** Bins of squared ranges; a 0 falls into the first one. */
@@ -97,7 +119,7 @@ Downsampler::Ranges Downsampler::gateRanges(
   {
     const std::size_t n = std::min(Block::kSize, last - begin);
     squareRanges(points, begin, n, block);
-    float* kept = &squared_ranges_[begin];
+    float* kept = &areas_[begin];
     std::uint32_t usable = 0;
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -106,18 +128,33 @@ Downsampler::Ranges Downsampler::gateRanges(
       kept[i] = passes != 0 ? range2 : 0.0F;
       usable += passes;
     }
+    for (std::size_t i = 0; i < n && usable < n; ++i)
+      if (kept[i] == 0.0F) ranges.countDropped(block.squared_range[i], min2);
+    if (sparse_lines_) ranges.area_excess += weighByWidth(&points.ring[begin], n, kept);
     findBins(kept, n, kBins, block);
     for (std::size_t i = 0; i < n; ++i)
       ++counts[i % kCounters][block.bin[i]];
     ranges.counts[0] -= static_cast<std::uint32_t>(n) - usable;  // they stand there as 0
     ranges.usable += usable;
-    for (std::size_t i = 0; i < n && usable < n; ++i)
-      if (kept[i] == 0.0F) ranges.countDropped(block.squared_range[i], min2);
   }
   for (const auto& counter : counts)
     for (std::size_t bin = 0; bin < kBins; ++bin)
       ranges.counts[bin] += counter[bin];
   return ranges;
+}
+
+/** Times the width of each laser.
+ * \return by how much their sum has grown */
+double Downsampler::weighByWidth(const std::uint16_t* rings, std::size_t n, float* areas) const
+{
+  double excess = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const float area = areas[i] * widths_.of(rings[i]);
+    excess += static_cast<double>(area) - static_cast<double>(areas[i]);
+    areas[i] = area;
+  }
+  return excess;
 }
 
 void Downsampler::Ranges::countDropped(float squared_range, float min2)
@@ -131,7 +168,7 @@ void Downsampler::Ranges::countDropped(float squared_range, float min2)
 Downsampler::Ranges Downsampler::gateRanges(
     const PointColumns& points, const DownsamplingLimits& limits)
 {
-  squared_ranges_.resize(points.size());
+  areas_.resize(points.size());
   chunk_ranges_.resize(Workers::chunks(points.size(), kChunk));
   workers_->forEachChunk(
       points.size(), kChunk,
@@ -146,6 +183,7 @@ Downsampler::Ranges Downsampler::gateRanges(
     total.invalid += part.invalid;
     total.near += part.near;
     total.far += part.far;
+    total.area_excess += part.area_excess;
   }
   return total;
 }
@@ -153,7 +191,7 @@ Downsampler::Ranges Downsampler::gateRanges(
 std::size_t Downsampler::targetOf(const Ranges& ranges, const DownsamplingLimits& limits)
 {
   if (limits.wide_points <= limits.target_points || ranges.usable == 0) return limits.target_points;
-  double squares = 0.0;
+  double squares = -ranges.area_excess;
   for (std::size_t bin = 0; bin < kBins; ++bin)
     squares += static_cast<double>(ranges.counts[bin]) * static_cast<double>(binValue(bin));
   const double wide =
@@ -188,7 +226,7 @@ std::size_t Downsampler::keep(float factor, std::size_t first, std::size_t last)
   for (std::size_t begin = first; begin < last; begin += Block::kSize)
   {
     const std::size_t n = std::min(Block::kSize, last - begin);
-    const float* squared_ranges = &squared_ranges_[begin];
+    const float* areas = &areas_[begin];
     std::uint32_t draw = scan_ * kScanStep + static_cast<std::uint32_t>(begin) * kGoldenSection;
     for (std::size_t i = 0; i < n; ++i, draw += kGoldenSection)
     {
@@ -196,7 +234,7 @@ std::size_t Downsampler::keep(float factor, std::size_t first, std::size_t last)
       const auto high = static_cast<float>(static_cast<std::int32_t>(draw >> 16U));
       const auto low = static_cast<float>(static_cast<std::int32_t>(draw & 0xFFFFU));
       // No draw is below a range of 0, not even where the factor is infinite.
-      chosen[i] = high * 65536.0F + low < factor * squared_ranges[i] ? 1U : 0U;
+      chosen[i] = high * 65536.0F + low < factor * areas[i] ? 1U : 0U;
     }
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -221,6 +259,8 @@ void Downsampler::gather(std::vector<std::uint32_t>& indices) const
 void Downsampler::select(
     const PointColumns& points, const DownsamplingLimits& limits, ScanSelection& selection)
 {
+  widths_.learn(points);
+  sparse_lines_ = !widths_.relative().empty() && areFar(points, limits);
   const Ranges ranges = gateRanges(points, limits);
   selection.dropped_invalid = ranges.invalid;
   selection.dropped_near = ranges.near;

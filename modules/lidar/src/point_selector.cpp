@@ -56,7 +56,7 @@ void PointSelector::thin(
   limits.max_range = std::numeric_limits<float>::max();
   candidates_.clear();
   for (const std::uint32_t i : candidates)
-    candidates_.push_back(points.x[i], points.y[i], points.z[i], 0.0F, 0, 0);
+    candidates_.push_back(points.x[i], points.y[i], points.z[i], 0.0F, 0, points.ring[i]);
   downsampler.select(candidates_, limits, thinned_);
   chosen.clear();
   for (const std::uint32_t k : thinned_.indices)

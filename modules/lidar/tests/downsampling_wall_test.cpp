@@ -4,6 +4,7 @@
 /** \file downsampling_wall_test.cpp What the thinning does to surfaces: their density and where
  * they appear. */
 
+#include "uneven_lasers.h"
 #include <fastlio/lidar/downsampling.h>
 
 #include <gtest/gtest.h>
@@ -65,6 +66,71 @@ TEST(Downsampler, MakesWallsAtAnyDistanceAboutEquallyDense)
   }
   EXPECT_LT(most / least, 1.25);  // 36 before the thinning
   EXPECT_GT(least, 25.0);
+}
+
+/** Part of the chosen points that lie on the asphalt of a street. */
+double shareOfGround(const PointColumns& points)
+{
+  Downsampler downsampler;
+  ScanSelection selection;
+  downsampler.select(points, {0.5F, 100.0F, 1500}, selection);
+  const auto ground = std::count_if(
+      selection.indices.begin(), selection.indices.end(),
+      [&](std::uint32_t i) { return std::abs(points.z[i] + 1.9F) < 0.01F; });
+  return double(ground) / double(selection.indices.size());
+}
+
+TEST(Downsampler, SeesAsMuchGroundWithFewLasersBelowAsWithMany)
+{
+  const std::vector<double> even = evenElevations(-25.0, 0.25, 161);  // up to 15 deg
+  const double expected = shareOfGround(turnOf(even, 900, rangeInStreet));
+  const double share = shareOfGround(turnOf(vlp32cElevations(), 1800, rangeInStreet));
+  EXPECT_NEAR(share, expected, 0.25 * expected);
+}
+
+/** Compares with a downsampler that does not know the lasers. */
+void expectSameChoiceWithoutNumbers(const PointColumns& points)
+{
+  PointColumns without = points;
+  std::fill(without.ring.begin(), without.ring.end(), std::uint16_t{0});
+  Downsampler downsampler, other;
+  ScanSelection selection, expected;
+  for (int scan = 0; scan < 7; ++scan)
+  {
+    downsampler.select(points, {0.5F, 100.0F, 1500}, selection);
+    other.select(without, {0.5F, 100.0F, 1500}, expected);
+    EXPECT_EQ(selection.indices, expected.indices);
+    EXPECT_FALSE(downsampler.seesSparseLines());
+  }
+}
+
+TEST(Downsampler, ChoosesAsWithoutNumbersWhereLasersAreEven)
+{
+  expectSameChoiceWithoutNumbers(turnOf(evenElevations(-15.0, 2.0, 16), 1800, rangeInStreet));
+}
+
+TEST(Downsampler, ChoosesAsWithoutNumbersInNarrowPlaces)
+{
+  const auto in_hall = [](const Vec3& u) { return std::min(11.0, rangeInStreet(u)); };
+  expectSameChoiceWithoutNumbers(turnOf(vlp32cElevations(), 1800, in_hall));
+}
+
+TEST(Downsampler, ChoosesAsManyPointsWhereLasersAreUneven)
+{
+  DownsamplingLimits limits{0.5F, 100.0F, 1500};
+  limits.wide_range = 20.0F;
+  limits.wide_points = 3000;
+  PointColumns points = turnOf(vlp32cElevations(), 1800, rangeInStreet);
+  Downsampler downsampler, other;
+  ScanSelection selection, expected;
+  downsampler.select(points, limits, selection);
+  EXPECT_TRUE(downsampler.seesSparseLines());
+  std::fill(points.ring.begin(), points.ring.end(), std::uint16_t{0});
+  other.select(points, limits, expected);
+  const auto many = double(expected.indices.size());
+  EXPECT_GT(many, 1600.0);
+  EXPECT_LT(many, 2900.0);
+  EXPECT_NEAR(double(selection.indices.size()), many, 0.1 * many);
 }
 
 /** A wall across the x axis, seen from the origin with noisy ranges. */

@@ -6,6 +6,7 @@
  */
 #pragma once
 
+#include <fastlio/lidar/laser_widths.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/parallel/workers.h>
 
@@ -40,10 +41,12 @@ struct ScanSelection
 
 /** Thins scans to about the same density everywhere on the surfaces around the sensor.
  *
- * A scan's density on a surface falls with the square of the range r, so a point is kept with
- * probability min(1, c r^2), c such that the target is met. The draw is a low-discrepancy sequence
- * over the point index, another one for each scan: reproducible, and a resting sensor does not keep
- * choosing the same beams.
+ * A scan's density on a surface falls with the square of the range r and with the distance w
+ * between lasers, so a point is kept with probability min(1, c w r^2), c such that the target is
+ * met. Where lasers are about evenly spaced, w is 1. So it is in narrow places, where the lines of
+ * all lasers lie close together. The draw is a low-discrepancy sequence over the point index,
+ * another one for each scan: reproducible, and a resting sensor does not keep choosing the same
+ * beams.
  *
  * A voxel grid would not do: it keeps one point of every voxel that has any, so where a wall lies
  * near a voxel's face the few points that noise carries across count as much as all others, and the
@@ -60,6 +63,10 @@ class Downsampler
   void select(
       const PointColumns& points, const DownsamplingLimits& limits, ScanSelection& selection);
 
+  /** In the latest scan, some lasers are several times as far apart as most, and so far from the
+   * surfaces that their lines are metres apart. */
+  [[nodiscard]] bool seesSparseLines() const { return sparse_lines_; }
+
  private:
   static constexpr std::size_t kBins = 256;
   static constexpr std::size_t kChunk = 4096;  // points
@@ -67,8 +74,9 @@ class Downsampler
   /** The effect of the range gates on some points. */
   struct Ranges
   {
-    std::array<std::uint32_t, kBins> counts{};  //!< of usable points, by logarithm of the range
+    std::array<std::uint32_t, kBins> counts{};  //!< of usable points, by logarithm of w r^2
     std::size_t usable = 0, invalid = 0, near = 0, far = 0;
+    double area_excess = 0.0;  //!< sum of w r^2 - r^2 over the usable points [m^2]
 
     void countDropped(float squared_range, float least_squared_range);
   };
@@ -77,6 +85,7 @@ class Downsampler
       const PointColumns& points, const DownsamplingLimits& limits, std::size_t first,
       std::size_t last);
   [[nodiscard]] Ranges gateRanges(const PointColumns& points, const DownsamplingLimits& limits);
+  [[nodiscard]] double weighByWidth(const std::uint16_t* rings, std::size_t n, float* areas) const;
   [[nodiscard]] static std::size_t targetOf(const Ranges& ranges, const DownsamplingLimits& limits);
   [[nodiscard]] static float densityFactor(const Ranges& ranges, std::size_t target);
   [[nodiscard]] std::size_t keep(float factor, std::size_t first, std::size_t last);
@@ -84,8 +93,10 @@ class Downsampler
 
   std::shared_ptr<const Workers> workers_;
   std::uint32_t scan_ = 0;
+  LaserWidths widths_;
+  bool sparse_lines_ = false;
   // Per point, and per chunk of points.
-  std::vector<float> squared_ranges_;     //!< 0 for points that are left out
+  std::vector<float> areas_;              //!< w r^2 [m^2]; 0 for points that are left out
   std::vector<std::uint32_t> kept_;       //!< a chunk's chosen points, at the chunk's beginning
   std::vector<std::size_t> kept_counts_;  //!< how many these are
   std::vector<Ranges> chunk_ranges_;

@@ -33,6 +33,9 @@ class PointSelector
       const PointColumns& points, std::size_t at_least, ScanSelection& surfaces,
       std::vector<std::uint32_t>& edges);
 
+  /** Of Downsampler. */
+  [[nodiscard]] bool seesSparseLines() const { return surface_downsampler_.seesSparseLines(); }
+
  private:
   void thin(
       const PointColumns& points, const std::vector<std::uint32_t>& candidates,
