@@ -185,7 +185,7 @@ MapOutputs::MapOutputs(
   if (files.wants("planes"))
   {
     VoxelPlaneOptions options;
-    options.voxel_size = sessions.front().config().odometry.map.voxel_size;
+    options.voxel_size = voxelSize(sessions.front().config().odometry.map, false);
     planes_ = std::make_unique<VoxelPlaneMap>(options);
   }
 }

@@ -71,9 +71,10 @@ OptionTable<MapOptions> mapRows()
       {"map.radius", "m", number(&MapOptions::radius, 1.0, 100000.0),
        "points farther from the sensor than this may leave the map: bounds its memory",
        OptionTier::Main},
-      {"map.voxel_size", "m", number(&MapOptions::voxel_size, 0.01, 100.0),
+      {"map.voxel_size", "m", number(&MapOptions::voxel_size, 0.0, 100.0),
        "map type planes: edge of the finest voxels; two coarser sizes are twice and four times as "
-       "wide",
+       "wide; 0: 0.4 m, or 0.8 m in wide surroundings where some lasers are several times as far "
+       "apart as most",
        OptionTier::Main},
       {"map.output_spacing", "m", number(&MapOptions::output_spacing, 0.01, 100.0),
        "least distance between the points of the saved map; smaller: denser and larger files"},

@@ -35,7 +35,7 @@ EdgeMapOptions edgeMapOptions(const OdometryOptions& parameters)
 LocalMap::LocalMap(const OdometryOptions& options, std::shared_ptr<const Workers> workers)
     : update_given_(options.map.update),
       radius_(options.map.radius),
-      surfaces_(makeSurfaceMap(options, workers)),
+      surfaces_(makeSurfaceMap(options, workers, false)),
       edges_(edgeMapOptions(options)),
       workers_(std::move(workers))
 {
@@ -104,6 +104,11 @@ ConsideredUpdate LocalMap::considerUpdate(
         considered.map_mismatch = error_.update(update, *grouped, pulls);
       });
   return considered;
+}
+
+void LocalMap::prepareFor(const DeskewedScan& scan, const OdometryOptions& options)
+{
+  if (insertions_ == 0 && scan.sparse_lines) surfaces_ = makeSurfaceMap(options, workers_, true);
 }
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const

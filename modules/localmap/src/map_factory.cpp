@@ -21,20 +21,20 @@ std::unique_ptr<SurfaceMap> makeKnnMap(const OdometryOptions& parameters)
 }
 
 std::unique_ptr<SurfaceMap> makePlaneMap(
-    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers)
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers, bool sparse_lines)
 {
   VoxelPlaneOptions options;
-  options.voxel_size = parameters.map.voxel_size;
+  options.voxel_size = voxelSize(parameters.map, sparse_lines);
   options.rules.point_noise = static_cast<float>(parameters.measurement.range_noise);
   return std::make_unique<VoxelPlaneMap>(options, std::move(workers));
 }
 }  // namespace
 
 std::unique_ptr<SurfaceMap> makeSurfaceMap(
-    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers)
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers, bool sparse_lines)
 {
   if (parameters.map.type == MapType::Knn) return makeKnnMap(parameters);
-  return makePlaneMap(parameters, std::move(workers));
+  return makePlaneMap(parameters, std::move(workers), sparse_lines);
 }
 
 std::unique_ptr<SurfaceMap> makeSurfaceMap(
@@ -43,7 +43,7 @@ std::unique_ptr<SurfaceMap> makeSurfaceMap(
 {
   if (saved.planes && parameters.map.type == MapType::Planes)
     return std::make_unique<VoxelPlaneMap>(*saved.planes, std::move(workers));
-  auto surfaces = makeSurfaceMap(parameters, std::move(workers));
+  auto surfaces = makeSurfaceMap(parameters, std::move(workers), false);
   insertSavedPoints(saved.points, *surfaces);
   return surfaces;
 }

@@ -13,9 +13,9 @@
 
 namespace fastlio
 {
-/** \param workers who share the map's insertions */
+/** \param workers who share the map's insertions \param sparse_lines of voxelSize() */
 [[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
-    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers);
+    const OdometryOptions& parameters, std::shared_ptr<const Workers> workers, bool sparse_lines);
 /** Of the saved map's planes, where the type of map has planes; else of its points. */
 [[nodiscard]] std::unique_ptr<SurfaceMap> makeSurfaceMap(
     const OdometryOptions& parameters, std::shared_ptr<const Workers> workers,

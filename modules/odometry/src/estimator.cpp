@@ -245,6 +245,7 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   workers_->forEachChunk(points.size(), transform);
   InsertionError error{filter.P, Matrix6::Zero()};
   if (run.startingAt(state_.stamp_ns)) error.distortion = run.motion_window->insertion_covariance;
+  map_.prepareFor(work.deskewed, options_);
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
       scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);

@@ -59,6 +59,7 @@ const DeskewedScan& ScanPreparation::deskew(
     deskewer_.transformToBody(scan, edge_indices_, deskewed_.edges);
   }
   deskewed_.T_imu_lidar = scan.T_imu_lidar;
+  deskewed_.sparse_lines = selector_.seesSparseLines();
   deskewed_.compensation =
       compensationWith(predicted, inertialMean(inputs, end_ns), gyro_noise_density_);
   return deskewed_;

@@ -242,7 +242,8 @@ TEST(OdometryInput, RefusesUnusableParametersByName)
     }
     return {};
   };
-  EXPECT_NE(refusal([](auto& p) { p.map.voxel_size = 0.0; }).find("voxel_size"), std::string::npos);
+  EXPECT_NE(
+      refusal([](auto& p) { p.map.voxel_size = -0.1; }).find("voxel_size"), std::string::npos);
   EXPECT_NE(
       refusal([](auto& p) { p.update.max_iterations = 0; }).find("update.max_iterations"),
       std::string::npos);

@@ -75,8 +75,17 @@ struct MapOptions
   double output_spacing = 0.1;  //!< least distance between the points of the map that is saved [m]
   double radius = 150.0;        //!< points farther from the sensor than this may be dropped [m]
   double min_spacing = 0.4;     //!< knn: nearer points are not added [m]
-  double voxel_size = 0.4;      //!< planes: edge of the finest voxels [m]
+  double voxel_size = 0.0;      //!< planes: edge of the finest voxels [m]; 0: voxelSize()
 };
+
+/** Edge of the finest voxels [m].
+ * \param sparse_lines some lasers are several times as far apart as most, and their lines on the
+ * ground metres apart: only a wide voxel holds two of them, which make a plane */
+[[nodiscard]] inline double voxelSize(const MapOptions& options, bool sparse_lines)
+{
+  if (options.voxel_size > 0.0) return options.voxel_size;
+  return sparse_lines ? 0.8 : 0.4;
+}
 
 /** Group `recovery`: the pose is lost, or the inertial data were interrupted. */
 struct RecoveryOptions

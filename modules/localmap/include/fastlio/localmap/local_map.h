@@ -94,6 +94,8 @@ class LocalMap
   /** The error of the pose where the map begins is the map's, too: no scan is less accurate in it
    * for that. \param position_variance of the scan that begins it [m^2] */
   void beginAt(const Vec3& position_variance) { begun_variance_ = position_variance; }
+  /** A map that nothing has joined yet takes the voxels that suit the LiDAR of \a scan. */
+  void prepareFor(const DeskewedScan& scan, const OdometryOptions& options);
   /** The rule of insertion. */
   [[nodiscard]] bool accepts(const InsertionCandidate& candidate) const;
   /** The scan joins the map (eq. 21). \param surfaces its points in the world

@@ -25,7 +25,8 @@ struct DeskewedScan
   BodyPoints surfaces;  //!< to be matched with planes
   BodyPoints edges;     //!< to be matched with lines; may be empty
   CompensatedWith compensation;
-  Pose T_imu_lidar;  //!< where the beams start
+  Pose T_imu_lidar;           //!< where the beams start
+  bool sparse_lines = false;  //!< Downsampler::seesSparseLines()
 };
 
 /** Enough points, of surfaces and edges together, to be matched or to begin a map. */
