@@ -3,6 +3,7 @@
 
 #include "map_factory.h"
 #include <fastlio/localmap/local_map.h>
+#include <fastlio/localmap/map_search.h>
 #include <fastlio/matching/match_evidence.h>
 
 #include <algorithm>
@@ -113,7 +114,10 @@ void LocalMap::prepareFor(const DeskewedScan& scan, const OdometryOptions& optio
 
 bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points) const
 {
-  return isSparse() || matchesAsUsual(statistics, points) || fitsWhatIsMapped(statistics);
+  if (isSparse()) return true;
+  // Where a direction is open, nothing pulls the scan to a wall that shows it again.
+  if (statistics.normalized_innovation > kWrongPoseInnovation) return false;
+  return matchesAsUsual(statistics, points) || fitsWhatIsMapped(statistics);
 }
 
 void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)

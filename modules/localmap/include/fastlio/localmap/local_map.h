@@ -84,8 +84,8 @@ class LocalMap
       const DeskewedScan& scan, const MatchResult& match, const LinearizedUpdate& update,
       BeamErrors& beams, bool beams_learn);
 
-  /** The scan matches as scans usually match this map, or fits what the map has there. While the
-   * map consists of a few scans, any ratio is usual. */
+  /** The scan matches as scans usually match this map, or fits what the map has there, and its
+   * residuals are not those of a wrong pose. A map of a few scans takes any scan. */
   [[nodiscard]] bool isConsistent(const ScanStatistics& statistics, std::size_t points) const;
   /** Learns the usual inlier ratio, which depends on the place: nearly all points match in a room,
    * few on a meadow. */
