@@ -32,13 +32,13 @@ class MapOfRigs : public Map
     const auto joined = [&](const std::string& first, const std::string& second)
     {
       Trajectory all = readTrajectory(first);
-      for (const Trajectory& trajectory : {readTrajectory(second)})
-        for (std::size_t i = 0; i < trajectory.poses.size(); ++i)
-        {
-          all.poses.push_back(trajectory.poses[i]);
-          all.poses.back().stamp_ns += kDayNs;
-          if (trajectory.hasCovariances()) all.covariances.push_back(trajectory.covariances[i]);
-        }
+      const Trajectory later = readTrajectory(second);
+      for (std::size_t i = 0; i < later.poses.size(); ++i)
+      {
+        all.poses.push_back(later.poses[i]);
+        all.poses.back().stamp_ns += kDayNs;
+        if (later.hasCovariances()) all.covariances.push_back(later.covariances[i]);
+      }
       return all;
     };
     const std::string folder = folder_.file(map) + "/covariance.recording";
