@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/lidar/laser_widths.h>
+#include <fastlio/math/statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,13 +37,6 @@ struct KnownLaser
   std::size_t ring = 0;
 };
 
-double medianOf(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /** Lasers whose points wander over the elevations of others have none. */
 bool haveElevations(const std::vector<KnownLaser>& lasers)
 {
@@ -50,7 +44,7 @@ bool haveElevations(const std::vector<KnownLaser>& lasers)
   for (const KnownLaser& laser : lasers)
     scatter.push_back(laser.scatter);
   const double range = lasers.back().sine - lasers.front().sine;
-  return medianOf(std::move(scatter)) <=
+  return median(std::move(scatter)) <=
          kMostScatter * range / static_cast<double>(lasers.size() - 1);
 }
 
@@ -126,7 +120,7 @@ void LaserWidths::update()
   if (!haveElevations(known)) return;
 
   std::vector<double> widths = widthsOf(gapsOf(known));
-  const double usual = medianOf(widths);
+  const double usual = median(widths);
   if (!(usual > 0.0)) return;  // most of them share an elevation
   if (!(*std::max_element(widths.begin(), widths.end()) > kUneven * usual)) return;
   for (double& width : widths)
