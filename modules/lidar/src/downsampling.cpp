@@ -157,12 +157,12 @@ double Downsampler::weighByWidth(const std::uint16_t* rings, std::size_t n, floa
   return excess;
 }
 
-void Downsampler::Ranges::countDropped(float squared_range, float min2)
+void Downsampler::Ranges::countDropped(float squared_range, float least_squared_range)
 {
   if (!(squared_range > 0.0F) || !std::isfinite(squared_range))
     ++invalid;
   else
-    ++(squared_range < min2 ? near : far);
+    ++(squared_range < least_squared_range ? near : far);
 }
 
 Downsampler::Ranges Downsampler::gateRanges(

@@ -41,6 +41,7 @@ struct KnownLaser
 bool haveElevations(const std::vector<KnownLaser>& lasers)
 {
   std::vector<double> scatter;
+  scatter.reserve(lasers.size());
   for (const KnownLaser& laser : lasers)
     scatter.push_back(laser.scatter);
   const double range = lasers.back().sine - lasers.front().sine;
