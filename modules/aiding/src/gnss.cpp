@@ -15,7 +15,7 @@ namespace fastlio
 namespace
 {
 constexpr double kDriftOfOdometry = 0.01;  // part of the way, to begin with
-// Where fewer fixes agree to what their receiver states for each of them, it states too little.
+// Where fewer fixes agree with what their receiver states for each of them, it states too little.
 constexpr double kStatedRight = 0.9;
 }  // namespace
 
@@ -70,10 +70,10 @@ struct Attempt
 Attempt attempted(const MappingResult& result, FixesInGraph fixes)
 {
   Attempt attempt{std::move(fixes), 0, {}};
-  std::vector<PositionFactor> positions = std::move(attempt.fixes.graph.positions);
+  PoseGraph& graph = attempt.fixes.graph;
   std::vector<Correspondence> points;
   double way = 0.0;
-  for (const PositionFactor& factor : positions)
+  for (const PositionFactor& factor : graph.positions)
   {
     points.push_back(
         {result.estimate.nodes.at(factor.node) * factor.lever,
@@ -88,8 +88,6 @@ Attempt attempted(const MappingResult& result, FixesInGraph fixes)
   options.words = {
       "positions", "check the antenna's place (sensorPose), the receiver's clock and its reception",
       "on a longer way they would"};
-  PoseGraph& graph = attempt.fixes.graph;
-  graph = result.graph;
   try
   {
     graph.T_earth_world = fitToEarth(points, options).T_enu_map;
@@ -99,8 +97,6 @@ Attempt attempted(const MappingResult& result, FixesInGraph fixes)
     attempt.reason = e.what();
     return attempt;
   }
-  graph.nodes = result.estimate.nodes;
-  graph.positions = std::move(positions);
   attempt.fixes.estimate = optimize(graph, false);
   const std::vector<double>& weights = attempt.fixes.estimate.position_weights;
   attempt.agreeing =
@@ -110,7 +106,7 @@ Attempt attempted(const MappingResult& result, FixesInGraph fixes)
 }
 }  // namespace
 
-FixesInGraph GnssFactors::withNoise(bool at_least_usual) const
+FixesInGraph GnssFactors::fixesIn(const MappingResult& result, bool at_least_usual) const
 {
   std::vector<Vec3> stds;
   std::vector<double> horizontal, vertical;  // of those that are stated
@@ -123,9 +119,15 @@ FixesInGraph GnssFactors::withNoise(bool at_least_usual) const
     vertical.push_back(stds.back().z());
   }
   Vec3 typical = Vec3::Ones();
-  if (!horizontal.empty()) typical.head<2>().setConstant(median(std::move(horizontal)));
-  if (!vertical.empty()) typical.z() = median(std::move(vertical));
+  if (!horizontal.empty())
+  {
+    typical.head<2>().setConstant(median(std::move(horizontal)));
+    typical.z() = median(std::move(vertical));
+  }
   FixesInGraph fixes;
+  fixes.graph = result.graph;
+  fixes.graph.nodes = result.estimate.nodes;
+  fixes.graph.positions.clear();
   for (std::size_t i = 0; i < sightings_.size(); ++i)
   {
     Vec3 relative = Vec3::Ones();
@@ -152,12 +154,12 @@ GnssOutcome GnssFactors::applyTo(MappingResult& result) const
     return outcome;
   }
   outcome.datum = frame_->datum();
-  Attempt attempt = attempted(result, withNoise(false));
+  Attempt attempt = attempted(result, fixesIn(result, false));
   const bool any_stated = std::any_of(
       sightings_.begin(), sightings_.end(), [](const Sighting& s) { return s.usual.has_value(); });
   const double wanted = kStatedRight * static_cast<double>(sightings_.size());
   if (any_stated && static_cast<double>(attempt.agreeing) < wanted)
-    attempt = attempted(result, withNoise(true));
+    attempt = attempted(result, fixesIn(result, true));
   FixesInGraph& fixes = attempt.fixes;
   if (attempt.agreeing > 0) outcome.rejected = outcome.fixes - attempt.agreeing;
   outcome.reason = attempt.reason;

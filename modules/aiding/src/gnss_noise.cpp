@@ -19,8 +19,6 @@ namespace
 // many contradict them, as after a jump in the middle, the others may be right.
 constexpr double kLeastAgreeing = 0.6;  // part of the fixes
 constexpr double kMostCorrelation = 0.98;
-// Residuals that are smaller by chance say nothing about the receiver [m].
-constexpr double kLeastHorizontal = 0.005, kLeastVertical = 0.01;
 }  // namespace
 
 bool agrees(double weight)
@@ -28,7 +26,6 @@ bool agrees(double weight)
   return weight >= 0.5;
 }
 
-/** Why fixes of which so many agree are not used; empty: they are. */
 std::string shortageOf(std::size_t agreeing, std::size_t fixes)
 {
   const double least =
@@ -42,6 +39,14 @@ std::string shortageOf(std::size_t agreeing, std::size_t fixes)
 
 namespace
 {
+/** Of a fix: where the map puts the antenna, minus where it was seen, east, north, up [m]. */
+Vec3 residualOf(const FixesInGraph& fixes, std::size_t i)
+{
+  const PositionFactor& factor = fixes.graph.positions[i];
+  const GraphEstimate& estimate = fixes.estimate;
+  return errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
+}
+
 /** How good the fixes are, and for how long their errors last, by what is left over. */
 void measure(const FixesInGraph& fixes, const std::vector<Submap>& submaps, GnssOutcome& outcome)
 {
@@ -52,10 +57,8 @@ void measure(const FixesInGraph& fixes, const std::vector<Submap>& submaps, Gnss
   std::size_t session_before = 0;
   for (std::size_t i = 0; i < graph.positions.size(); ++i)
   {
-    const PositionFactor& factor = graph.positions[i];
-    if (estimate.position_weights[i] < 0.5) continue;
-    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world)
-                       .value.cwiseQuotient(relative[i]);
+    if (!agrees(estimate.position_weights[i])) continue;
+    const Vec3 e = residualOf(fixes, i).cwiseQuotient(relative[i]);
     // Those at the bound have less noise than they count with. Typical ones are never there.
     if (relative[i].x() > kLeastRelative)
     {
@@ -63,16 +66,16 @@ void measure(const FixesInGraph& fixes, const std::vector<Submap>& submaps, Gnss
       horizontal.push_back(std::abs(e.y()));
     }
     if (relative[i].z() > kLeastRelative) vertical.push_back(std::abs(e.z()));
-    const std::size_t session = submaps.at(factor.node).session;
+    const std::size_t session = submaps.at(graph.positions[i].node).session;
     if (square > 0.0 && session == session_before) product += e.head<2>().dot(before.head<2>());
     square += e.head<2>().squaredNorm();
     before = e;
     session_before = session;
   }
   outcome.horizontal_std =
-      std::max(kLeastHorizontal, kStdOverMedianDeviation * median(std::move(horizontal)));
+      std::max(kLeastGnssStd.horizontal, kStdOverMedianDeviation * median(std::move(horizontal)));
   outcome.vertical_std =
-      std::max(kLeastVertical, kStdOverMedianDeviation * median(std::move(vertical)));
+      std::max(kLeastGnssStd.vertical, kStdOverMedianDeviation * median(std::move(vertical)));
   outcome.correlation = std::clamp(product / std::max(square, 1e-12), 0.0, kMostCorrelation);
 }
 
@@ -88,12 +91,9 @@ double lastingOf(const FixesInGraph& fixes, const std::vector<Submap>& submaps)
   double square = 0.0;
   for (std::size_t i = 0; i < graph.positions.size(); ++i)
   {
-    const PositionFactor& factor = graph.positions[i];
-    if (estimate.position_weights[i] < 0.5) continue;
-    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world)
-                       .value.cwiseQuotient(relative[i]);
-    errors.emplace_back(e.head<2>());
-    sessions.push_back(submaps.at(factor.node).session);
+    if (!agrees(estimate.position_weights[i])) continue;
+    errors.emplace_back(residualOf(fixes, i).cwiseQuotient(relative[i]).head<2>());
+    sessions.push_back(submaps.at(graph.positions[i].node).session);
     square += errors.back().squaredNorm();
   }
   double lasting = 1.0;
@@ -149,10 +149,9 @@ bool dropUnexplained(FixesInGraph& fixes, const GnssOutcome& outcome)
   std::vector<bool> kept;
   for (std::size_t i = 0; i < graph.positions.size(); ++i)
   {
-    const PositionFactor& factor = graph.positions[i];
-    const Vec3 e = errorOf(factor, estimate.nodes.at(factor.node), *estimate.T_earth_world).value;
     const Vec3 std = noiseOf(outcome, relative[i]);
-    const bool is_explained = e.cwiseQuotient(std).squaredNorm() <= kPositionQuantile;
+    const bool is_explained =
+        residualOf(fixes, i).cwiseQuotient(std).squaredNorm() <= kPositionQuantile;
     kept.push_back(agrees(estimate.position_weights[i]) && is_explained);
   }
   const auto left = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), true));
@@ -188,7 +187,7 @@ void settleOnNoise(FixesInGraph& fixes, const std::vector<Submap>& submaps, Gnss
 void setNoise(FixesInGraph& fixes, const std::vector<Submap>& submaps, const GnssOutcome& outcome)
 {
   const double lasting = lastingOf(fixes, submaps);
-  const Vec3 least(kLeastHorizontal, kLeastHorizontal, kLeastVertical);
+  const Vec3 least(kLeastGnssStd.horizontal, kLeastGnssStd.horizontal, kLeastGnssStd.vertical);
   // The wider covariance must not let wrong fixes in: those that were found out stay out.
   for (std::size_t i = 0; i < fixes.graph.positions.size(); ++i)
   {

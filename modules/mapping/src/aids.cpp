@@ -23,8 +23,6 @@ using mrpt::obs::gnss::Message_NMEA_GGA;
 
 // Vertical errors of satellite positions are about twice the horizontal ones.
 constexpr double kVerticalOverHorizontal = 2.0;
-// No receiver knows its place better than this, whatever it states [m].
-constexpr double kLeastHorizontal = 0.005, kLeastVertical = 0.01;
 
 /** Standard deviation of a fix by its quality: field 6 of GGA [m]. */
 double stdOf(int quality)
@@ -57,8 +55,9 @@ GnssFix fixOf(const CObservationGPS& observation, const Pose& T_imu_vehicle)
   if (const auto stated = statedStdOf(observation))
   {
     fix.usual = GnssStd{fix.horizontal_std, fix.vertical_std};
-    fix.horizontal_std = std::max(kLeastHorizontal, stated->head<2>().norm() / std::sqrt(2.0));
-    fix.vertical_std = std::max(kLeastVertical, stated->z());
+    fix.horizontal_std =
+        std::max(kLeastGnssStd.horizontal, stated->head<2>().norm() / std::sqrt(2.0));
+    fix.vertical_std = std::max(kLeastGnssStd.vertical, stated->z());
   }
   const auto& sensor = observation.sensorPose;
   fix.antenna = T_imu_vehicle * Vec3(sensor.x(), sensor.y(), sensor.z());

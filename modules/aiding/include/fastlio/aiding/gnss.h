@@ -26,6 +26,10 @@ struct GnssStd
   double vertical = 0.0;
 };
 
+/** No receiver knows its place better, whatever it states, and residuals that are smaller by chance
+ * do not show that it does. */
+inline constexpr GnssStd kLeastGnssStd{0.005, 0.01};
+
 /** A position as a receiver gave it. */
 struct GnssFix
 {
@@ -69,7 +73,7 @@ class GnssFactors
    * deviations, then with those that the first optimum shows, and with the correlation of errors in
    * time. Where receivers state the noise of each fix, its size comes from the first optimum, too,
    * and only the relation of the fixes to each other from them. Where a tenth of the fixes do not
-   * agree to what is stated, they count as fixes of their quality usually do. Either leaves fixes
+   * agree with what is stated, they count as fixes of their quality usually do. Either leaves fixes
    * out that contradict the others. The result stays as it is where too few of the fixes agree. */
   [[nodiscard]] GnssOutcome applyTo(MappingResult& result) const;
 
@@ -81,9 +85,9 @@ class GnssFactors
     Vec3 std = Vec3::Zero();  //!< by the receiver's account [m]
     std::optional<Vec3> usual;
   };
-  /** The sightings as positions of a graph without nodes. \param at_least_usual stated standard
-   * deviations are not smaller than usual ones */
-  [[nodiscard]] FixesInGraph withNoise(bool at_least_usual) const;
+  /** The graph of a map with the sightings as its positions; nothing is estimated yet.
+   * \param at_least_usual stated standard deviations are not smaller than usual ones */
+  [[nodiscard]] FixesInGraph fixesIn(const MappingResult& result, bool at_least_usual) const;
 
   std::vector<Sighting> sightings_;
   std::optional<LocalFrame> frame_;
