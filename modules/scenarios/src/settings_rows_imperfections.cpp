@@ -53,6 +53,8 @@ OptionTable<HiddenErrors> hiddenRows()
   return {
       {"lidar.clock_error", "s", number(&HiddenErrors::clock_error, -10.0, 10.0),
        "as lidar.time_offset, but config.yaml does not contain it"},
+      {"lidar.clock_drift", "us/s", number(&HiddenErrors::clock_drift, -1000.0, 1000.0, 1e-6),
+       "how fast lidar.clock_error grows from the start on"},
       {"lidar.pose_rotation_std", "deg", number(&HiddenErrors::rotation_std, 0.0, 90.0, kRadPerDeg),
        "standard deviation, per axis, by which the true mounting is turned from lidar.pose"},
       {"lidar.pose_position_std", "m", number(&HiddenErrors::position_std, 0.0, 10.0),

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/time.h>
 #include <fastlio/scenarios/random_stream.h>
 #include <fastlio/simulation/lidar_errors.h>
 
@@ -61,9 +62,15 @@ double rangeBias(const BeamSettings& settings, const Return& back)
          back.reflectivity * (settings.bright_bias - settings.dark_bias);
 }
 
-double clockOffset(const LidarSettings& settings)
+double clockOffset(const LidarSettings& settings, double seconds)
 {
-  return settings.time_offset + settings.hidden.clock_error;
+  return settings.time_offset + settings.hidden.clock_error + settings.hidden.clock_drift * seconds;
+}
+
+std::int64_t stampOfLidar(std::int64_t stamp_ns, const SimulationSettings& settings)
+{
+  const double seconds = toSeconds(stamp_ns - settings.start_ns);
+  return stamp_ns + toNanoseconds(clockOffset(settings.lidar, seconds));
 }
 
 }  // namespace fastlio

@@ -30,7 +30,7 @@ constexpr double kMaxRawRange = 65535.0;
 
 std::int64_t deliveredStamp(const FiredSweep& fired, const SimulationSettings& settings)
 {
-  return fired.sweep.stamp_ns + toNanoseconds(clockOffset(settings.lidar));
+  return stampOfLidar(fired.sweep.stamp_ns, settings);
 }
 
 /** Little-endian bytes of a data packet, in order. */

@@ -92,7 +92,7 @@ Json truthJson(const Simulation& simulation)
   Json truth{
       {"gravity_world_m_s2", {0.0, 0.0, -s.gravity}},
       {"T_imu_lidar", poseJson(simulation.lidarErrors().T_imu_lidar)},
-      {"lidar_clock_minus_imu_clock_s", clockOffset(s.lidar)},
+      {"lidar_clock_minus_imu_clock_s", clockOffset(s.lidar, 0.0)},
       {"imu_errors", imuErrorsJson(simulation.imu().errors)},
       {"laser_lines", lasersJson(simulation.lidarErrors())},
       {"start_pose", poseJson(simulation.motion().pose(0.0))},

@@ -144,7 +144,7 @@ LidarScan Simulation::scan(std::size_t index) const
 {
   const FiredSweep fired = fire(index);
   LidarScan scan;
-  scan.stamp_ns = fired.sweep.stamp_ns + toNanoseconds(clockOffset(settings_.lidar));
+  scan.stamp_ns = stampOfLidar(fired.sweep.stamp_ns, settings_);
   scan.points = pointsOf(fired);
   scan.T_imu_lidar = settings_.lidar.T_imu_lidar;
   scan.dropped_invalid = fired.sweep.shots.size() - scan.points.size();

@@ -193,5 +193,18 @@ TEST(LidarErrors, ClockErrorShiftsStampsLikeATimeOffset)
   EXPECT_EQ(late.stamp_ns - on_time.stamp_ns, 5'000'000);
   EXPECT_EQ(late.points.x, on_time.points.x);
 }
+
+TEST(LidarErrors, ClockDriftGrowsFromTheStartOn)
+{
+  SimulationSettings settings = exactOffice();
+  settings.lidar.hidden.clock_error = 0.001;
+  settings.lidar.hidden.clock_drift = 1e-4;
+  const LidarScan late = Simulation(settings).scan(20),
+                  on_time = Simulation(exactOffice()).scan(20);
+  const double seconds = toSeconds(on_time.stamp_ns - settings.start_ns);
+  EXPECT_GT(seconds, 1.9);
+  EXPECT_EQ(late.stamp_ns - on_time.stamp_ns, toNanoseconds(0.001 + 1e-4 * seconds));
+  EXPECT_EQ(late.points.x, on_time.points.x);
+}
 }  // namespace
 }  // namespace fastlio

@@ -70,6 +70,7 @@ struct HiddenErrors
   double clock_error = 0.0;   //!< added to the LiDAR's stamps beside time_offset [s]
   double rotation_std = 0.0;  //!< of the mounting, per axis [rad]
   double position_std = 0.0;  //!< of the mounting, per axis [m]
+  double clock_drift = 0.0;   //!< what clock_error grows by in each second
 };
 
 /** The LiDAR. */

@@ -7,6 +7,7 @@
 
 #include <fastlio/simulation/lidar_model.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace fastlio
@@ -38,7 +39,9 @@ struct Return
  * + dark_bias + reflectivity (bright_bias - dark_bias). */
 [[nodiscard]] double rangeBias(const BeamSettings& settings, const Return& back);
 
-/** LiDAR clock minus IMU clock [s], given or not. */
-[[nodiscard]] double clockOffset(const LidarSettings& settings);
+/** LiDAR clock minus IMU clock, given or not, so long after the start [s]. */
+[[nodiscard]] double clockOffset(const LidarSettings& settings, double seconds);
+/** The stamp that the LiDAR gives to an instant. */
+[[nodiscard]] std::int64_t stampOfLidar(std::int64_t stamp_ns, const SimulationSettings& settings);
 
 }  // namespace fastlio

@@ -66,7 +66,7 @@ class Simulation
   /** Fires sweep number index: every shot from the exact pose at its own time, true stamps. */
   [[nodiscard]] FiredSweep fire(std::size_t index) const;
 
-  /** The same as points, with the stamp that the LiDAR delivers (clockOffset()) and the mounting
+  /** The same as points, with the stamp that the LiDAR delivers (stampOfLidar()) and the mounting
    * in the recording. */
   [[nodiscard]] LidarScan scan(std::size_t index) const;
 
