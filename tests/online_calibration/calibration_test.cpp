@@ -60,6 +60,27 @@ TEST(Calibration, FindsTheTimeOffset)
   }
 }
 
+// An offset that is taken for constant stays behind by milliseconds, and is sure of itself.
+TEST(Calibration, FollowsClocksThatDrift)
+{
+  SimulationSettings settings = officeWalk();
+  settings.duration = 45.0;
+  settings.lidar.hidden.clock_drift = 5e-5;
+  OdometryOptions parameters = unawareParameters(settings);
+  const SimulatedRun follows = runOdometry(Simulation(settings), parameters);
+  parameters.calibration.time_offset_walk = 0.0;
+  const SimulatedRun constant = runOdometry(Simulation(settings), parameters);
+  const double truth = -settings.lidar.hidden.clock_drift * settings.duration;
+  const FilterState &following = follows.scans.back().result.filter,
+                    &staying = constant.scans.back().result.filter;
+  const auto deviations = [&](const FilterState& end)
+  { return std::abs(end.x.time_offset - truth) / std::sqrt(end.P(kTimeOffset, kTimeOffset)); };
+  EXPECT_NEAR(following.x.time_offset, truth, 0.0005) << "s";
+  EXPECT_LT(deviations(following), 3.0);
+  EXPECT_GT(std::abs(staying.x.time_offset - truth), 0.0005) << "s";
+  EXPECT_GT(deviations(staying), 3.0);
+}
+
 // While few points of a scan find planes, what they show is not to be blamed on the clock.
 TEST(Calibration, HoldsTheTimeOffsetUntilTheMapCanTellIt)
 {

@@ -5,6 +5,7 @@
 #include <fastlio/health/run_diagnostics.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/so3.h>
+#include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
 
@@ -22,6 +23,10 @@ constexpr double kMostScatter = 10.0;
 constexpr double kScatterTime = 5.0;  // that a scatter is averaged over at least [s]
 // Beyond so many standard deviations, of the estimate and of what was given, an error is odd.
 constexpr double kOddDeviations = 5.0;
+// An offset that changes by less does no harm [s].
+constexpr double kLeastDrift = 0.003;
+// While a map is sparse, it can be made to fit a wrong offset [s].
+constexpr double kOffsetSettles = 20.0;
 
 bool isOdd(const Vec3& error, const Vec3& std, double given_std)
 {
@@ -129,7 +134,9 @@ void RunDiagnostics::considerClocks(const ScanResult& result)
   const double error = result.filter.x.time_offset, std = std::sqrt(std::max(0.0, variance));
   const double given_std = calibration_.time_offset_std;
   const bool known = variance > 0.0 && kOddDeviations * std < given_std;
-  if (clocks_reported_ || !known || std::abs(error) < kOddDeviations * given_std) return;
+  if (!known) return;
+  considerClockDrift(result.stamp_ns, error, std);
+  if (clocks_reported_ || drift_reported_ || std::abs(error) < kOddDeviations * given_std) return;
   clocks_reported_ = true;
   report(
       result.stamp_ns,
@@ -138,6 +145,28 @@ void RunDiagnostics::considerClocks(const ScanResult& result)
           "the trajectory counts this, the scans before did not. Set lidar.time_offset to %.4f; if "
           "it is the duration of a scan, input.point_time_reference is wrong",
           1e3 * error, 1e3 * std, given_time_offset_ + error));
+}
+
+void RunDiagnostics::considerClockDrift(std::int64_t stamp_ns, double time_offset, double std)
+{
+  if (drift_reported_) return;
+  if (!settled_offset_) settled_offset_ = {stamp_ns, stamp_ns, time_offset, std};
+  SettledOffset& settled = *settled_offset_;
+  if (toSeconds(stamp_ns - settled.known_since_ns) < kOffsetSettles)
+  {
+    settled = {settled.known_since_ns, stamp_ns, time_offset, std};
+    return;
+  }
+  const double moved = time_offset - settled.time_offset;
+  if (std::abs(moved) < std::max(kLeastDrift, kOddDeviations * std::hypot(std, settled.std)))
+    return;
+  drift_reported_ = true;
+  report(
+      stamp_ns,
+      mrpt::format(
+          "the clocks of LiDAR and IMU drift apart: their offset has changed by %.1f ms within "
+          "%.0f s. The odometry follows it. Let one clock stamp both sensors, or synchronise them",
+          1e3 * moved, toSeconds(stamp_ns - settled.stamp_ns)));
 }
 
 void RunDiagnostics::considerClockStep(const ScanResult& result)

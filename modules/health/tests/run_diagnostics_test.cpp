@@ -3,10 +3,12 @@
 
 #include "classified_scans.h"
 #include <fastlio/health/run_diagnostics.h>
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 using namespace fastlio;
 using namespace fastlio::testing;
@@ -44,6 +46,29 @@ TEST(RunDiagnostics, KeepQuietAboutClocksThatAreAsGivenOrNotKnownYet)
   diagnostics.consider(scanWithClocksApart(0.098, 0.003));   // the motion has not shown it
   diagnostics.consider(scanWithClocksApart(0.098, 0.0));     // it is not estimated
   EXPECT_TRUE(diagnostics.all().empty());
+}
+
+/** The offset of two free clocks. It is known from the begin on, but wrong at first. */
+TEST(RunDiagnostics, TellClocksThatDrift)
+{
+  const auto textsWith = [](double drift)
+  {
+    RunDiagnostics diagnostics{OdometryOptions{}};
+    for (int i = 0; i < 800; ++i)
+    {
+      const double seconds = 0.1 * i;
+      const double offset = 0.002 + drift * seconds + (seconds < 10.0 ? 0.004 : 0.0);
+      ScanResult scan = scanWithClocksApart(offset, 0.0003);
+      scan.stamp_ns = toNanoseconds(100.0 + seconds);
+      diagnostics.consider(scan);
+    }
+    return diagnostics.all();
+  };
+  EXPECT_TRUE(textsWith(0.0).empty());
+  const std::vector<Diagnostic> found = textsWith(1e-4);
+  ASSERT_EQ(found.size(), 1U) << "once is enough";
+  EXPECT_NE(found[0].text.find("changed by 3.0 ms within 30 s"), std::string::npos)
+      << found[0].text;
 }
 
 /** Deg/s that count as rad/s scatter fifty times as much. */

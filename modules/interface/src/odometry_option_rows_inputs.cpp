@@ -172,6 +172,9 @@ OptionTable<CalibrationOptions> calibrationRows()
        "uncertainty of the directions of their axes; widens the covariance"},
       {"calibration.time_offset_std", "s", number(&CalibrationOptions::time_offset_std, 0.0, 1.0),
        "uncertainty of lidar.time_offset"},
+      {"calibration.time_offset_walk", "s/sqrt(s)",
+       number(&CalibrationOptions::time_offset_walk, 0.0, 0.1),
+       "how fast the clocks of LiDAR and IMU wander from each other; 0: one clock stamps both"},
   };
 }
 }  // namespace

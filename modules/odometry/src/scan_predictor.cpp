@@ -20,6 +20,13 @@ std::int64_t silenceBefore(std::int64_t begin_ns, std::int64_t from_ns, const Im
   const std::int64_t lidar_ns = begin_ns - from_ns, imu_ns = imu.longestGap(from_ns, begin_ns);
   return 2 * lidar_ns > imu_ns ? std::min(lidar_ns, imu_ns) : 0;
 }
+
+/** \param walk CalibrationOptions::time_offset_walk */
+void letClocksWander(FilterState& state, double walk, double seconds)
+{
+  double& variance = state.P(kTimeOffset, kTimeOffset);
+  if (variance > 0.0) variance += walk * walk * seconds;  // 0: the offset is not estimated
+}
 }  // namespace
 
 Prediction ScanPredictor::fromTo(
@@ -64,7 +71,8 @@ ScanPrediction ScanPredictor::predict(
     const SystematicCovariance& systematic, bool trusted)
 {
   const std::int64_t silent_ns = silenceBefore(begin_ns, from.stamp_ns, imu);
-  const FilterState start = admitClockStep(from, silent_ns, imu);
+  FilterState start = admitClockStep(from, silent_ns, imu);
+  letClocksWander(start, clock_walk_, toSeconds(end_ns - from.stamp_ns));
   imu.inputsBetween(from.stamp_ns, end_ns, imu_.hold, inputs_);
   imu.forEachSample(
       from.stamp_ns + 1, end_ns, [this](const ImuSample& sample) { noise_.add(sample); });

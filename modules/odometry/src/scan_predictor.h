@@ -48,7 +48,9 @@ class ScanPredictor
 {
  public:
   explicit ScanPredictor(const OdometryOptions& options)
-      : imu_(options.imu), imu_rate_wanted_(options.imu_rate)
+      : imu_(options.imu),
+        clock_walk_(options.calibration.time_offset_walk),
+        imu_rate_wanted_(options.imu_rate)
   {
   }
 
@@ -81,6 +83,7 @@ class ScanPredictor
       const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu);
 
   ImuOptions imu_;
+  double clock_walk_;  // CalibrationOptions::time_offset_walk
   bool imu_rate_wanted_;
   NoiseMeasurement noise_;
   std::vector<ImuSample> inputs_;

@@ -10,6 +10,7 @@
 #include <fastlio/interface/scan_result.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,14 +46,23 @@ class RunDiagnostics
   void considerMotion(const ScanResult& result);
   void considerStep(const ScanResult& result);
   void considerClocks(const ScanResult& result);
+  void considerClockDrift(std::int64_t stamp_ns, double time_offset, double std);
   void considerClockStep(const ScanResult& result);
 
   CalibrationOptions calibration_;
   ImuNoise imu_noise_;
   double given_time_offset_;  // [s]
+  /** The offset of the clocks when it had settled. */
+  struct SettledOffset
+  {
+    std::int64_t known_since_ns, stamp_ns;
+    double time_offset, std;  // [s]
+  };
+  std::optional<SettledOffset> settled_offset_;
   SampleScatter scatter_;
   bool scatter_reported_ = false, mounting_reported_ = false, extrinsic_reported_ = false,
-       motion_reported_ = false, step_reported_ = false, clocks_reported_ = false;
+       motion_reported_ = false, step_reported_ = false, clocks_reported_ = false,
+       drift_reported_ = false;
   std::vector<Diagnostic> all_;
 };
 

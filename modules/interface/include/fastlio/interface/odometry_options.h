@@ -50,6 +50,9 @@ struct CalibrationOptions
   double imu_misalignment_std = 0.0034906585039886592;    //!< of their axes [rad] (YAML: deg)
   bool estimate_time_offset = true;
   double time_offset_std = 0.003;  //!< of the given lidar.time_offset [s]
+  /** How fast the clocks wander from each other [s/sqrt(s)]. Free quartz clocks drift by up to 50
+   * us in a second, which the estimate follows. */
+  double time_offset_walk = 5e-5;
 };
 
 /** Group `measurement`. */
