@@ -29,6 +29,10 @@ constexpr double kLeastLost = 0.1, kMostLost = 2.0;  // [m]
 // the next step of a staircase does.
 constexpr double kPlaneFoundAgain = 0.05;  // of all points
 
+// A scan that missing inertial samples have distorted more fits the map nowhere: matched where the
+// prediction puts it, it turns the state by degrees that are wrong.
+constexpr double kMostDistortion = 0.05;  // [m]
+
 // A velocity that is off by so much shears a scan of 0.1 s more than its planes are thick [m/s].
 constexpr double kShearingVelocity = 0.3;
 
@@ -98,6 +102,10 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     tracking.searching = true;
     tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
   }
+  if (!tracking.searching && map_is_informative &&
+      deskewStd(scan, work.predicted) > kMostDistortion)
+    return {
+        MapSearch(options_, matcher_, scan, map_).postponed(predicted).match, true, std::nullopt};
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
