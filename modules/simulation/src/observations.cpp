@@ -7,6 +7,7 @@
 #include <fastlio/recordings/sensor_imu.h>
 #include <fastlio/sensors/conversions.h>
 #include <fastlio/sensors/velodyne_decoder.h>
+#include <fastlio/simulation/lidar_errors.h>
 #include <fastlio/simulation/observations.h>
 #include <fastlio/simulation/vlp16.h>
 
@@ -27,11 +28,6 @@ using RawPacket = CObservationVelodyneScan::TVelodyneRawPacket;
 constexpr std::int64_t kHourUs = 3'600'000'000;
 constexpr std::uint8_t kVlp16Id = 0x22;
 constexpr double kMaxRawRange = 65535.0;
-
-std::int64_t deliveredStamp(const FiredSweep& fired, const SimulationSettings& settings)
-{
-  return stampOfLidar(fired.sweep.stamp_ns, settings);
-}
 
 /** Little-endian bytes of a data packet, in order. */
 class PacketBytes
@@ -110,10 +106,10 @@ CObservationPointCloud::Ptr toPointCloud(
   auto observation = CObservationPointCloud::Create();
   observation->sensorLabel = kLidarLabel;
   observation->timestamp =
-      toMrptTime(deliveredStamp(fired, settings) + stampShiftOf(settings.lidar));
+      toMrptTime(stampOfLidar(fired.sweep.stamp_ns, settings) + stampShiftOf(settings.lidar));
   observation->sensorPose = toMrptPose(settings.lidar.T_imu_lidar);
   observation->pointcloud =
-      encodeCloud(pointsOf(fired), deliveredStamp(fired, settings), settings.lidar);
+      encodeCloud(pointsOf(fired), stampOfLidar(fired.sweep.stamp_ns, settings), settings.lidar);
   return observation;
 }
 }  // namespace
@@ -139,7 +135,7 @@ CObservationVelodyneScan::Ptr toVelodyneScan(
     const FiredSweep& fired, const SimulationSettings& settings)
 {
   auto observation = CObservationVelodyneScan::Create();
-  const std::int64_t stamp_ns = deliveredStamp(fired, settings);
+  const std::int64_t stamp_ns = stampOfLidar(fired.sweep.stamp_ns, settings);
   const auto packets = arrivedPackets(fired);
   observation->sensorLabel = kLidarLabel;
   // Drivers take the time of the first packet that arrives.
