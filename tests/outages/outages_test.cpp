@@ -226,7 +226,7 @@ TEST(OutageOfTheLidar, APlaceThatLooksTheSameIsInTheCovariance)
   SimulationSettings settings = walk("stairs");
   settings.lidar.stride = 4;
   const CastWalk stairs(realistic(settings));
-  const SimulatedRun run = runWithOutage(stairs, {10.0, 6.0}, Missing::Scans);
+  const SimulatedRun run = runWithOutage(stairs, {12.0, 6.0}, Missing::Scans);
   EXPECT_GT(positionError(run, run.scans.back()), 1.0) << "the right floor was found";
   EXPECT_FALSE(endsOk(run));
   EXPECT_EQ(confidentlyWrong(run), 0);

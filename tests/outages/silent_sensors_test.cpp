@@ -96,7 +96,7 @@ TEST(SilentSensors, AClockThatIsSetAheadMovesNothing)
     EXPECT_GE(
         partThatEndsRight([&](double begin)
                           { return runWithStep(realisticOffice(), begin, step); }),
-        step < 0.3 ? 0.8 : 0.65)
+        step < 0.3 ? 0.75 : 0.65)
         << step << " s";
   EXPECT_TRUE(saysClockStep(runWithStep(realisticOffice(), 9.0, 0.25)));
 }

@@ -103,6 +103,8 @@ Calibrator::Calibrator(
   config_.odometry.imu.noise = noise_.appliedTo(given_noise_);
   // The evidence about the extrinsic is collected beside the filter, which takes it for true.
   config_.odometry.calibration.estimate_extrinsic = false;
+  // A pass shows what the offsets that it begins with leave.
+  config_.odometry.calibration.estimate_beams = false;
   // One offset is sought. The readings of clocks that drift contradict each other.
   config_.odometry.calibration.time_offset_walk = 0.0;
 }

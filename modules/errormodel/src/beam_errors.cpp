@@ -7,26 +7,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace fastlio
 {
 namespace
 {
 constexpr double kLeastCosine = 0.05;  // of the elevation: nearer the axis it has no direction
-// From then on an offset is known: to 1 mm, and to 1 mm at 10 m.
-constexpr double kLeastRangeInformation = 1e6;      // [1/m^2]
-constexpr double kLeastElevationInformation = 1e8;  // [1/rad^2]
-// Pose and map go along with an offset, so that only a part of it is left in the residuals: about
-// so much in rides whose lasers have known offsets (docs/covariance.md).
-constexpr double kLeftOfRange = 0.75, kLeftOfElevation = 0.55;
-// The variance of an offset over that of independent residuals: they share the errors of the map.
+// Residuals share the errors of the planes: they hold less information than their number suggests.
 constexpr double kSharedNoise = 4.0;
 // Every so many-th scan is sampled: for what all scans of a run tell of a single number, and for
 // what the beams meet, which hardly changes in so short a time, seen from the sensor.
 constexpr std::size_t kScansPerSample = 4;
-// Columns of BeamPulls: those of the sides, then ranges, then elevations.
-constexpr int kSideErrors = 6;
-constexpr std::size_t kLaserColumns = (kBeamErrors - kSideErrors) / 2;
+
+/** A point on a plane as the beam saw it that created the plane. */
+struct CreatedPoint
+{
+  BeamView view;
+  BeamGeometry geometry;
+};
+
+std::optional<CreatedPoint> createdBy(
+    const Pose& T_lidar_world, const Vec3& point, const Vec3& normal)
+{
+  const Vec3 beam = T_lidar_world * point, turned = T_lidar_world.R * normal;
+  const double range = beam.norm(), sine = beam.z() / range;
+  const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
+  if (!(cosine > kLeastCosine)) return std::nullopt;
+  const double along = turned.dot(beam) / range;
+  const double upward = (turned.z() - sine * along) / cosine;
+  return CreatedPoint{
+      {beamBin(sine), {along, range * upward}}, {beam.x(), beam.y(), along, turned.z()}};
+}
 }  // namespace
 
 /** The axes of the sensor. */
@@ -41,9 +53,15 @@ struct BeamErrors::BeamLanes
 {
   double forward[kLanes], left[kLanes], range[kLanes];  // [m]
   double sine[kLanes], cosine[kLanes];                  // of the elevation
+  std::size_t bin[kLanes];                              // of the elevation as measured
   double along[kLanes];                                 // cosine between beam and normal
   double turned_up[kLanes];                             // cosine between z axis and normal
   double upward[kLanes];                                // the normal across the beam, upward
+
+  [[nodiscard]] BeamView view(std::size_t lane) const
+  {
+    return {bin[lane], {along[lane], range[lane] * upward[lane]}};
+  }
 };
 
 BeamErrors::BeamLanes BeamErrors::beamsOf(
@@ -57,6 +75,7 @@ BeamErrors::BeamLanes BeamErrors::beamsOf(
   for (std::size_t l = 0; l < kLanes; ++l)
   {
     const std::size_t i = block.index[l];
+    b.bin[l] = body.beam_bin[i];
     const auto x = static_cast<double>(body.x[i]), y = static_cast<double>(body.y[i]),
                z = static_cast<double>(body.z[i]);
     const double nx = block.h[3][l], ny = block.h[4][l], nz = block.h[5][l];
@@ -75,12 +94,6 @@ BeamErrors::BeamLanes BeamErrors::beamsOf(
   return b;
 }
 
-void BeamErrors::Offset::add(const PointMeasurement& point, double derivative)
-{
-  information += point.weight * derivative * derivative;
-  weighted += point.weight * derivative * point.z;
-}
-
 void BeamErrors::add(
     const Pose& T_world_scan, const DeskewedScan& scan, const MeasuredScan& measured,
     const std::vector<PlaneMatch>& matches)
@@ -91,7 +104,7 @@ void BeamErrors::add(
   const Mat3 R_lidar_body = scan.T_imu_lidar.R.transpose();
   const SensorFrame frame{
       R_lidar_body, R_lidar_body * R_world_scan.transpose(), R_lidar_body * scan.T_imu_lidar.p};
-  if (bins_per_column_ == 0) chooseColumns(scan.surfaces, frame);
+  if (bins_per_column_ == 0) chooseColumns(scan.surfaces);
   measured.forEachBlock(
       [&](const MeasurementBlock& block, std::size_t)
       {
@@ -100,101 +113,105 @@ void BeamErrors::add(
         {
           if (block.weight[l] == 0.0 || !(beams.cosine[l] > kLeastCosine)) continue;
           const PointMeasurement point = block.point(l);
-          add(beams, l, point);
+          add(beams.view(l), point);
+          const double upright = point.weight * (1.0 - beams.turned_up[l] * beams.turned_up[l]);
+          upright_weight_ += upright;
+          upright_range_ += upright * beams.range[l];
           if (!is_sampled) continue;
-          const PlaneMatch& match = matches[block.index[l]];
-          sample(beams, l, point, match.plane);
-          if (const Pose* view = views_.T_lidar_world(match.created_insertion))
-            sampleCreation(
-                *view, T_world_scan * pointAt(scan.surfaces, block.index[l]),
-                {block.h[3][l], block.h[4][l], block.h[5][l]}, point.weighted_h);
+          const std::size_t i = block.index[l];
+          sample(beams, l, point, matches[i], T_world_scan * pointAt(scan.surfaces, i));
         }
       });
   if (!is_sampled) return;
   incidence_.finishScan(measured.sums().HtRinvH);
   sides_.learn();
-  finishSample(R_world_scan);
+  finishSample(R_world_scan, measured.sums().HtRinvH);
 }
 
 /** As fine as the elevations of a scan allow. They stay: a column is always of the same lasers. */
-void BeamErrors::chooseColumns(const BodyPoints& body, const SensorFrame& frame)
+void BeamErrors::chooseColumns(const BodyPoints& body)
 {
-  std::size_t last = 0;
-  first_bin_ = kBeamBins - 1;
-  for (std::size_t i = 0; i < body.size(); ++i)
-  {
-    const Vec3 beam = frame.R_lidar_body * pointAt(body, i) - frame.origin;
-    if (!(beam.squaredNorm() > 0.0)) continue;
-    const std::size_t bin = beamBin(beam.z() / beam.norm());
-    first_bin_ = std::min(first_bin_, bin);
-    last = std::max(last, bin);
-  }
-  if (last >= first_bin_) bins_per_column_ = 1 + (last - first_bin_) / kLaserColumns;
+  if (body.size() == 0) return;
+  const auto [first, last] = std::minmax_element(body.beam_bin.begin(), body.beam_bin.end());
+  first_bin_ = *first;
+  const std::size_t bins = 1U + *last - *first;
+  bins_per_column_ = 1 + (bins - 1) / kLaserColumns;
+  calibration_.begin(first_bin_, bins);
+  useCovariance();
 }
 
-void BeamErrors::add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point)
+std::size_t BeamErrors::columnOf(std::size_t bin) const
 {
-  const double along = beams.along[lane], by_elevation = beams.range[lane] * beams.upward[lane];
-  const std::size_t bin = beamBin(beams.sine[lane]);
-  range_[bin].add(point, along);
-  elevation_[bin].add(point, by_elevation);
-  cross_[bin] += point.weight * along * by_elevation;
-  const double upright = point.weight * (1.0 - beams.turned_up[lane] * beams.turned_up[lane]);
-  upright_weight_ += upright;
-  upright_range_ += upright * beams.range[lane];
+  return (bin - first_bin_) / bins_per_column_;
+}
+
+void BeamErrors::add(const BeamView& beam, const PointMeasurement& point)
+{
+  Beam& sums = beams_[beam.bin];
+  sums.information += point.weight * beam.by_offset * beam.by_offset.transpose();
+  sums.weighted += point.weight * point.z * beam.by_offset;
 }
 
 void BeamErrors::beginSample()
 {
-  for (Offsets* offsets : {&range_, &elevation_})
-    for (Offset& offset : *offsets)
-      offset.in_sampled.setZero();
+  for (Beam& beam : beams_)
+    beam.in_sampled.setZero();
   sides_.beginScan();
 }
 
 /** In the axes of the body, where what the beams do changes little from scan to scan. */
-void BeamErrors::finishSample(const Mat3& R_world_scan)
+void BeamErrors::finishSample(const Mat3& R_world_scan, const Matrix6& information)
 {
-  constexpr auto kColumns = static_cast<Eigen::Index>(kLaserColumns);
-  range_variance_ =
-      meanSquare(range_, elevation_, kLeastRangeInformation) / (kLeftOfRange * kLeftOfRange);
-  elevation_variance_ = meanSquare(elevation_, range_, kLeastElevationInformation) /
-                        (kLeftOfElevation * kLeftOfElevation);
+  if (calibration_.finishScan(information)) useCovariance();
   Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Identity();
   turn.bottomRightCorner<3, 3>() = R_world_scan.transpose();
-  Eigen::Matrix<double, 6, kBeamErrors> pulls = Eigen::Matrix<double, 6, kBeamErrors>::Zero();
-  pullsOf(range_, range_variance_, pulls.middleCols<kColumns>(kSideErrors));
-  pullsOf(elevation_, elevation_variance_, pulls.rightCols<kColumns>());
-  pulls = turn * pulls;
-  pulls.leftCols<kSideErrors>() = squareRoot(turn * sides_.covariance() * turn.transpose());
-  pulls_ = pulls;
+  Eigen::Matrix<double, 6, kLaserErrors> by_laser = Eigen::Matrix<double, 6, kLaserErrors>::Zero();
+  for (std::size_t bin = first_bin_; bin < first_bin_ + calibration_.bins(); ++bin)
+    by_laser.middleCols<2>(2 * static_cast<Eigen::Index>(columnOf(bin))) += beams_[bin].in_sampled;
+  pulls_.leftCols<kSideErrors>() = squareRoot(turn * sides_.covariance() * turn.transpose());
+  pulls_.rightCols<kLaserErrors>() = turn * by_laser * root_;
+}
+
+/** Neighbours in a column pull alike, each with an error of its own: theirs is the mean. */
+void BeamErrors::useCovariance()
+{
+  const Eigen::MatrixXd& covariance = calibration_.covariance();
+  const auto bins = covariance.rows() / 2;
+  Eigen::Matrix<double, kLaserErrors, 1> lasers = Eigen::Matrix<double, kLaserErrors, 1>::Zero();
+  const auto columnAt = [&](Eigen::Index i)
+  { return 2 * static_cast<Eigen::Index>(columnOf(first_bin_ + static_cast<std::size_t>(i))); };
+  for (Eigen::Index i = 0; i < bins; ++i)
+    lasers.segment<2>(columnAt(i)).array() += 1.0;
+  Eigen::Matrix<double, kLaserErrors, kLaserErrors> of_columns;
+  of_columns.setZero();
+  for (Eigen::Index i = 0; i < bins; ++i)
+    for (Eigen::Index j = 0; j < bins; ++j)
+      of_columns.block<2, 2>(columnAt(i), columnAt(j)) += covariance.block<2, 2>(2 * i, 2 * j);
+  const auto inverse = lasers.cwiseMax(1.0).cwiseInverse().eval();
+  of_columns = inverse.asDiagonal() * of_columns * inverse.asDiagonal();
+  // A column without a laser has no error, and stays apart from the others.
+  of_columns.diagonal().array() += (lasers.array() == 0.0).cast<double>();
+  root_ = Eigen::LLT<Eigen::Matrix<double, kLaserErrors, kLaserErrors>>(of_columns).matrixL();
 }
 
 void BeamErrors::sample(
-    const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane)
+    const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
+    const PlaneMatch& match, const Vec3& point_world)
 {
   const BeamGeometry beam{
       beams.forward[lane], beams.left[lane], beams.along[lane], beams.turned_up[lane]};
-  const Vector6 by_range = beam.along * point.weighted_h;
-  const std::size_t bin = beamBin(beams.sine[lane]);
-  range_[bin].in_sampled += by_range;
-  elevation_[bin].in_sampled += beams.range[lane] * beams.upward[lane] * point.weighted_h;
-  sides_.add(beam, point, by_range);
-  incidence_.add(plane, beam.along, point);
-}
-
-void BeamErrors::sampleCreation(
-    const Pose& T_lidar_world, const Vec3& point, const Vec3& normal, const Vector6& weighted_h)
-{
-  const Vec3 beam = T_lidar_world * point, turned = T_lidar_world.R * normal;
-  const double range = beam.norm(), sine = beam.z() / range;
-  const double cosine = std::sqrt(std::max(0.0, 1.0 - sine * sine));
-  if (!(cosine > kLeastCosine)) return;
-  const double along = turned.dot(beam) / range;
-  const std::size_t bin = beamBin(sine);
-  range_[bin].in_sampled -= along * weighted_h;
-  elevation_[bin].in_sampled -= range * (turned.z() - sine * along) / cosine * weighted_h;
-  sides_.addCreation({beam.x(), beam.y(), along, turned.z()}, along * weighted_h);
+  const BeamView measured = beams.view(lane);
+  beams_[measured.bin].in_sampled += point.weighted_h * measured.by_offset.transpose();
+  sides_.add(beam, point, beam.along * point.weighted_h);
+  incidence_.add(match.plane, beam.along, point);
+  const Pose* view = views_.T_lidar_world(match.created_insertion);
+  const auto created = view != nullptr
+                           ? createdBy(*view, point_world, {match.nx, match.ny, match.nz})
+                           : std::nullopt;
+  calibration_.add(point, measured, created ? &created->view : nullptr);
+  if (!created) return;
+  beams_[created->view.bin].in_sampled -= point.weighted_h * created->view.by_offset.transpose();
+  sides_.addCreation(created->geometry, created->geometry.along * point.weighted_h);
 }
 
 void BeamErrors::forgetMap()
@@ -203,77 +220,22 @@ void BeamErrors::forgetMap()
   views_.clear();
 }
 
-double BeamErrors::meanSquare(
-    const Offsets& offsets, const Offsets& others, double least_information) const
-{
-  double squares = 0.0, known = 0.0;
-  for (std::size_t bin = 0; bin < kBeamBins; ++bin)
-  {
-    const Offset &offset = offsets[bin], &other = others[bin];
-    double information = offset.information, weighted = offset.weighted;
-    // What the other offset of the laser explains is not of this one, where both can be told apart.
-    const double slope = other.information > 0.0 ? cross_[bin] / other.information : 0.0;
-    const double apart = information - slope * cross_[bin];
-    if (apart >= least_information)
-    {
-      information = apart;
-      weighted -= slope * other.weighted;
-    }
-    if (information < least_information) continue;
-    const double square = std::pow(weighted / information, 2);
-    squares += std::max(0.0, square - kSharedNoise / information);
-    known += 1.0;
-  }
-  return known > 0.0 ? squares / known : 0.0;
-}
-
-double BeamErrors::rangeOffset() const
-{
-  return std::sqrt(range_variance_);
-}
-
-double BeamErrors::elevationOffset() const
-{
-  return std::sqrt(elevation_variance_);
-}
-
 void BeamErrors::addTo(CalibrationFindings& findings) const
 {
   for (std::size_t bin = 0; bin < kBeamBins; ++bin)
   {
-    const Offset &range = range_[bin], &elevation = elevation_[bin];
-    if (!(range.information > 0.0)) continue;
+    const Beam& beam = beams_[bin];
+    if (!(beam.information(0, 0) > 0.0)) continue;
     BeamSums& sums = findings.beams.emplace_back();
     sums.elevation = beamElevation(bin);
-    sums.information << range.information, cross_[bin], cross_[bin], elevation.information;
-    sums.weighted << range.weighted, elevation.weighted;
-    // They share the errors of the map: points hold less information than their number suggests.
-    sums.information /= kSharedNoise;
-    sums.weighted /= kSharedNoise;
+    sums.information = beam.information / kSharedNoise;
+    sums.weighted = beam.weighted / kSharedNoise;
   }
   findings.incidence = incidence_.sums();
   findings.incidence.information /= kSharedNoise;
   findings.incidence.weighted /= kSharedNoise;
   findings.upright_weight = upright_weight_;
   findings.upright_range = upright_range_;
-}
-
-void BeamErrors::pullsOf(
-    const Offsets& offsets, double variance, Eigen::Ref<Eigen::Matrix<double, 6, -1>> result) const
-{
-  std::array<double, kLaserColumns> lasers{};
-  for (std::size_t bin = 0; bin < kBeamBins; ++bin)
-  {
-    if (!(offsets[bin].information > 0.0)) continue;
-    const std::size_t column =
-        bin < first_bin_ ? 0 : std::min(kLaserColumns - 1, (bin - first_bin_) / bins_per_column_);
-    result.col(static_cast<Eigen::Index>(column)) += offsets[bin].in_sampled;
-    lasers[column] += 1.0;
-  }
-  // Neighbours pull alike, each with an error of its own.
-  for (std::size_t column = 0; column < kLaserColumns; ++column)
-    if (lasers[column] > 0.0)
-      result.col(static_cast<Eigen::Index>(column)) *= std::sqrt(variance / lasers[column]);
 }
 
 BeamPulls BeamErrors::pulls(const Mat3& R_world_scan) const

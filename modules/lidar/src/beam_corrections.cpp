@@ -31,22 +31,27 @@ BeamCorrections::BeamCorrections(const std::vector<double>& rows) : any_(!rows.e
   }
 }
 
+std::size_t BeamCorrections::apply(float& x, float& y, float& z) const
+{
+  const float level = std::sqrt(x * x + y * y), range = std::sqrt(level * level + z * z);
+  if (!(range > 0.0F)) return 0;
+  const std::size_t bin = beamBin(static_cast<double>(z / range));
+  if (!any_ || !(level > kLeastCosine * range)) return bin;
+  const Offset& offset = offsets_[bin];
+  // Against the beam, and across it: p - dr d - de r u with u = (-z x, -z y, level^2) / (r
+  // level).
+  const float shrink = 1.0F - offset.range / range + offset.elevation * z / level;
+  z = z * (1.0F - offset.range / range) - offset.elevation * level;
+  x *= shrink;
+  y *= shrink;
+  return bin;
+}
+
 void BeamCorrections::apply(PointColumns& points) const
 {
   if (!any_) return;
   for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    float &x = points.x[i], &y = points.y[i], &z = points.z[i];
-    const float level = std::sqrt(x * x + y * y), range = std::sqrt(level * level + z * z);
-    if (!(level > kLeastCosine * range)) continue;
-    const Offset& offset = offsets_[beamBin(static_cast<double>(z / range))];
-    // Against the beam, and across it: p - dr d - de r u with u = (-z x, -z y, level^2) / (r
-    // level).
-    const float shrink = 1.0F - offset.range / range + offset.elevation * z / level;
-    z = z * (1.0F - offset.range / range) - offset.elevation * level;
-    x *= shrink;
-    y *= shrink;
-  }
+    apply(points.x[i], points.y[i], points.z[i]);
 }
 
 }  // namespace fastlio

@@ -85,16 +85,17 @@ void BodyPoints::resize(std::size_t n)
 {
   for (auto* column : {&x, &y, &z, &ux, &uy, &uz})
     column->resize(n);
+  beam_bin.resize(n);
 }
 
 Deskewer::Deskewer(std::shared_ptr<const Workers> workers) : workers_(std::move(workers)) {}
 
 void Deskewer::deskew(
     const LidarScan& scan, const std::vector<std::uint32_t>& indices,
-    const std::vector<MotionKnot>& knots, BodyPoints& body)
+    const std::vector<MotionKnot>& knots, BodyPoints& body, const BeamCorrections& beams)
 {
   splitMotion(knots, scan.T_imu_lidar, steps_);
-  if (steps_.empty()) return transformToBody(scan, indices, body);
+  if (steps_.empty()) return transformToBody(scan, indices, body, beams);
   body.resize(indices.size());
   const auto chunk = [&](std::size_t, std::size_t first, std::size_t last)
   {
@@ -105,7 +106,8 @@ void Deskewer::deskew(
       at = walkToStep(steps_, at, stamp_ns);
       const MotionStep& step = steps_[at];
       const float dt = static_cast<float>(stamp_ns - step.middle_ns) * 1e-9F;
-      const Vec3f p = pointOf(scan.points, indices[i]);
+      Vec3f p = pointOf(scan.points, indices[i]);
+      body.beam_bin[i] = static_cast<std::uint16_t>(beams.apply(p.x(), p.y(), p.z()));
       const Vec3f beam = step.M * p + dt * (step.N * p);
       store(body, i, beam + step.b + dt * step.c, beam);
     }
@@ -114,7 +116,8 @@ void Deskewer::deskew(
 }
 
 void Deskewer::transformToBody(
-    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body) const
+    const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body,
+    const BeamCorrections& beams) const
 {
   body.resize(indices.size());
   const Mat3f R = scan.T_imu_lidar.R.cast<float>();
@@ -123,7 +126,9 @@ void Deskewer::transformToBody(
   {
     for (std::size_t i = first; i < last; ++i)
     {
-      const Vec3f beam = R * pointOf(scan.points, indices[i]);
+      Vec3f p = pointOf(scan.points, indices[i]);
+      body.beam_bin[i] = static_cast<std::uint16_t>(beams.apply(p.x(), p.y(), p.z()));
+      const Vec3f beam = R * p;
       store(body, i, beam + t, beam);
     }
   };

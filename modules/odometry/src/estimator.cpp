@@ -54,6 +54,7 @@ Estimator::Estimator(const OdometryOptions& options)
       map_(options, workers_),
       rest_(options.rest),
       calibration_(options.calibration),
+      beams_(options.calibration.estimate_beams),
       classifier_(options)
 {
 }
@@ -148,7 +149,8 @@ const DeskewedScan& Estimator::deskew(
     const LidarScan& scan, std::int64_t end_ns, const NavState& motion)
 {
   const Stopwatch watch;
-  const DeskewedScan& deskewed = preparation_.deskew(scan, end_ns, motion, predictor_.inputs());
+  const DeskewedScan& deskewed =
+      preparation_.deskew(scan, end_ns, motion, predictor_.inputs(), beams_.corrections());
   timings_.deskew += watch.milliseconds();
   return deskewed;
 }

@@ -45,18 +45,18 @@ void ScanPreparation::downsample(const LidarScan& scan, std::size_t at_least)
 
 const DeskewedScan& ScanPreparation::deskew(
     const LidarScan& scan, std::int64_t end_ns, const NavState& predicted,
-    const std::vector<ImuSample>& inputs)
+    const std::vector<ImuSample>& inputs, const BeamCorrections& beams)
 {
   if (deskew_ && scan.has_point_times)
   {
     backwardPropagate(predicted, end_ns, inputs, knots_);
-    deskewer_.deskew(scan, selection_.indices, knots_, deskewed_.surfaces);
-    deskewer_.deskew(scan, edge_indices_, knots_, deskewed_.edges);
+    deskewer_.deskew(scan, selection_.indices, knots_, deskewed_.surfaces, beams);
+    deskewer_.deskew(scan, edge_indices_, knots_, deskewed_.edges, beams);
   }
   else
   {
-    deskewer_.transformToBody(scan, selection_.indices, deskewed_.surfaces);
-    deskewer_.transformToBody(scan, edge_indices_, deskewed_.edges);
+    deskewer_.transformToBody(scan, selection_.indices, deskewed_.surfaces, beams);
+    deskewer_.transformToBody(scan, edge_indices_, deskewed_.edges, beams);
   }
   deskewed_.T_imu_lidar = scan.T_imu_lidar;
   deskewed_.sparse_lines = selector_.seesSparseLines();

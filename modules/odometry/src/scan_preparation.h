@@ -30,7 +30,7 @@ class ScanPreparation
    * \param predicted the state there \param inputs the inertial samples that led to it */
   [[nodiscard]] const DeskewedScan& deskew(
       const LidarScan& scan, std::int64_t end_ns, const NavState& predicted,
-      const std::vector<ImuSample>& inputs);
+      const std::vector<ImuSample>& inputs, const BeamCorrections& beams);
 
   /** Counts of the downsampled scan. */
   void describe(const LidarScan& scan, ScanStatistics& statistics) const;

@@ -5,6 +5,7 @@
  * its elevation. Thousands of points do not average them out, and nor do hundreds of planes. */
 #pragma once
 
+#include <fastlio/errormodel/beam_calibration.h>
 #include <fastlio/errormodel/beam_pulls.h>
 #include <fastlio/errormodel/calibration_sums.h>
 #include <fastlio/errormodel/creating_views.h>
@@ -27,6 +28,9 @@ namespace fastlio
 class BeamErrors
 {
  public:
+  /** \param corrects CalibrationOptions::estimate_beams */
+  explicit BeamErrors(bool corrects = true) : calibration_(corrects) {}
+
   /** A scan was matched. \param T_world_scan the scan pose
    * \param measured its measurements \param matches their planes, by point of the scan */
   void add(
@@ -46,52 +50,56 @@ class BeamErrors
    * stays nearly the same, seen from the sensor. Dense LiDARs have several lasers in a column.
    * \param R_world_scan attitude of the scan pose */
   [[nodiscard]] BeamPulls pulls(const Mat3& R_world_scan) const;
-  /** Root mean square of the offsets; 0 while none is known. */
-  [[nodiscard]] double rangeOffset() const;                                      //!< [m]
-  [[nodiscard]] double elevationOffset() const;                                  //!< [rad]
-  [[nodiscard]] double sideRangeOffset() const { return sides_.rangeOffset(); }  //!< [m]
+  /** To be taken off the points of the scans that follow. */
+  [[nodiscard]] const BeamCorrections& corrections() const { return calibration_.corrections(); }
+  /** Standard deviation of the offsets, before they are taken off; 0 without any scan. */
+  [[nodiscard]] double rangeOffset() const { return calibration_.rangeStd(); }          //!< [m]
+  [[nodiscard]] double elevationOffset() const { return calibration_.elevationStd(); }  //!< [rad]
+  [[nodiscard]] double sideRangeOffset() const { return sides_.rangeOffset(); }         //!< [m]
   /** Adds what the beams tell about their calibration. */
   void addTo(CalibrationFindings& findings) const;
 
  private:
-  /** An offset of the beams of one elevation. */
-  struct Offset
-  {
-    double information = 0.0, weighted = 0.0;  // of all scans
-    Vector6 in_sampled = Vector6::Zero();      // sum of w h times its derivative, sampled scan
+  // Columns of BeamPulls: those of the sides, then range and elevation of each laser.
+  static constexpr int kSideErrors = 6, kLaserErrors = kBeamErrors - kSideErrors;
+  static constexpr std::size_t kLaserColumns = kLaserErrors / 2;
 
-    void add(const PointMeasurement& point, double derivative);
+  /** The beams of one elevation. */
+  struct Beam
+  {
+    // Of all scans: normal equations for the offsets of range and elevation.
+    Eigen::Matrix<double, 2, 2, Eigen::DontAlign> information =
+        Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
+    Eigen::Matrix<double, 2, 1, Eigen::DontAlign> weighted =
+        Eigen::Matrix<double, 2, 1, Eigen::DontAlign>::Zero();
+    // Of the sampled scan: what these offsets add to sum w h z.
+    Eigen::Matrix<double, 6, 2, Eigen::DontAlign> in_sampled =
+        Eigen::Matrix<double, 6, 2, Eigen::DontAlign>::Zero();
   };
-  using Offsets = std::array<Offset, kBeamBins>;
   struct SensorFrame;
   struct BeamLanes;
 
   [[nodiscard]] static BeamLanes beamsOf(
       const MeasurementBlock& block, const BodyPoints& body, const SensorFrame& frame);
-  void add(const BeamLanes& beams, std::size_t lane, const PointMeasurement& point);
+  void add(const BeamView& beam, const PointMeasurement& point);
+  [[nodiscard]] std::size_t columnOf(std::size_t bin) const;
   void beginSample();
-  void finishSample(const Mat3& R_world_scan);
-  void chooseColumns(const BodyPoints& body, const SensorFrame& frame);
+  void finishSample(const Mat3& R_world_scan, const Matrix6& information);
+  void chooseColumns(const BodyPoints& body);
   void sample(
-      const BeamLanes& beams, std::size_t lane, const PointMeasurement& point, std::uint32_t plane);
-  void sampleCreation(
-      const Pose& T_lidar_world, const Vec3& point, const Vec3& normal, const Vector6& weighted_h);
+      const BeamLanes& beams, std::size_t lane, const PointMeasurement& point,
+      const PlaneMatch& match, const Vec3& point_world);
+  void useCovariance();
 
-  /** Those of the sampled scan, in the first columns of \a result. */
-  void pullsOf(
-      const Offsets& offsets, double variance,
-      Eigen::Ref<Eigen::Matrix<double, 6, -1>> result) const;
-  [[nodiscard]] double meanSquare(
-      const Offsets& offsets, const Offsets& others, double least_information) const;
-
-  Offsets range_, elevation_;
-  std::array<double, kBeamBins> cross_{};  // information between range and elevation of a bin
+  std::array<Beam, kBeamBins> beams_;
+  BeamCalibration calibration_;
   IncidenceBias incidence_;
   SideErrors sides_;
   CreatingViews views_;
   std::size_t scans_ = 0;
   BeamPulls pulls_ = BeamPulls::Zero();  // of the sampled scan, in the axes of the body
-  double range_variance_ = 0.0, elevation_variance_ = 0.0;  // [m^2], [rad^2]
+  // Root of the covariance of the offsets, of range and elevation of each column.
+  Eigen::Matrix<double, kLaserErrors, kLaserErrors, Eigen::DontAlign> root_;
   std::size_t first_bin_ = 0, bins_per_column_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;
 };

@@ -48,6 +48,7 @@ struct CalibrationOptions
   double extrinsic_translation_std = 0.01;                //!< of the given one [m]
   double imu_scale_std = 0.005;                           //!< of gyro and accelerometer
   double imu_misalignment_std = 0.0034906585039886592;    //!< of their axes [rad] (YAML: deg)
+  bool estimate_beams = true;  //!< offsets of the beams are taken off the scans
   bool estimate_time_offset = true;
   double time_offset_std = 0.003;  //!< of the given lidar.time_offset [s]
   /** How fast the clocks wander from each other [s/sqrt(s)]. Free quartz clocks drift by up to 50

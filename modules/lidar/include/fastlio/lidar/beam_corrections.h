@@ -34,7 +34,17 @@ class BeamCorrections
  public:
   /** \param rows of elevation [deg], offset of the range [m] and of the elevation [deg]: LiDAR less
    * truth; of several rows in one bin the last one counts */
-  explicit BeamCorrections(const std::vector<double>& rows);
+  explicit BeamCorrections(const std::vector<double>& rows = {});
+
+  /** \param range [m] \param elevation [rad] */
+  void set(std::size_t bin, double range, double elevation)
+  {
+    any_ = true;
+    offsets_[bin] = {static_cast<float>(range), static_cast<float>(elevation)};
+  }
+
+  /** Of one point, in the LiDAR frame. \return its bin, before it was corrected */
+  std::size_t apply(float& x, float& y, float& z) const;
 
   /** In the LiDAR frame. */
   void apply(PointColumns& points) const;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/filter/backward_propagation.h>
+#include <fastlio/lidar/beam_corrections.h>
 #include <fastlio/lidar/scan.h>
 #include <fastlio/parallel/workers.h>
 
@@ -17,8 +18,9 @@ namespace fastlio
 /** Compensated points in the body (IMU) frame at the scan's end, columns of equal length. */
 struct BodyPoints
 {
-  std::vector<float> x, y, z;     //!< [m]
-  std::vector<float> ux, uy, uz;  //!< unit vector of the beam, body frame
+  std::vector<float> x, y, z;           //!< [m]
+  std::vector<float> ux, uy, uz;        //!< unit vector of the beam, body frame
+  std::vector<std::uint16_t> beam_bin;  //!< of the elevation as measured (beamBin())
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
   void resize(std::size_t n);
@@ -47,11 +49,13 @@ class Deskewer
    * of the result */
   void deskew(
       const LidarScan& scan, const std::vector<std::uint32_t>& indices,
-      const std::vector<MotionKnot>& knots, BodyPoints& body);
+      const std::vector<MotionKnot>& knots, BodyPoints& body,
+      const BeamCorrections& beams = BeamCorrections());
 
   /** The same without motion: the extrinsic only. */
   void transformToBody(
-      const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body) const;
+      const LidarScan& scan, const std::vector<std::uint32_t>& indices, BodyPoints& body,
+      const BeamCorrections& beams = BeamCorrections()) const;
 
  private:
   std::shared_ptr<const Workers> workers_;
