@@ -15,7 +15,7 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kFirstBin = 21, kBins = 16;  // those of a VLP-16
-constexpr double kReturnWeight = 1.0 / 4e-4;        // of a range noise of 2 cm
+constexpr double kReturnWeight = 1.0 / 4e-4;       // of a range noise of 2 cm
 
 struct OffsetOfLaser
 {
