@@ -101,7 +101,11 @@ TEST_F(ReplayReport, HasTheErrorsOfTheEvaluation)
     report = evaluate(estimate, truth, options);
   }
   EXPECT_TRUE(says(html, ">" + fixedText(report.ape.translation.rmse, 4) + "<")) << html;
-  EXPECT_TRUE(says(html, "NEES of the pose: " + fixedText(report.nees->pose.mean, 2)));
+  const std::string nees = "NEES of the pose: ";
+  const std::size_t at = html.find(nees);
+  ASSERT_NE(at, std::string::npos);
+  // The file has fewer digits than the run: the last one of the page may differ.
+  EXPECT_NEAR(std::stod(html.substr(at + nees.size(), 8)), report.nees->pose.mean, 0.01);
 }
 
 TEST_F(ReplayReport, FindsTheTruthBesideTheRecording)
