@@ -24,7 +24,6 @@ constexpr double kUnderstated = 9.0;
 constexpr double kPredictedRotation = 0.002, kPredictedPosition = 0.01;
 // Every so many scans there is a new estimate, later when their number has grown by an eighth.
 constexpr std::size_t kScansPerEstimate = 4, kGrowth = 8;
-constexpr int kStepsPerEstimate = 1;
 }  // namespace
 
 void BeamCalibration::begin(std::size_t first_bin, std::size_t bins)
@@ -90,13 +89,10 @@ bool BeamCalibration::finishScan(const Matrix6& information)
   with_pose_.setZero();
   if (++scans_ < next_estimate_) return false;
   next_estimate_ = scans_ + std::max(kScansPerEstimate, scans_ / kGrowth);
-  for (int step = 0; step < kStepsPerEstimate; ++step)
-  {
-    solve(kNoiseOfPlanes);
-    offsets_ = weighted_ / kNoiseOfPlanes;
-    factor_.solveInPlace(offsets_);
-    learnPrior();
-  }
+  solve(kNoiseOfPlanes);
+  offsets_ = weighted_ / kNoiseOfPlanes;
+  factor_.solveInPlace(offsets_);
+  learnPrior();
   solve(kUnderstated * kNoiseOfPlanes);
   addCommonParts();
   if (corrects_)

@@ -118,13 +118,25 @@ std::vector<OffsetOfLaser> alternating(double range, double elevation)
   return lasers;
 }
 
-TEST(BeamCalibration, TakesTheOffsetsOff)
+BeamCalibration begun(bool corrects)
 {
-  BeamCalibration calibration(true);
+  BeamCalibration calibration(corrects);
   calibration.begin(kFirstBin, kBins);
-  Ride ride(alternating(0.01, 1e-3));
+  return calibration;
+}
+
+BeamCalibration calibratedBy(Ride& ride, bool corrects)
+{
+  BeamCalibration calibration = begun(corrects);
   for (int i = 0; i < 400; ++i)
     ride.scan(calibration);
+  return calibration;
+}
+
+TEST(BeamCalibration, TakesTheOffsetsOff)
+{
+  Ride ride(alternating(0.01, 1e-3));
+  const BeamCalibration calibration = calibratedBy(ride, true);
   EXPECT_LT(ride.worst(calibration).range, 1e-3);
   EXPECT_LT(ride.worst(calibration).elevation, 1e-4);
   EXPECT_NEAR(calibration.rangeStd(), 0.01, 5e-4);
@@ -134,11 +146,8 @@ TEST(BeamCalibration, TakesTheOffsetsOff)
 
 TEST(BeamCalibration, LeavesAPerfectSensorAlone)
 {
-  BeamCalibration calibration(true);
-  calibration.begin(kFirstBin, kBins);
   Ride ride(alternating(0.0, 0.0));
-  for (int i = 0; i < 400; ++i)
-    ride.scan(calibration);
+  const BeamCalibration calibration = calibratedBy(ride, true);
   EXPECT_LT(ride.worst(calibration).range, 3e-4);
   EXPECT_LT(ride.worst(calibration).elevation, 3e-5);
   EXPECT_LT(calibration.rangeStd(), 1e-3);
@@ -148,8 +157,7 @@ TEST(BeamCalibration, LeavesAPerfectSensorAlone)
 TEST(BeamCalibration, KnowsThatALaserDoesNotContradictItself)
 {
   // A laser that meets what it has created itself has the same offset twice: nothing shows it.
-  BeamCalibration calibration(true);
-  calibration.begin(kFirstBin, kBins);
+  BeamCalibration calibration = begun(true);
   const Eigen::MatrixXd before = calibration.covariance();
   PointMeasurement point;
   point.weight = kReturnWeight;
@@ -166,11 +174,8 @@ TEST(BeamCalibration, KnowsThatALaserDoesNotContradictItself)
 
 TEST(BeamCalibration, WithoutCorrectionStillKnowsHowLargeTheyAre)
 {
-  BeamCalibration calibration(false);
-  calibration.begin(kFirstBin, kBins);
   Ride ride(alternating(0.01, 1e-3));
-  for (int i = 0; i < 400; ++i)
-    ride.scan(calibration);
+  const BeamCalibration calibration = calibratedBy(ride, false);
   EXPECT_NEAR(ride.worst(calibration).range, 0.01, 1e-6);
   EXPECT_NEAR(calibration.rangeStd(), 0.01, 5e-4);
   // The whole offset is an error of the scans.
@@ -179,8 +184,7 @@ TEST(BeamCalibration, WithoutCorrectionStillKnowsHowLargeTheyAre)
 
 TEST(BeamCalibration, LeavesOtherElevationsAlone)
 {
-  BeamCalibration calibration(true);
-  calibration.begin(kFirstBin, kBins);
+  BeamCalibration calibration = begun(true);
   PointMeasurement point;
   point.weight = kReturnWeight;
   point.z = 0.01;

@@ -79,6 +79,15 @@ Vec3f pointOf(const PointColumns& points, std::uint32_t i)
 {
   return {points.x[i], points.y[i], points.z[i]};
 }
+
+/** Without the offsets of its beam, whose elevation as measured is stored. */
+Vec3f correctedPoint(
+    const PointColumns& points, std::uint32_t i, const BeamCorrections& beams, std::uint16_t& bin)
+{
+  Vec3f p = pointOf(points, i);
+  bin = static_cast<std::uint16_t>(beams.apply(p.x(), p.y(), p.z()));
+  return p;
+}
 }  // namespace
 
 void BodyPoints::resize(std::size_t n)
@@ -106,8 +115,7 @@ void Deskewer::deskew(
       at = walkToStep(steps_, at, stamp_ns);
       const MotionStep& step = steps_[at];
       const float dt = static_cast<float>(stamp_ns - step.middle_ns) * 1e-9F;
-      Vec3f p = pointOf(scan.points, indices[i]);
-      body.beam_bin[i] = static_cast<std::uint16_t>(beams.apply(p.x(), p.y(), p.z()));
+      const Vec3f p = correctedPoint(scan.points, indices[i], beams, body.beam_bin[i]);
       const Vec3f beam = step.M * p + dt * (step.N * p);
       store(body, i, beam + step.b + dt * step.c, beam);
     }
@@ -126,9 +134,7 @@ void Deskewer::transformToBody(
   {
     for (std::size_t i = first; i < last; ++i)
     {
-      Vec3f p = pointOf(scan.points, indices[i]);
-      body.beam_bin[i] = static_cast<std::uint16_t>(beams.apply(p.x(), p.y(), p.z()));
-      const Vec3f beam = R * p;
+      const Vec3f beam = R * correctedPoint(scan.points, indices[i], beams, body.beam_bin[i]);
       store(body, i, beam + t, beam);
     }
   };
