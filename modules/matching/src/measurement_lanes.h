@@ -100,7 +100,7 @@ MeasurementLanes<N> measure(
     const double cosine = bx * match.beam[0][l] + by * match.beam[1][l] + bz * match.beam[2][l];
     const double lever = m.h[0][l] * m.h[0][l] + m.h[1][l] * m.h[1][l] + m.h[2][l] * m.h[2][l];
     m.variance[l] = model.range_variance * cosine * cosine + match.plane_variance[l] +
-                    model.map_attitude_variance * lever;
+                    model.direction_variance * lever;
   }
   return m;
 }

@@ -18,6 +18,10 @@ namespace
 constexpr int kPullInIterations = 15;
 // Gate, in standard deviations of residual and prior: 99.7 % of what noise explains passes.
 constexpr double kResidualGate = 3.0;
+// Encoders of spinning LiDARs tell the direction of a beam to 0.01 deg (data sheet of the OS1), and
+// a beam is ten times as wide. With twice as much, points far away, which show the attitude and the
+// first signs of a wrong prediction, count too little.
+constexpr double kDirectionStd = 1e-4;  // [rad]
 
 // Where a step has moved points less, the planes' variances at them are as before.
 constexpr double kSmallStep = 0.02;  // [m]
@@ -53,6 +57,7 @@ ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predic
   model.gate = kResidualGate;
   model.prior_position_covariance = priorOfGate(predicted.bottomRightCorner<3, 3>());
   model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
+  model.direction_variance = kDirectionStd * kDirectionStd;
   return model;
 }
 }  // namespace
@@ -177,7 +182,7 @@ MatchResult ScanMatcher::match(
   const FilterState& start = options.start ? *options.start : predicted;
   result.model = residualModelOf(
       options.measurement, options.gate_factor * scanPoseCovariance(start, scan.compensation));
-  result.model.map_attitude_variance = options.map_attitude_variance;
+  result.model.direction_variance += options.map_attitude_variance;
   const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
   result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;

@@ -86,13 +86,13 @@ TEST(PlaneMeasurement, ItsVarianceIsTheRangesAcrossThePlanePlusThePlanes)
   }
 }
 
-// The map turned by a small angle moves a residual by the angle's lever arm.
-TEST(PlaneMeasurement, TheMapsAttitudeCountsByTheLeverArm)
+// A beam or the map that is turned by a small angle moves a residual by the angle's lever arm.
+TEST(PlaneMeasurement, DirectionsCountByTheLeverArm)
 {
   constexpr double kStd = 0.002;  // [rad]
   const Matching m = randomMatching(300, 4);
   ResidualModel model = wideOpen(), turned = wideOpen();
-  turned.map_attitude_variance = kStd * kStd;
+  turned.direction_variance = kStd * kStd;
   for (std::size_t i = 0; i < m.body.size(); ++i)
   {
     const auto measured = [&](const Pose& pose, const ResidualModel& by)

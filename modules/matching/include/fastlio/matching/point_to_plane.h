@@ -35,16 +35,17 @@ struct ResidualModel
   /** How far the prediction's position may be off, world frame [m^2]. */
   Mat3 prior_position_covariance = Mat3::Zero();
   double prior_attitude_variance = 0.0;  //!< of the prediction, summed over the axes [rad^2]
-  /** Of the scans that the planes were made of, where the planes do not hold it [rad^2]. A line of
-   * ground far away, seen at a grazing angle, would else be known to millimetres. */
-  double map_attitude_variance = 0.0;
+  /** Of the directions of the beams, plus that of the map's attitude where the planes do not hold
+   * it [rad^2]. A line of ground far away, seen at a grazing angle, would else be known to
+   * millimetres. */
+  double direction_variance = 0.0;
   /** Of each point, over the inverse of its variance: less than 1 where all points of a scan share
    * an error, so that their number does not average it out. */
   double weight = 1.0;
 };
 
 /** Eq. 14 for point i of the scan at the attitude and position of an iterate. The variance is that
- * of the range across the plane plus the plane's own and that by the map's attitude. */
+ * of the range and of the direction across the plane plus the plane's own. */
 [[nodiscard]] PlaneMeasurement planeMeasurement(
     const Pose& T_world_imu, const BodyPoints& body, std::size_t i, const PlaneMatch& plane,
     const ResidualModel& model);

@@ -34,7 +34,8 @@ struct MatchOptions
   /** How far deskewing may have moved the points beside the sensor's noise, all of them together
    * [m]. */
   double deskew_std = 0.0;
-  double map_attitude_variance = 0.0;  //!< of the ResidualModel [rad^2]
+  /** Of the scans that the planes were made of, where the planes do not hold it [rad^2]. */
+  double map_attitude_variance = 0.0;
   /** The gate takes the prediction to be so much less certain, as a factor of its covariance. */
   double gate_factor = 1.0;
 };
