@@ -120,10 +120,12 @@ bool LocalMap::isConsistent(const ScanStatistics& statistics, std::size_t points
   return matchesAsUsual(statistics, points) || fitsWhatIsMapped(statistics);
 }
 
-void LocalMap::learnInlierRatio(std::size_t inliers, std::size_t points)
+void LocalMap::learnInlierRatio(const ScanStatistics& statistics, std::size_t points)
 {
   ratios_ = std::min(ratios_ + 1, kRatiosAveraged);
-  usual_inlier_ratio_ += (inlierRatio(inliers, points) - usual_inlier_ratio_) / ratios_;
+  usual_inlier_ratio_ += (inlierRatio(statistics, points) - usual_inlier_ratio_) / ratios_;
+  usual_fitting_part_ +=
+      (inlierRatio(statistics, statistics.points_mapped) - usual_fitting_part_) / ratios_;
 }
 
 bool LocalMap::accepts(const InsertionCandidate& candidate) const

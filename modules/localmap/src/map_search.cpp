@@ -24,6 +24,10 @@ constexpr double kMaxHeading = 1.5707963267948966;   // farther turns are not tr
 constexpr double kFoundInlierRatio = 0.3;
 // Of a prediction. A found pose has to match this part of what scans matched before.
 constexpr double kUsualPart = 0.5;
+// And this part of what fitted before where the map has a plane. Turned by 4 deg, a scan of a
+// campus finds the ground, which is half of all points, but only two of three points fit their
+// planes.
+constexpr double kUsualFit = 0.8;
 // Where only the places on one level can be tried, a rival may be above or below.
 constexpr double kUsualPartOnLevel = 0.75;
 // A carried pose is searched once in a while and by heading, too: some seconds are well spent.
@@ -87,7 +91,8 @@ bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const Loca
 bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
   return inlierRatio(match.update.last.count, scan.surfaces.size()) >=
-         kUsualPart * map.usualInlierRatio();
+             kUsualPart * map.usualInlierRatio() &&
+         inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
 }
 
 double MapSearch::ratioOf(const UpdateResult& update) const
@@ -189,7 +194,8 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
       latest = matcher_.match(
           scan_, correctedByPose(turned, found, unconstrainedMotions(latest.constraints)),
           map_.matched(), ordinary);
-    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_);
+    poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_) &&
+                     (latest.constraints.unconstrained > 0 || matchesAsFound(latest, scan_, map_));
     if (attitudes.size() > 1) poses.searched_heading_variance = std::pow(headingStd(predicted), 2);
     if (poses.accepted) return {std::move(latest), true, poses};
   }

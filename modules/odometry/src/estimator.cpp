@@ -177,8 +177,7 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
     const bool trial = run.motion_window && run.motion_window->trial;
     run.consistent = trial || map_.isConsistent(statistics, outcome.points);
     if (run.consistent) run.last_update_ns = state_.stamp_ns;
-    if (run.consistent && !outcome.map_was_empty)
-      map_.learnInlierRatio(statistics.points_effective, outcome.points);
+    if (run.consistent && !outcome.map_was_empty) map_.learnInlierRatio(statistics, outcome.points);
   }
   outcome.unaided_s = toSeconds(state_.stamp_ns - run.last_update_ns);
   if (hasEnoughPoints(work.deskewed)) run.last_seen_ns = state_.stamp_ns;

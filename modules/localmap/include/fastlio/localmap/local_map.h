@@ -70,6 +70,8 @@ class LocalMap
   [[nodiscard]] std::uint32_t insertions() const { return insertions_; }
   /** The inlier ratio of the scans that matched this map of late; 0: none did. */
   [[nodiscard]] double usualInlierRatio() const { return usual_inlier_ratio_; }
+  /** The same of the points where the map has a plane or a line. */
+  [[nodiscard]] double usualFittingPart() const { return usual_fitting_part_; }
 
   /** The state that scans are matched with comes from a mean specific force. */
   void startCalibrationError(const NavState& x, bool tilted) { calibration_.start(x, tilted); }
@@ -87,9 +89,9 @@ class LocalMap
   /** The scan matches as scans usually match this map, or fits what the map has there, and its
    * residuals are not those of a wrong pose. A map of a few scans takes any scan. */
   [[nodiscard]] bool isConsistent(const ScanStatistics& statistics, std::size_t points) const;
-  /** Learns the usual inlier ratio, which depends on the place: nearly all points match in a room,
+  /** Learns the usual inlier ratios, which depend on the place: nearly all points match in a room,
    * few on a meadow. */
-  void learnInlierRatio(std::size_t inliers, std::size_t points);
+  void learnInlierRatio(const ScanStatistics& statistics, std::size_t points);
 
   /** The error of the pose where the map begins is the map's, too: no scan is less accurate in it
    * for that. \param position_variance of the scan that begins it [m^2] */
@@ -116,8 +118,8 @@ class LocalMap
   PlaneGrouping groups_;
   std::shared_ptr<const Workers> workers_;
   std::uint32_t insertions_ = 0;
-  double usual_inlier_ratio_ = 0.0;
-  int ratios_ = 0;  // that it is the mean of
+  double usual_inlier_ratio_ = 0.0, usual_fitting_part_ = 0.0;
+  int ratios_ = 0;  // that they are means of
   Vec3 begun_variance_ = Vec3::Zero();
   bool given_ = false;
   bool succeeds_ = false;    // another one: the pose is known while this one is empty
