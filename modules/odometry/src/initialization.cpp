@@ -17,6 +17,8 @@ namespace
 constexpr double kWindowStep = 0.1;
 // After a refused start in motion the first of so many parts of its window is given up.
 constexpr std::size_t kRefusedParts = 2;
+// Slower motion, which a pass at rest does not see, may be none.
+constexpr double kMotionForSure = 0.5;  // [m/s]
 constexpr const char* kStartInMotionHint = "; initialization.mode: auto starts in motion, too";
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
@@ -208,7 +210,8 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
 }
 
 /** To the inertial sensor, motion that is steady, or speeds up evenly, looks like rest: the scans
- * distinguish them. A rest that they do not confirm is none. */
+ * distinguish them. A rest that they do not confirm is none, unless they show no motion either, as
+ * in a tunnel. */
 StartDecision StartFinder::confirmRest(
     StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
@@ -217,10 +220,13 @@ StartDecision StartFinder::confirmRest(
   if (span.end_ns <= refused_until_ns_) return waitOrDrop(true, refusal_);
   const std::size_t count = motionWindow(scans, imu, parameters_.initialization.motion_duration);
   if (count == 0 && !at_end) return waitOrDrop(false, "comparing the first scans: rest or motion");
-  if (count == 0 ||
-      scansConfirmRest(scans, count, imu, parameters_, *at_rest.state, at_rest.stamp_ns))
-    return at_rest;
+  if (count == 0) return at_rest;
+  const RestVerdict verdict =
+      verdictOnRest(scans, count, imu, parameters_, *at_rest.state, at_rest.stamp_ns);
+  if (verdict == RestVerdict::Confirmed) return at_rest;
   const MotionStart start = startInMotion(scans, count, imu, parameters_);
+  const bool moves = start.state && start.state->x.v.norm() > kMotionForSure;
+  if (verdict == RestVerdict::Open && !moves) return at_rest;
   if (start.state) return startedInMotion(start, span.latestStart());
   return refuse(start, scans, count, imu);
 }

@@ -139,7 +139,6 @@ class Window
         inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
     const MotionFit fit = fitMotion(poses, between.samples, prior);
     if (!fit.solved) pass.problem = "too few of the first scans match each other";
-
     NavState x = end.x;
     x.R = first.T_world_body.R;
     x.v = fit.velocity;
@@ -241,19 +240,20 @@ std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double du
   return 0;
 }
 
-// The poses say so even where the accelerometer has a wrong scale. Where they leave, the pass has
-// to find the state that it began with: a platform that speeds up evenly has a tilt, not a rest.
-bool scansConfirmRest(
+// Where poses leave, the pass has to find its start: what speeds up evenly has a tilt, not a rest.
+RestVerdict verdictOnRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
     const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns)
 {
   const Pass pass =
       Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
-  if (!pass.problem.empty()) return false;
-  if (pass.mean_speed < kMostRestSpeed) return true;
+  if (!pass.problem.empty()) return RestVerdict::Denied;
   const Inputs since_rest =
       inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
-  return agree(at_rest.x, propagatedBack(pass.start, since_rest));
+  const bool agrees =
+      pass.mean_speed < kMostRestSpeed || agree(at_rest.x, propagatedBack(pass.start, since_rest));
+  if (!agrees) return RestVerdict::Denied;
+  return pass.blind ? RestVerdict::Open : RestVerdict::Confirmed;
 }
 
 MotionStart startInMotion(

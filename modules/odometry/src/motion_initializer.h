@@ -40,11 +40,21 @@ struct MotionStart
 [[nodiscard]] std::size_t motionWindow(
     const ScanQueue& scans, const ImuBuffer& imu, double duration);
 
+/** What scans say about a start at rest. */
+enum class RestVerdict
+{
+  Confirmed,
+  Open,   //!< they agree with it, but they do not see motion along a direction
+  Denied  //!< the platform was not at rest, or they do not match each other
+};
+
 /** Do the first \a count scans agree with a start at rest? A single pass tells, where a start in
- * motion takes several. False: the platform was not at rest, or they do not tell.
+ * motion takes several. A pass that takes the platform for resting leaves out the planes that would
+ * show the motion, as they do not match: then the direction is open, and only a start in motion can
+ * tell.
  * \param imu covers them \param at_rest the state at \a stamp_ns, not after the first scan's begin:
  * the platform may have moved off since */
-[[nodiscard]] bool scansConfirmRest(
+[[nodiscard]] RestVerdict verdictOnRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
     const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns);
 
