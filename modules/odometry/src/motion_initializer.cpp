@@ -139,6 +139,7 @@ class Window
         inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
     const MotionFit fit = fitMotion(poses, between.samples, prior);
     if (!fit.solved) pass.problem = "too few of the first scans match each other";
+
     NavState x = end.x;
     x.R = first.T_world_body.R;
     x.v = fit.velocity;
@@ -240,7 +241,6 @@ std::size_t motionWindow(const ScanQueue& scans, const ImuBuffer& imu, double du
   return 0;
 }
 
-// Where poses leave, the pass has to find its start: what speeds up evenly has a tilt, not a rest.
 RestVerdict verdictOnRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
     const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns)

@@ -49,9 +49,11 @@ enum class RestVerdict
 };
 
 /** Do the first \a count scans agree with a start at rest? A single pass tells, where a start in
- * motion takes several. A pass that takes the platform for resting leaves out the planes that would
- * show the motion, as they do not match: then the direction is open, and only a start in motion can
- * tell.
+ * motion takes several. Poses that stay say so even where the accelerometer has a wrong scale.
+ * Where they leave, the pass has to find the state that it began with: a platform that speeds up
+ * evenly has a tilt, not a rest. A pass that takes the platform for resting leaves out the planes
+ * that would show the motion, as they do not match: then the direction is open, and only a start in
+ * motion can tell.
  * \param imu covers them \param at_rest the state at \a stamp_ns, not after the first scan's begin:
  * the platform may have moved off since */
 [[nodiscard]] RestVerdict verdictOnRest(
