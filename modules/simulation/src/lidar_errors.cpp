@@ -42,18 +42,22 @@ LidarErrors drawLidarErrors(const SimulationSettings& settings)
   return {
       drawMounting(settings),
       drawOffsets(settings.seed, NoiseSource::LaserRange, lines, beam.laser_range_std),
-      drawOffsets(settings.seed, NoiseSource::LaserElevation, lines, beam.laser_elevation_std)};
+      drawOffsets(settings.seed, NoiseSource::LaserElevation, lines, beam.laser_elevation_std),
+      drawOffsets(settings.seed, NoiseSource::LaserAzimuth, lines, beam.laser_azimuth_std)};
 }
 
 Vec3 trueDirection(const Shot& shot, const LidarErrors& errors)
 {
-  const double offset = errors.elevation_offset[shot.ring];
-  if (offset == 0.0) return shot.direction;
+  const double upward = errors.elevation_offset[shot.ring];
+  const double sideways = errors.azimuth_offset[shot.ring];
+  if (upward == 0.0 && sideways == 0.0) return shot.direction;
   const Vec3& d = shot.direction;
   const double level = std::hypot(d.x(), d.y());
-  const double elevation = std::atan2(d.z(), level) + offset;
+  const double elevation = std::atan2(d.z(), level) + upward;
   const double stretch = std::cos(elevation) / level;
-  return {stretch * d.x(), stretch * d.y(), std::sin(elevation)};
+  const double x = stretch * d.x(), y = stretch * d.y();
+  const double c = std::cos(sideways), s = std::sin(sideways);
+  return {c * x - s * y, s * x + c * y, std::sin(elevation)};
 }
 
 double rangeBias(const BeamSettings& settings, const Return& back)

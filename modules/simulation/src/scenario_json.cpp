@@ -43,7 +43,9 @@ Json imuErrorsJson(const ImuErrors& errors)
 Json lasersJson(const LidarErrors& errors)
 {
   return {
-      {"range_offset_m", errors.range_offset}, {"elevation_offset_rad", errors.elevation_offset}};
+      {"range_offset_m", errors.range_offset},
+      {"elevation_offset_rad", errors.elevation_offset},
+      {"azimuth_offset_rad", errors.azimuth_offset}};
 }
 
 /** Times [s] from the start of the first to the end of the last of successive fixes for which

@@ -66,25 +66,29 @@ TEST(LidarErrors, OffsetsScatterOverLasersAndSeedsAsTheSettingsSay)
   SimulationSettings settings;
   settings.lidar.beam.laser_range_std = 0.01;
   settings.lidar.beam.laser_elevation_std = 0.001;
-  double range = 0.0, elevation = 0.0;
+  settings.lidar.beam.laser_azimuth_std = 0.002;
+  double range = 0.0, elevation = 0.0, azimuth = 0.0;
   constexpr int kSeeds = 60;  // times 16 lasers: 3 sigma of the root mean square is 7 %
   for (int seed = 1; seed <= kSeeds; ++seed)
   {
     settings.seed = static_cast<std::uint64_t>(seed);
     const LidarErrors e = drawLidarErrors(settings);
-    range += std::inner_product(
-        e.range_offset.begin(), e.range_offset.end(), e.range_offset.begin(), 0.0);
-    elevation += std::inner_product(
-        e.elevation_offset.begin(), e.elevation_offset.end(), e.elevation_offset.begin(), 0.0);
+    const auto squares = [](const std::vector<double>& x)
+    { return std::inner_product(x.begin(), x.end(), x.begin(), 0.0); };
+    range += squares(e.range_offset);
+    elevation += squares(e.elevation_offset);
+    azimuth += squares(e.azimuth_offset);
   }
   EXPECT_NEAR(std::sqrt(range / (16 * kSeeds)), 0.01, 0.0007);
   EXPECT_NEAR(std::sqrt(elevation / (16 * kSeeds)), 0.001, 0.00007);
+  EXPECT_NEAR(std::sqrt(azimuth / (16 * kSeeds)), 0.002, 0.00014);
 }
 
-TEST(LidarErrors, ElevationOffsetsMoveWhereLightHitsAndNotWhatTheDataSay)
+TEST(LidarErrors, OffsetsOfDirectionsMoveWhereLightHitsAndNotWhatTheDataSay)
 {
   SimulationSettings settings = exactOffice();
   settings.lidar.beam.laser_elevation_std = 0.002;
+  settings.lidar.beam.laser_azimuth_std = 0.003;
   const Simulation simulation(settings);
   const FiredSweep fired = simulation.fire(3);
   const FiredSweep exact = Simulation(exactOffice()).fire(3);
@@ -98,7 +102,8 @@ TEST(LidarErrors, ElevationOffsetsMoveWhereLightHitsAndNotWhatTheDataSay)
     // The wall or floor that a ray in the offset direction meets.
     const double elevation =
         std::asin(shot.direction.z()) + simulation.lidarErrors().elevation_offset[shot.ring];
-    const double azimuth = std::atan2(shot.direction.y(), shot.direction.x());
+    const double azimuth = std::atan2(shot.direction.y(), shot.direction.x()) +
+                           simulation.lidarErrors().azimuth_offset[shot.ring];
     const Vec3 moved(
         std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
         std::sin(elevation));

@@ -41,7 +41,8 @@ enum class NoiseSource : std::uint32_t
   GnssOutage,
   GnssMultipath,
   Wheels,
-  Session
+  Session,
+  LaserAzimuth
 };
 
 /** A sequence that depends on seed, source and index only. */

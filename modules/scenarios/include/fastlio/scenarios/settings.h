@@ -53,6 +53,7 @@ struct BeamSettings
 {
   double laser_range_std = 0.0;        //!< scatter of the range offset over laser lines [m]
   double laser_elevation_std = 0.0;    //!< scatter of the elevation offset over lines [rad]
+  double laser_azimuth_std = 0.0;      //!< scatter of the azimuth offset over lines [rad]
   double incidence_bias = 0.0;         //!< of a range at 80 deg of incidence, 0 at 0 deg [m]
   double dark_bias = 0.0;              //!< of a range to a surface of reflectivity 0 [m]
   double bright_bias = 0.0;            //!< of a range to a surface of reflectivity 1 [m]

@@ -18,6 +18,7 @@ struct LidarErrors
   Pose T_imu_lidar;                      //!< true mounting
   std::vector<double> range_offset;      //!< of each laser line (Shot::ring) [m]
   std::vector<double> elevation_offset;  //!< of each laser line [rad]
+  std::vector<double> azimuth_offset;    //!< of each laser line, about the LiDAR's z axis [rad]
 };
 
 /** The errors of the sensor with this seed. */
