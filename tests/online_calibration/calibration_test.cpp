@@ -94,6 +94,7 @@ TEST(Calibration, TakesTheOffsetsOfTheLasersOff)
     settings.lidar.stride = 3;
     settings.lidar.beam.laser_range_std = 0.01;
     settings.lidar.beam.laser_elevation_std = 0.05 * kRadPerDeg;
+    settings.lidar.beam.laser_azimuth_std = 0.05 * kRadPerDeg;
     OdometryOptions parameters = unawareParameters(settings);
     const SimulatedRun corrected = runOdometry(Simulation(settings), parameters);
     parameters.calibration.estimate_beams = false;
@@ -102,6 +103,7 @@ TEST(Calibration, TakesTheOffsetsOfTheLasersOff)
     without += positionError(given);
     const CalibrationCheck& check = corrected.scans.back().result.statistics.calibration;
     EXPECT_NEAR(check.range_offset, settings.lidar.beam.laser_range_std, 0.006) << seed;
+    EXPECT_NEAR(kDegPerRad * check.azimuth_offset, 0.05, 0.02) << seed;
   }
   std::printf("position %.4f m, %.4f m with the offsets as given\n", with / 2.0, without / 2.0);
   EXPECT_LT(with, 0.85 * without) << "m";

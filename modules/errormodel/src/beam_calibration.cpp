@@ -11,8 +11,10 @@ namespace fastlio
 namespace
 {
 // A run begins with these standard deviations, near those of a good sensor, and learns from its
-// residuals how large the offsets are. The maximum is for a LiDAR without its calibration file.
-const Eigen::Vector2d kPriorStd(0.003, 0.0003), kMostStd(0.05, 0.005);  // [m], [rad]
+// residuals how large the offsets are. Factories measure azimuths best, and a larger value makes
+// the attitude of a perfect sensor too uncertain. The maximum is for a LiDAR without its
+// calibration.
+const Vec3 kPriorStd(0.003, 0.0003, 0.0001), kMostStd(0.05, 0.005, 0.005);  // [m], [rad], [rad]
 // Residuals share the errors of planes, which are in many scans: they hold so many times less
 // information than their number suggests.
 constexpr double kNoiseOfPlanes = 50.0;
@@ -24,6 +26,7 @@ constexpr double kUnderstated = 9.0;
 constexpr double kPredictedRotation = 0.002, kPredictedPosition = 0.01;
 // Every so many scans there is a new estimate, later when their number has grown by an eighth.
 constexpr std::size_t kScansPerEstimate = 4, kGrowth = 8;
+constexpr Eigen::Index kOffsets = 3;  // of a beam: range, elevation, azimuth
 }  // namespace
 
 void BeamCalibration::begin(std::size_t first_bin, std::size_t bins)
@@ -32,7 +35,7 @@ void BeamCalibration::begin(std::size_t first_bin, std::size_t bins)
   bins_ = bins;
   scans_ = 0;
   next_estimate_ = kScansPerEstimate;
-  const auto size = 2 * static_cast<Eigen::Index>(bins);
+  const auto size = kOffsets * static_cast<Eigen::Index>(bins);
   for (Eigen::MatrixXd* matrix : {&information_, &of_scan_, &covariance_})
     matrix->setZero(size, size);
   for (Eigen::VectorXd* vector : {&weighted_, &weighted_of_scan_, &offsets_})
@@ -47,7 +50,7 @@ void BeamCalibration::begin(std::size_t first_bin, std::size_t bins)
 Eigen::Index BeamCalibration::indexOf(std::size_t bin) const
 {
   if (bin < first_bin_ || bin >= first_bin_ + bins_) return -1;
-  return 2 * static_cast<Eigen::Index>(bin - first_bin_);
+  return kOffsets * static_cast<Eigen::Index>(bin - first_bin_);
 }
 
 void BeamCalibration::add(
@@ -56,19 +59,20 @@ void BeamCalibration::add(
   const Eigen::Index at = indexOf(measured.bin);
   const Eigen::Index before = created != nullptr ? indexOf(created->bin) : -1;
   if (at < 0) return;
-  const auto addBlock = [&](Eigen::Index row, const Eigen::Vector2d& by_offset)
+  const auto addBlock = [&](Eigen::Index row, const Vec3& by_offset)
   {
-    of_scan_.block<2, 2>(row, row) += point.weight * by_offset * by_offset.transpose();
-    weighted_of_scan_.segment<2>(row) += point.weight * point.z * by_offset;
-    with_pose_.middleRows<2>(row) += by_offset * point.weighted_h.transpose();
+    of_scan_.block<kOffsets, kOffsets>(row, row) +=
+        point.weight * by_offset * by_offset.transpose();
+    weighted_of_scan_.segment<kOffsets>(row) += point.weight * point.z * by_offset;
+    with_pose_.middleRows<kOffsets>(row) += by_offset * point.weighted_h.transpose();
   };
   addBlock(at, measured.by_offset);
   if (before < 0) return;
-  const Eigen::Vector2d by_created = -created->by_offset;
+  const Vec3 by_created = -created->by_offset;
   addBlock(before, by_created);
-  const Eigen::Matrix2d cross = point.weight * measured.by_offset * by_created.transpose();
-  of_scan_.block<2, 2>(at, before) += cross;
-  of_scan_.block<2, 2>(before, at) += cross.transpose();
+  const Mat3 cross = point.weight * measured.by_offset * by_created.transpose();
+  of_scan_.block<kOffsets, kOffsets>(at, before) += cross;
+  of_scan_.block<kOffsets, kOffsets>(before, at) += cross.transpose();
 }
 
 /** The scan's pose is an unknown of its own, which the prediction hardly limits: what it explains
@@ -98,8 +102,8 @@ bool BeamCalibration::finishScan(const Matrix6& information)
   if (corrects_)
     for (std::size_t i = 0; i < bins_; ++i)
     {
-      const auto at = 2 * static_cast<Eigen::Index>(i);
-      corrections_.set(first_bin_ + i, offsets_[at], offsets_[at + 1]);
+      const auto at = kOffsets * static_cast<Eigen::Index>(i);
+      corrections_.set(first_bin_ + i, {offsets_[at], offsets_[at + 1], offsets_[at + 2]});
     }
   else
     covariance_.noalias() += offsets_ * offsets_.transpose();
@@ -128,19 +132,21 @@ void BeamCalibration::addCommonParts()
   for (const Eigen::VectorXd& part : {one, slope})
     for (Eigen::Index i = 0; i < bins; ++i)
       for (Eigen::Index j = 0; j < bins; ++j)
-        covariance_.block<2, 2>(2 * i, 2 * j).diagonal() += part[i] * part[j] * prior_;
+        covariance_.block<kOffsets, kOffsets>(kOffsets * i, kOffsets * j).diagonal() +=
+            part[i] * part[j] * prior_;
 }
 
 /** A step of expectation maximisation: offsets are as large as those that were found, and as they
  * still may be. */
 void BeamCalibration::learnPrior()
 {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Vec3 sum = Vec3::Zero();
   double seen = 0.0;
-  for (Eigen::Index at = 0; at < offsets_.size(); at += 2)
+  for (Eigen::Index at = 0; at < offsets_.size(); at += kOffsets)
   {
     if (!(information_(at, at) > 0.0)) continue;
-    sum += offsets_.segment<2>(at).cwiseAbs2() + covariance_.diagonal().segment<2>(at);
+    sum +=
+        offsets_.segment<kOffsets>(at).cwiseAbs2() + covariance_.diagonal().segment<kOffsets>(at);
     seen += 1.0;
   }
   if (seen > 0.0) prior_ = (sum / seen).cwiseMin(kMostStd.cwiseAbs2());
@@ -154,6 +160,11 @@ double BeamCalibration::rangeStd() const
 double BeamCalibration::elevationStd() const
 {
   return bins_ > 0 ? std::sqrt(prior_[1]) : 0.0;
+}
+
+double BeamCalibration::azimuthStd() const
+{
+  return bins_ > 0 ? std::sqrt(prior_[2]) : 0.0;
 }
 
 }  // namespace fastlio

@@ -36,8 +36,9 @@ std::optional<CreatedPoint> createdBy(
   if (!(cosine > kLeastCosine)) return std::nullopt;
   const double along = turned.dot(beam) / range;
   const double upward = (turned.z() - sine * along) / cosine;
+  const double sideways = beam.x() * turned.y() - beam.y() * turned.x();
   return CreatedPoint{
-      {beamBin(sine), {along, range * upward}}, {beam.x(), beam.y(), along, turned.z()}};
+      {beamBin(sine), {along, range * upward, sideways}}, {beam.x(), beam.y(), along, turned.z()}};
 }
 }  // namespace
 
@@ -57,10 +58,11 @@ struct BeamErrors::BeamLanes
   double along[kLanes];                                 // cosine between beam and normal
   double turned_up[kLanes];                             // cosine between z axis and normal
   double upward[kLanes];                                // the normal across the beam, upward
+  double sideways[kLanes];                              // derivative by the azimuth [m]
 
   [[nodiscard]] BeamView view(std::size_t lane) const
   {
-    return {bin[lane], {along[lane], range[lane] * upward[lane]}};
+    return {bin[lane], {along[lane], range[lane] * upward[lane], sideways[lane]}};
   }
 };
 
@@ -84,9 +86,11 @@ BeamErrors::BeamLanes BeamErrors::beamsOf(
     const double up = turned(R_lidar_body, 2, x, y, z) - origin[2];
     b.range[l] = std::sqrt(b.forward[l] * b.forward[l] + b.left[l] * b.left[l] + up * up);
     const double inverse = 1.0 / b.range[l];
+    const double n_forward = turned(R_lidar_world, 0, nx, ny, nz),
+                 n_left = turned(R_lidar_world, 1, nx, ny, nz);
     b.turned_up[l] = turned(R_lidar_world, 2, nx, ny, nz);
-    b.along[l] = inverse * (turned(R_lidar_world, 0, nx, ny, nz) * b.forward[l] +
-                            turned(R_lidar_world, 1, nx, ny, nz) * b.left[l] + b.turned_up[l] * up);
+    b.along[l] = inverse * (n_forward * b.forward[l] + n_left * b.left[l] + b.turned_up[l] * up);
+    b.sideways[l] = n_left * b.forward[l] - n_forward * b.left[l];
     b.sine[l] = inverse * up;
     b.cosine[l] = std::sqrt(1.0 - b.sine[l] * b.sine[l]);
     b.upward[l] = (b.turned_up[l] - b.sine[l] * b.along[l]) / b.cosine[l];
@@ -148,8 +152,9 @@ std::size_t BeamErrors::columnOf(std::size_t bin) const
 void BeamErrors::add(const BeamView& beam, const PointMeasurement& point)
 {
   Beam& sums = beams_[beam.bin];
-  sums.information += point.weight * beam.by_offset * beam.by_offset.transpose();
-  sums.weighted += point.weight * point.z * beam.by_offset;
+  const Eigen::Vector2d by_offset = beam.by_offset.head<2>();
+  sums.information += point.weight * by_offset * by_offset.transpose();
+  sums.weighted += point.weight * point.z * by_offset;
 }
 
 void BeamErrors::beginSample()
@@ -167,7 +172,8 @@ void BeamErrors::finishSample(const Mat3& R_world_scan, const Matrix6& informati
   turn.bottomRightCorner<3, 3>() = R_world_scan.transpose();
   Eigen::Matrix<double, 6, kLaserErrors> by_laser = Eigen::Matrix<double, 6, kLaserErrors>::Zero();
   for (std::size_t bin = first_bin_; bin < first_bin_ + calibration_.bins(); ++bin)
-    by_laser.middleCols<2>(2 * static_cast<Eigen::Index>(columnOf(bin))) += beams_[bin].in_sampled;
+    by_laser.middleCols<kOffsets>(kOffsets * static_cast<Eigen::Index>(columnOf(bin))) +=
+        beams_[bin].in_sampled;
   pulls_.leftCols<kSideErrors>() = squareRoot(turn * sides_.covariance() * turn.transpose());
   pulls_.rightCols<kLaserErrors>() = turn * by_laser * root_;
 }
@@ -176,17 +182,20 @@ void BeamErrors::finishSample(const Mat3& R_world_scan, const Matrix6& informati
 void BeamErrors::useCovariance()
 {
   const Eigen::MatrixXd& covariance = calibration_.covariance();
-  const auto bins = covariance.rows() / 2;
+  const auto bins = covariance.rows() / kOffsets;
   Eigen::Matrix<double, kLaserErrors, 1> lasers = Eigen::Matrix<double, kLaserErrors, 1>::Zero();
   const auto columnAt = [&](Eigen::Index i)
-  { return 2 * static_cast<Eigen::Index>(columnOf(first_bin_ + static_cast<std::size_t>(i))); };
+  {
+    return kOffsets * static_cast<Eigen::Index>(columnOf(first_bin_ + static_cast<std::size_t>(i)));
+  };
   for (Eigen::Index i = 0; i < bins; ++i)
-    lasers.segment<2>(columnAt(i)).array() += 1.0;
+    lasers.segment<kOffsets>(columnAt(i)).array() += 1.0;
   Eigen::Matrix<double, kLaserErrors, kLaserErrors> of_columns;
   of_columns.setZero();
   for (Eigen::Index i = 0; i < bins; ++i)
     for (Eigen::Index j = 0; j < bins; ++j)
-      of_columns.block<2, 2>(columnAt(i), columnAt(j)) += covariance.block<2, 2>(2 * i, 2 * j);
+      of_columns.block<kOffsets, kOffsets>(columnAt(i), columnAt(j)) +=
+          covariance.block<kOffsets, kOffsets>(kOffsets * i, kOffsets * j);
   const auto inverse = lasers.cwiseMax(1.0).cwiseInverse().eval();
   of_columns = inverse.asDiagonal() * of_columns * inverse.asDiagonal();
   // A column without a laser has no error, and stays apart from the others.

@@ -17,12 +17,6 @@ namespace
 constexpr double kWeight = 1.0 / 4e-4;  // of a range noise of 2 cm
 constexpr double kRadius = 8.0;         // of the room [m]
 
-/** Offsets of a beam of laser \a line. */
-struct LaserOffset
-{
-  double range = 0.0, elevation = 0.0;
-};
-
 /** A scan of sixteen lasers in a round room of surfaces that are turned at random. */
 class RandomRoom
 {
@@ -48,9 +42,11 @@ class RandomRoom
           cosine);
       const Vec3 turned(normal_(random_), normal_(random_), normal_(random_));
       const Vec3 normal = (beam + 0.5 * turned + leaning_ * upward).normalized();
-      const LaserOffset offset = offsetOf(i % kLines);
+      const Vec3 sideways(-beam.y(), beam.x(), 0.0);
+      const BeamOffset offset = offsetOf(i % kLines);
       const double z = offset.range * normal.dot(beam) +
-                       kRadius * offset.elevation * normal.dot(upward) + noise * normal_(random_);
+                       kRadius * offset.elevation * normal.dot(upward) +
+                       kRadius * offset.azimuth * normal.dot(sideways) + noise * normal_(random_);
       const auto k = static_cast<std::size_t>(i);
       scan.surfaces.x[k] = static_cast<float>(kRadius * beam.x());
       scan.surfaces.y[k] = static_cast<float>(kRadius * beam.y());
@@ -95,24 +91,30 @@ TEST(BeamErrors, AreNoneInNoise)
   EXPECT_EQ(beams.rangeOffset(), 0.0);
   EXPECT_EQ(beams.pulls(Mat3::Identity()).norm(), 0.0);
   for (int i = 0; i < kScans; ++i)
-    room.scan(beams, 0.02, [](int) { return LaserOffset{}; });
+    room.scan(beams, 0.02, [](int) { return BeamOffset{}; });
   EXPECT_LT(beams.rangeOffset(), 5e-4);
   EXPECT_LT(beams.elevationOffset(), 1e-4);
+  EXPECT_LT(beams.azimuthOffset(), 1e-4);
 }
 
 TEST(BeamErrors, AreAsLargeAsTheOffsetsOfTheLasers)
 {
-  const auto range = [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; };
-  const auto elevation = [](int line) { return LaserOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3}; };
+  const auto sign = [](int line) { return line % 2 == 0 ? 1.0 : -1.0; };
   RandomRoom room;
-  BeamErrors by_range(false), by_elevation(false);
+  BeamErrors by_range(false), by_elevation(false), by_azimuth(false);
   for (int i = 0; i < kScans; ++i)
   {
-    room.scan(by_range, 0.02, range);
-    room.scan(by_elevation, 0.02, elevation);
+    room.scan(by_range, 0.02, [&](int line) { return BeamOffset{0.01 * sign(line), 0.0, 0.0}; });
+    room.scan(
+        by_elevation, 0.02,
+        [&](int line) {
+          return BeamOffset{0.0, 1e-3 * sign(line), 0.0};
+        });
+    room.scan(by_azimuth, 0.02, [&](int line) { return BeamOffset{0.0, 0.0, 1e-3 * sign(line)}; });
   }
   EXPECT_NEAR(by_range.rangeOffset(), 0.01, 5e-4);
   EXPECT_NEAR(by_elevation.elevationOffset(), 1e-3, 5e-5);
+  EXPECT_NEAR(by_azimuth.azimuthOffset(), 1e-3, 5e-5);
 }
 
 TEST(BeamErrors, OfTheElevationAreNotTakenForThoseOfTheRange)
@@ -120,7 +122,11 @@ TEST(BeamErrors, OfTheElevationAreNotTakenForThoseOfTheRange)
   RandomRoom room(0.7);
   BeamErrors beams(false);
   for (int i = 0; i < kScans; ++i)
-    room.scan(beams, 0.02, [](int line) { return LaserOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3}; });
+    room.scan(
+        beams, 0.02,
+        [](int line) {
+          return BeamOffset{0.0, line % 2 == 0 ? 1e-3 : -1e-3, 0.0};
+        });
   EXPECT_LT(beams.rangeOffset(), 5e-4);
   EXPECT_NEAR(beams.elevationOffset(), 1e-3, 5e-5);
 }
@@ -132,7 +138,11 @@ double traceWithPlanesFrom(const Pose& T_world_lidar)
   BeamErrors beams(false);
   beams.recordInsertion(1, T_world_lidar);
   for (int i = 0; i < 200; ++i)
-    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+    room.scan(
+        beams, 0.02,
+        [](int line) {
+          return BeamOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0, 0.0};
+        });
   return beams.pulls(Mat3::Identity()).squaredNorm();
 }
 
@@ -166,7 +176,11 @@ TEST(BeamErrors, DoNotAverageOutWithTheNumberOfPoints)
   RandomRoom room;
   BeamErrors beams(false);
   for (int i = 0; i < 200; ++i)
-    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+    room.scan(
+        beams, 0.02,
+        [](int line) {
+          return BeamOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0, 0.0};
+        });
   constexpr double kPoints = 16 * 60;
   const double independent = kPoints * std::pow(kWeight * 0.01, 2);
   const double trace = beams.pulls(Mat3::Identity()).bottomRows<3>().squaredNorm();
@@ -179,7 +193,11 @@ TEST(BeamErrors, TurnWithTheSensor)
   RandomRoom room;
   BeamErrors beams(false);
   for (int i = 0; i < 200; ++i)
-    room.scan(beams, 0.02, [](int line) { return LaserOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0}; });
+    room.scan(
+        beams, 0.02,
+        [](int line) {
+          return BeamOffset{line % 2 == 0 ? 0.01 : -0.01, 0.0, 0.0};
+        });
   const Mat3 R = expSO3({0.2, -0.4, 1.0});
   const BeamPulls before = beams.pulls(Mat3::Identity()), after = beams.pulls(R);
   EXPECT_GT(before.norm(), 0.0);

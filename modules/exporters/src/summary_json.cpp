@@ -163,6 +163,7 @@ Json calibrationCheckJson(const CalibrationCheck& check)
       {"innovation_scale", check.innovation_scale},
       {"beam_range_offset_m", check.range_offset},
       {"beam_elevation_offset_deg", kDegPerRad * check.elevation_offset},
+      {"beam_azimuth_offset_deg", kDegPerRad * check.azimuth_offset},
       {"side_range_offset_m", check.side_range_offset}};
 }
 

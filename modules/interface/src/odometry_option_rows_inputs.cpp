@@ -171,7 +171,8 @@ OptionTable<CalibrationOptions> calibrationRows()
        number(&CalibrationOptions::imu_misalignment_std, 0.0, 10.0, kRadPerDeg),
        "uncertainty of the directions of their axes; widens the covariance"},
       {"calibration.estimate_beams", "", valueAs<BooleanValue>(&CalibrationOptions::estimate_beams),
-       "true: offsets of the beams, of their ranges and elevations, are estimated and taken off "
+       "true: offsets of the beams, of their ranges, elevations and azimuths, are estimated and "
+       "taken off "
        "the scans that follow"},
       {"calibration.time_offset_std", "s", number(&CalibrationOptions::time_offset_std, 0.0, 1.0),
        "uncertainty of lidar.time_offset"},

@@ -24,11 +24,15 @@ double beamElevation(std::size_t bin)
 BeamCorrections::BeamCorrections(const std::vector<double>& rows) : any_(!rows.empty())
 {
   for (std::size_t i = 0; i + kColumns <= rows.size(); i += kColumns)
-  {
-    Offset& offset = offsets_[beamBin(std::sin(kRadPerDeg * rows[i]))];
-    offset.range = static_cast<float>(rows[i + 1]);
-    offset.elevation = static_cast<float>(kRadPerDeg * rows[i + 2]);
-  }
+    set(beamBin(std::sin(kRadPerDeg * rows[i])), {rows[i + 1], kRadPerDeg * rows[i + 2], 0.0});
+}
+
+void BeamCorrections::set(std::size_t bin, const BeamOffset& offset)
+{
+  any_ = true;
+  offsets_[bin] = {
+      static_cast<float>(offset.range), static_cast<float>(offset.elevation),
+      static_cast<float>(offset.azimuth)};
 }
 
 std::size_t BeamCorrections::apply(float& x, float& y, float& z) const
@@ -38,12 +42,13 @@ std::size_t BeamCorrections::apply(float& x, float& y, float& z) const
   const std::size_t bin = beamBin(static_cast<double>(z / range));
   if (!any_ || !(level > kLeastCosine * range)) return bin;
   const Offset& offset = offsets_[bin];
-  // Against the beam, and across it: p - dr d - de r u with u = (-z x, -z y, level^2) / (r
-  // level).
+  // Against the beam, and across it: p - dr d - de r u - da (-y, x, 0) with
+  // u = (-z x, -z y, level^2) / (r level).
   const float shrink = 1.0F - offset.range / range + offset.elevation * z / level;
   z = z * (1.0F - offset.range / range) - offset.elevation * level;
-  x *= shrink;
-  y *= shrink;
+  const float turned_x = x * shrink + offset.azimuth * y;
+  y = y * shrink - offset.azimuth * x;
+  x = turned_x;
   return bin;
 }
 

@@ -38,6 +38,22 @@ TEST(BeamCorrections, TakeTheOffsetsOff)
     }
 }
 
+TEST(BeamCorrections, TurnABeamBackToItsAzimuth)
+{
+  for (const double azimuth : {0.3, 2.0, -1.5})
+  {
+    constexpr double kRange = 12.0, kElevation = 5.0 * kRadPerDeg, kTurn = 0.1 * kRadPerDeg;
+    BeamCorrections corrections;
+    corrections.set(beamBin(std::sin(kElevation)), {0.0, 0.0, kTurn});
+    PointColumns measured = pointAt(kRange, azimuth + kTurn, kElevation);
+    corrections.apply(measured);
+    const PointColumns truth = pointAt(kRange, azimuth, kElevation);
+    EXPECT_NEAR(measured.x[0], truth.x[0], 1e-4) << azimuth;
+    EXPECT_NEAR(measured.y[0], truth.y[0], 1e-4) << azimuth;
+    EXPECT_EQ(measured.z[0], truth.z[0]) << azimuth;
+  }
+}
+
 TEST(BeamCorrections, LeaveOtherBeamsAndTheAxisAlone)
 {
   const BeamCorrections corrections({5.0, 0.05, 0.5});

@@ -70,6 +70,7 @@ CalibrationCheck checkOf(const CalibrationEstimate& calibration, const BeamError
   check.innovation_scale = calibration.innovation_scale;
   check.range_offset = beams.rangeOffset();
   check.elevation_offset = beams.elevationOffset();
+  check.azimuth_offset = beams.azimuthOffset();
   check.side_range_offset = beams.sideRangeOffset();
   return check;
 }

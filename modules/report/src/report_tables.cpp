@@ -150,6 +150,8 @@ std::string calibrationHtml(const RunSummary& run)
               {"Beams: common range error [m]", fixedText(check.range_offset, 4)},
               {"Beams: common elevation error [deg]",
                fixedText(kDegPerRad * check.elevation_offset, 4)},
+              {"Beams: common azimuth error [deg]",
+               fixedText(kDegPerRad * check.azimuth_offset, 4)},
               {"Sides: common range error [m]", fixedText(check.side_range_offset, 4)}}) +
          "<p class=\"note\">How wrong the calibration in use seems to be by the innovations of the "
          "whole run, with three standard deviations. An error beyond them deserves a look at the "

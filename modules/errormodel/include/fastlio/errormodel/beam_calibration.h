@@ -1,8 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** \file beam_calibration.h Offsets of the beams, of their ranges and elevations, as the residuals of
- * a run show them. */
+/** \file beam_calibration.h Offsets of the beams, of their ranges, elevations and azimuths, as the
+ * residuals of a run show them. */
 #pragma once
 
 #include <fastlio/lidar/beam_corrections.h>
@@ -18,8 +18,8 @@ namespace fastlio
 /** What the offsets of a beam do to the residual of a point. */
 struct BeamView
 {
-  std::size_t bin = 0;                                      //!< beamBin()
-  Eigen::Matrix<double, 2, 1, Eigen::DontAlign> by_offset;  //!< derivative by range and elevation
+  std::size_t bin = 0;  //!< beamBin()
+  Vec3 by_offset;       //!< derivative by range, elevation and azimuth
 };
 
 /** Least squares for the offsets of all beams. The residual of a point has the offsets of the beam
@@ -42,13 +42,14 @@ class BeamCalibration
 
   /** To be taken off the points of a scan. */
   [[nodiscard]] const BeamCorrections& corrections() const { return corrections_; }
-  /** Of the offsets that scans have after corrections(), range [m] and elevation [rad] of the first
-   * bin, then those of the next. */
+  /** Of the offsets that scans have after corrections(), range [m], elevation and azimuth [rad] of
+   * the first bin, then those of the next. */
   [[nodiscard]] const Eigen::MatrixXd& covariance() const { return covariance_; }
   [[nodiscard]] std::size_t bins() const { return bins_; }
   /** How large offsets are, before they are taken off: their standard deviation. */
   [[nodiscard]] double rangeStd() const;      //!< [m]
   [[nodiscard]] double elevationStd() const;  //!< [rad]
+  [[nodiscard]] double azimuthStd() const;    //!< [rad]
 
  private:
   [[nodiscard]] Eigen::Index indexOf(std::size_t bin) const;
@@ -61,7 +62,7 @@ class BeamCalibration
   Eigen::MatrixXd information_, of_scan_;
   Eigen::VectorXd weighted_, weighted_of_scan_;
   Eigen::Matrix<double, Eigen::Dynamic, 6> with_pose_;  // D^T R^-1 H of the scan
-  Eigen::Vector2d prior_;                               // variances of an offset
+  Vec3 prior_;                                          // variances of an offset
   Eigen::VectorXd offsets_;
   Eigen::MatrixXd covariance_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file beam_errors.h Errors that all points of a laser share: its range is off by a constant, or
- * its elevation. Thousands of points do not average them out, and nor do hundreds of planes. */
+ * its elevation, or its azimuth. Thousands of points do not average them out, and nor do hundreds
+ * of planes. */
 #pragma once
 
 #include <fastlio/errormodel/beam_calibration.h>
@@ -44,7 +45,7 @@ class BeamErrors
   /** There is no map any more. */
   void forgetMap();
 
-  /** What offsets of range and elevation, of lasers and of sides, do to a scan. The beams that
+  /** What offsets of lasers and of sides do to a scan. The beams that
    * created a plane had such offsets, too: where the same beam meets it again, nothing is wrong.
    * The points are those of the last sampled scan, which every fourth one is: what the beams meet
    * stays nearly the same, seen from the sensor. Dense LiDARs have several lasers in a column.
@@ -55,26 +56,27 @@ class BeamErrors
   /** Standard deviation of the offsets, before they are taken off; 0 without any scan. */
   [[nodiscard]] double rangeOffset() const { return calibration_.rangeStd(); }          //!< [m]
   [[nodiscard]] double elevationOffset() const { return calibration_.elevationStd(); }  //!< [rad]
+  [[nodiscard]] double azimuthOffset() const { return calibration_.azimuthStd(); }      //!< [rad]
   [[nodiscard]] double sideRangeOffset() const { return sides_.rangeOffset(); }         //!< [m]
   /** Adds what the beams tell about their calibration. */
   void addTo(CalibrationFindings& findings) const;
 
  private:
-  // Columns of BeamPulls: those of the sides, then range and elevation of each laser.
-  static constexpr int kSideErrors = 6, kLaserErrors = kBeamErrors - kSideErrors;
-  static constexpr std::size_t kLaserColumns = kLaserErrors / 2;
+  // Columns of BeamPulls: those of the sides, then range, elevation and azimuth of each laser.
+  static constexpr int kSideErrors = 6, kLaserErrors = kBeamErrors - kSideErrors, kOffsets = 3;
+  static constexpr std::size_t kLaserColumns = kLaserErrors / kOffsets;
 
   /** The beams of one elevation. */
   struct Beam
   {
-    // Of all scans: normal equations for the offsets of range and elevation.
+    // Of all scans: normal equations for the offsets of range and elevation alone.
     Eigen::Matrix<double, 2, 2, Eigen::DontAlign> information =
         Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
     Eigen::Matrix<double, 2, 1, Eigen::DontAlign> weighted =
         Eigen::Matrix<double, 2, 1, Eigen::DontAlign>::Zero();
-    // Of the sampled scan: what these offsets add to sum w h z.
-    Eigen::Matrix<double, 6, 2, Eigen::DontAlign> in_sampled =
-        Eigen::Matrix<double, 6, 2, Eigen::DontAlign>::Zero();
+    // Of the sampled scan: what the offsets add to sum w h z.
+    Eigen::Matrix<double, 6, kOffsets, Eigen::DontAlign> in_sampled =
+        Eigen::Matrix<double, 6, kOffsets, Eigen::DontAlign>::Zero();
   };
   struct SensorFrame;
   struct BeamLanes;
@@ -98,7 +100,7 @@ class BeamErrors
   CreatingViews views_;
   std::size_t scans_ = 0;
   BeamPulls pulls_ = BeamPulls::Zero();  // of the sampled scan, in the axes of the body
-  // Root of the covariance of the offsets, of range and elevation of each column.
+  // Root of the covariance of the offsets of each column.
   Eigen::Matrix<double, kLaserErrors, kLaserErrors, Eigen::DontAlign> root_;
   std::size_t first_bin_ = 0, bins_per_column_ = 0;
   double upright_weight_ = 0.0, upright_range_ = 0.0;

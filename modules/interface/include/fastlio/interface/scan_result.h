@@ -116,6 +116,7 @@ struct CalibrationCheck
   /** Root mean square of what the beams of one elevation have in common; 0 while not known. */
   double range_offset = 0.0;      //!< [m]
   double elevation_offset = 0.0;  //!< [rad]
+  double azimuth_offset = 0.0;    //!< [rad]
   /** The same of what the points on one side have in common [m]. */
   double side_range_offset = 0.0;
 };
@@ -163,9 +164,9 @@ struct RegisteredFields
   std::vector<std::int64_t> stamp_ns;  //!< when each point was measured, UNIX epoch
 };
 
-/** So many independent errors of the beams are considered: of the sides of the sensor, of the
- * ranges and of the elevations of its lasers. */
-inline constexpr int kBeamErrors = 42;
+/** So many independent errors of the beams are considered: of the sides of the sensor, and of
+ * ranges, elevations and azimuths of its lasers. */
+inline constexpr int kBeamErrors = 60;
 /** Column i: what the i-th unit error makes of a pose, in the coordinates of its covariance. */
 using PoseByBeams = Eigen::Matrix<float, 6, kBeamErrors, Eigen::DontAlign>;
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /** \file beam_corrections.h Known errors that the beams of one elevation share: their range is off
- * by a constant, or their elevation. Points do not name their laser in every format, but its
- * elevation does. */
+ * by a constant, or their elevation, or their azimuth. Points do not name their laser in every
+ * format, but its elevation does. */
 #pragma once
 
 #include <fastlio/lidar/scan.h>
@@ -28,6 +28,14 @@ inline constexpr double kBeamBinsPerUnit = 28.65;  // 1 / sin(2 deg)
 /** The elevation in the middle of a bin [rad]. */
 [[nodiscard]] double beamElevation(std::size_t bin);
 
+/** Errors of the beams of a laser: LiDAR less truth. */
+struct BeamOffset
+{
+  double range = 0.0;      //!< [m]
+  double elevation = 0.0;  //!< upward [rad]
+  double azimuth = 0.0;    //!< about the z axis of the LiDAR [rad]
+};
+
 /** Takes known offsets off the points of scans. */
 class BeamCorrections
 {
@@ -36,12 +44,7 @@ class BeamCorrections
    * truth; of several rows in one bin the last one counts */
   explicit BeamCorrections(const std::vector<double>& rows = {});
 
-  /** \param range [m] \param elevation [rad] */
-  void set(std::size_t bin, double range, double elevation)
-  {
-    any_ = true;
-    offsets_[bin] = {static_cast<float>(range), static_cast<float>(elevation)};
-  }
+  void set(std::size_t bin, const BeamOffset& offset);
 
   /** Of one point, in the LiDAR frame. \return its bin, before it was corrected */
   std::size_t apply(float& x, float& y, float& z) const;
@@ -52,7 +55,7 @@ class BeamCorrections
  private:
   struct Offset
   {
-    float range = 0.0F, elevation = 0.0F;  // [m], [rad]
+    float range = 0.0F, elevation = 0.0F, azimuth = 0.0F;  // [m], [rad]
   };
   bool any_ = false;
   std::array<Offset, kBeamBins> offsets_{};
