@@ -165,6 +165,31 @@ TEST_P(AnyFault, EndsRightOrIsReported)
 
 INSTANTIATE_TEST_SUITE_P(Sample, AnyFault, ::testing::Values("office", "campus"));
 
+/** Scans that are sure of a wrong place after the first one that was without a pose. */
+int wrongAfterwards(SimulatedRun run)
+{
+  const auto lost = std::find_if(
+      run.scans.begin(), run.scans.end(),
+      [](const JudgedScan& scan) { return scan.result.status == ScanStatus::PredictionOnly; });
+  run.scans.erase(run.scans.begin(), lost);
+  return confidentlyWrong(run);
+}
+
+// What fits the map near the prediction then is another place. The pose that was found there was
+// 6 m off, and known to 3 cm.
+TEST(Kidnapped, IsNeverSureOfThePlaceThatIsFound)
+{
+  const CastWalk& walk = castWalk("office");
+  for (const double length : {1.0, 2.0, 4.0})
+    for (const double begin : {8.0, 18.0})
+    {
+      const std::int64_t begin_ns = walk.simulation.settings().start_ns + toNanoseconds(begin);
+      const SimulatedRun run = walk.runWith(altered({"Kidnapped", length}, begin_ns));
+      EXPECT_FALSE(endsOk(run));
+      EXPECT_EQ(wrongAfterwards(run), 0) << length << " s are missing from " << begin << " s on";
+    }
+}
+
 TEST(OutageOfTheLidar, OfASecondIsForgottenAfterwards)
 {
   const SimulatedRun run = runWithOutage(castWalk("campus"), {12.0, 1.0}, Missing::Scans);

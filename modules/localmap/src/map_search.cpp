@@ -28,6 +28,9 @@ constexpr double kUsualPart = 0.5;
 // campus finds the ground, which is half of all points, but only two of three points fit their
 // planes.
 constexpr double kUsualFit = 0.8;
+// Where the map has planes for this part of the points, and fewer of them fit than this part of the
+// usual, it is another place, even if what fits leaves a direction open.
+constexpr double kWellMapped = 0.3, kLeastFit = 0.2;
 // Where only the places on one level can be tried, a rival may be above or below.
 constexpr double kUsualPartOnLevel = 0.75;
 // A carried pose is searched once in a while and by heading, too: some seconds are well spent.
@@ -80,8 +83,15 @@ MapSearchResult notFound(
 }
 }  // namespace
 
+bool isContradicted(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
+{
+  return inlierRatio(match.mapped, scan.surfaces.size()) >= kWellMapped &&
+         inlierRatio(match.update.last.count, match.mapped) < kLeastFit * map.usualFittingPart();
+}
+
 bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
+  if (isContradicted(match, scan, map)) return false;
   if (match.constraints.unconstrained > 0) return true;
   return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
          inlierRatio(match.update.last.count, scan.surfaces.size()) >=

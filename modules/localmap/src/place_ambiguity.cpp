@@ -14,6 +14,11 @@ namespace
 // Three standard deviations in each element. Of healthy sensors one scan in some hundreds reaches
 // it, with a correction of some millimetres.
 constexpr double kContradiction = 9.0;
+// After scans that contradict certain predictions, the platform is somewhere else, unless this part
+// of the usual matches says that something was only in the way. A single scan may be a bad one.
+constexpr double kAsUsual = 0.9, kAsUsualAfterOne = 0.6;
+// Then it may be anywhere: as far as a room or a street goes, with any heading.
+constexpr double kDisplacedPosition = 10.0, kDisplacedHeading = 1.5707963267948966;  // [m], [rad]
 
 /** What a covariance lacks to be at least \a least in every direction. */
 Mat3 missing(const Mat3& least, const Mat3& covariance)
@@ -26,9 +31,22 @@ Mat3 missing(const Mat3& least, const Mat3& covariance)
 
 void PlaceAmbiguity::add(const PoseSearchResult& search)
 {
-  if (!search.accepted || search.searched_std <= kUnambiguousStd) return;
+  const bool certain = search.searched_std <= kUnambiguousStd;
+  if (!search.accepted && certain) ++contradictions_;
+  if (!search.accepted || certain) return;
   position_ += search.searched_covariance;
   heading_ += search.searched_heading_variance;
+}
+
+void PlaceAmbiguity::addPose(double usual_part)
+{
+  const double as_usual = contradictions_ > 1 ? kAsUsual : kAsUsualAfterOne;
+  if (contradictions_ > 0 && usual_part < as_usual)
+  {
+    position_ += kDisplacedPosition * kDisplacedPosition * Mat3::Identity();
+    heading_ += kDisplacedHeading * kDisplacedHeading;
+  }
+  contradictions_ = 0;
 }
 
 void PlaceAmbiguity::addCorrection(

@@ -48,6 +48,41 @@ TEST(PlaceAmbiguity, IsWhatAnAcceptedSearchCouldNotExclude)
   EXPECT_NEAR(added(ambiguity, x)(kPosition, kPosition), 5.0, 1e-12);
 }
 
+// The platform was carried away, or a part of the recording is missing, and no stamp shows it.
+TEST(PlaceAmbiguity, IsEverythingAfterScansThatContradictACertainPrediction)
+{
+  const NavState x;
+  for (const double usual_part : {0.0, 0.7})
+  {
+    PlaceAmbiguity ambiguity;
+    for (int scan = 0; scan < 5; ++scan)
+      ambiguity.add(search(0.01, false));
+    EXPECT_EQ(added(ambiguity, x).norm(), 0.0) << "while there is no pose, the status says it";
+    ambiguity.addPose(usual_part);
+    ambiguity.addPose(1.0);
+    const StateMatrix P = added(ambiguity, x);
+    EXPECT_GT(P(kPosition, kPosition), 25.0) << "m^2";
+    EXPECT_GT(x.down().dot(P.block<3, 3>(kAttitude, kAttitude) * x.down()), 1.0) << "rad^2";
+  }
+}
+
+TEST(PlaceAmbiguity, IsNoneWhereSomethingWasInTheWay)
+{
+  PlaceAmbiguity ambiguity;
+  for (int scan = 0; scan < 5; ++scan)
+    ambiguity.add(search(0.01, false));
+  ambiguity.addPose(0.95);
+  ambiguity.addPose(0.5);
+  EXPECT_EQ(added(ambiguity, NavState{}).norm(), 0.0);
+
+  ambiguity.add(search(0.01, false));  // a single scan, as they happen
+  ambiguity.addPose(0.7);
+  for (int scan = 0; scan < 5; ++scan)
+    ambiguity.add(search(2.0, false));  // after an outage nothing was certain
+  ambiguity.addPose(0.5);
+  EXPECT_EQ(added(ambiguity, NavState{}).norm(), 0.0);
+}
+
 // Old and new walls are in view at once: the pose may end beside both.
 TEST(PlaceAmbiguity, IsACorrectionThatNothingExplains)
 {

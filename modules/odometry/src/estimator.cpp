@@ -82,7 +82,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
 
   work.outcome.search = matched.poses;
   work.searched = enters || matched.poses;
-  if (matched.poses) ambiguity_.add(*matched.poses);
+  notePlace(matched, deskewed);
   work.outcome.after_outage = matched.after_outage;
   state_.stamp_ns = span.end_ns;
   adopt(match, work, result);

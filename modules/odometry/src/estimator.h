@@ -145,6 +145,7 @@ class Estimator
       const MatchResult& match, const ConsideredUpdate& considered, const LinearizedUpdate& update,
       const Work& work);
   void noteOpenDirections(const MatchResult& match, const ScanResult& result);
+  void notePlace(const MapSearchResult& matched, const DeskewedScan& scan);
   void releaseBiasesAndClock();
   void report(ScanResult& result) const;
   [[nodiscard]] StateMatrix systematicCovariance(const Prediction& prediction) const;

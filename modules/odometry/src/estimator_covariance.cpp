@@ -134,6 +134,18 @@ void Estimator::noteOpenDirections(const MatchResult& match, const ScanResult& r
     if (!open.is_rotation) ambiguity_.addOpenDirection(open.axis, position);
 }
 
+/** Whether it may be another place than the map says. */
+void Estimator::notePlace(const MapSearchResult& matched, const DeskewedScan& scan)
+{
+  if (matched.poses) ambiguity_.add(*matched.poses);
+  const UpdateResult& update = matched.match.update;
+  if (map_.empty() && hasEnoughPoints(scan))
+    ambiguity_.addPose(0.0);
+  else if (update.updated)
+    ambiguity_.addPose(
+        inlierRatio(update.last.count, scan.surfaces.size()) / map_.usualInlierRatio());
+}
+
 /** The inertial sensor has changed, by a shock, by vibration, by heat, or a clock has jumped, and
  * no scan says which: biases are as uncertain as at a start in motion, and so is the time offset.
  * Else the filter, sure of the old ones, would follow the sensor against the scans, or put down to

@@ -30,6 +30,10 @@ struct MapSearchResult
   bool after_outage = false;  //!< of the LiDAR: the pose is searched, or a new map begun without it
 };
 
+/** Most planes that the map has where the points lie do not fit them: it is another place. */
+[[nodiscard]] bool isContradicted(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
+
 /** The residuals and the inlier ratio of a match are those of the right pose, as far as one scan
  * can show. Along a degenerate direction residuals stay large by design: nothing corrects them. */
 [[nodiscard]] bool isConvincing(

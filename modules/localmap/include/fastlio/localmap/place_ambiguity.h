@@ -8,6 +8,9 @@
  * - Where a direction was open for long, what shows it again may be the next one of a row of doors.
  * - Where a scan contradicts its prediction, old and new walls may be in view at once, and the pose
  *   may end beside both.
+ * - Where scans one after the other do not fit the map at all, though the prediction was certain,
+ * the platform was carried away, a part of the recording is missing, or a sensor fails. What fits
+ *   half as well later may be any place.
  *
  * No later scan shows the error: each of them matches the map from the same wrong place. So what
  * was searched, lost or contradicted belongs to the reported covariance from then on. */
@@ -22,8 +25,13 @@ namespace fastlio
 class PlaceAmbiguity
 {
  public:
-  /** Takes in a search, unless the prediction was certain enough to exclude other places. */
+  /** Takes in a search, unless the prediction was certain enough to exclude other places. When it
+   * found nothing there, the scan contradicts the prediction. */
   void add(const PoseSearchResult& search);
+
+  /** A scan has a pose. \param usual_part the part of its points that match, over that of scans
+   * before; 0: it begins a new map */
+  void addPose(double usual_part);
 
   /** Takes in a correction. \param surprise its mean square over the covariance that it should have
    * had, of CalibrationEvidence::add() */
@@ -42,6 +50,7 @@ class PlaceAmbiguity
   Mat3 position_ = Mat3::Zero();
   Mat3 lost_ = Mat3::Zero();  // at least so much is reported
   double heading_ = 0.0;      // [rad^2]
+  int contradictions_ = 0;    // scans, since the last one with a pose
 };
 
 }  // namespace fastlio
