@@ -138,6 +138,17 @@ NavState propagatedBack(NavState x, const Inputs& inputs)
   return x;
 }
 
+double unexplainedRate(
+    const StampedPose& first, const StampedPose& last, const Inputs& inputs, const Vec3& gyro_bias)
+{
+  NavState x;
+  x.R = last.T_world_body.R;
+  x.gyro_bias = gyro_bias;
+  const Mat3 R_first = propagatedBack(x, inputs).R;
+  return logSO3(R_first.transpose() * first.T_world_body.R).norm() /
+         toSeconds(last.stamp_ns - first.stamp_ns);
+}
+
 FilterState startPrior(
     const NavState& x0, const PriorWidth& width, const Inputs& first_scan,
     const InitializationOptions& p)

@@ -28,24 +28,22 @@ constexpr int kPasses = 16;
 constexpr int kWindowPoints = 10000;
 // A start in motion knows its velocity so well; else the next scans would not match [m/s].
 constexpr double kMaxVelocityStd = 0.3;
-// Normals are known to about so much; what leaks over to a direction that no plane faces is no
-// information.
+// Normals are known to that: what leaks over to a direction that no plane faces is no information.
 constexpr double kNormalStd = 0.015;  // [rad]
-// What the prior leaves open narrows from pass to pass, down to several times the uncertainty after
-// a window: far-off planes are no match then.
+// What the prior leaves open narrows with each pass: far-off planes are no match then.
 constexpr double kFirstVelocityStd = 10.0;  // [m/s], of cars and drones, about zero
 constexpr double kSecondVelocityStd = 1.0;  // [m/s]
 constexpr double kLeastVelocityStd = 0.2;   // [m/s]
 constexpr double kFirstTiltStd = 0.15;      // [rad]
 constexpr double kLeastTiltStd = 0.05;      // [rad]
 constexpr double kNarrowing = 0.6;
-// The poses of a platform at rest drift by up to 0.02 m in a second, those of one that moves at
-// 0.4 m/s or more by 0.27 m, although the pass begins at rest [m/s].
-constexpr double kMostRestSpeed = 0.05;
-// Over a second, no vehicle is thrown up or dropped faster than that; a wrong unit is farther off.
+// Poses at rest drift by up to 0.02 m in a second, those at 0.4 m/s by 0.27 m in a pass at rest.
+constexpr double kMostRestSpeed = 0.05;  // [m/s]
+// A hand that turns slowly looks like rest with a bias, but the scans turn.
+constexpr double kMostRestRate = 0.3 / kDegPerRad;  // [rad/s]
+// No vehicle is thrown up or dropped faster than that; a wrong unit is farther off.
 constexpr double kMostForceError = 3.0;  // [m/s^2]
-// A larger bias is none, but a wrong unit or mounting. Shaken, with clocks 2 ms apart, a start
-// finds 6 deg/s; with rates in deg/s, 10.
+// A larger bias is a wrong unit or mounting. Shaken, with clocks 2 ms apart, a start finds 6 deg/s.
 constexpr double kMostGyroBias = 8.0 / kDegPerRad;  // [rad/s]
 // A pass goes too far, as the map, made with its start, pulls the scans to the other side.
 constexpr double kDamping = 0.6;
@@ -58,6 +56,7 @@ struct Pass
 {
   NavState start;                   // that follows from the state at the window's end
   double mean_speed = 0.0;          // along the straight line from the first pose to the last [m/s]
+  double rate_error = 0.0;          // of the gyro with the bias at the start [rad/s]
   double velocity_std = 0.0;        // at the end, least known direction [m/s]
   Vec3 least_known = Vec3::Zero();  // that direction, in the IMU frame at the start
   bool blind = false;               // the scans do not see motion in that direction
@@ -119,7 +118,9 @@ class Window
     const StampedPose &first = poses.front(), &end = poses.back();
     pass.mean_speed = (end.T_world_body.p - first.T_world_body.p).norm() /
                       toSeconds(end.stamp_ns - first.stamp_ns);
-    describeStart(last.filter, poses, pass);
+    const Inputs between = inputsOf(imu_, first.stamp_ns, end.stamp_ns, parameters_.imu.hold);
+    pass.rate_error = unexplainedRate(first, end, between, start.x.gyro_bias);
+    describeStart(last.filter, poses, between, pass);
     describeEnd(last.filter, pass);
     keepVelocityLikely(pass);
     return pass;
@@ -128,15 +129,14 @@ class Window
  private:
   /** Velocity and gravity at the first scan's end from all poses, then back to its begin. */
   void describeStart(
-      const FilterState& end, const std::vector<StampedPose>& poses, Pass& pass) const
+      const FilterState& end, const std::vector<StampedPose>& poses, const Inputs& between,
+      Pass& pass) const
   {
     const StampedPose& first = poses.front();
     MotionFitPrior prior;
     prior.gyro_bias = end.x.gyro_bias;
     prior.g = parameters_.initialization.gravity * end.x.g.normalized();
     prior.gravity_std = kGravityStd;
-    const Inputs between =
-        inputsOf(imu_, first.stamp_ns, poses.back().stamp_ns, parameters_.imu.hold);
     const MotionFit fit = fitMotion(poses, between.samples, prior);
     if (!fit.solved) pass.problem = "too few of the first scans match each other";
 
@@ -247,7 +247,7 @@ RestVerdict verdictOnRest(
 {
   const Pass pass =
       Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
-  if (!pass.problem.empty()) return RestVerdict::Denied;
+  if (!pass.problem.empty() || pass.rate_error > kMostRestRate) return RestVerdict::Denied;
   const Inputs since_rest =
       inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
   const bool agrees =

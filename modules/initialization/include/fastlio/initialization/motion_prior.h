@@ -41,6 +41,11 @@ struct Inputs
 /** Eq. 4 backwards: the inverse of propagateMean() with the biases of \a x. */
 [[nodiscard]] NavState propagatedBack(NavState x, const Inputs& inputs);
 
+/** How much faster the scans turn than the gyro, on average [rad/s].
+ * \param inputs from one pose of the scans to the other */
+[[nodiscard]] double unexplainedRate(
+    const StampedPose& first, const StampedPose& last, const Inputs& inputs, const Vec3& gyro_bias);
+
 /** The uncertainty of the prior. */
 struct PriorWidth
 {
