@@ -248,6 +248,15 @@ void considerInertialData(double inflated, const NavState& x, ScanHealth& health
             kMaxAccelBias);
       });
 }
+
+/** A map of few scans may have no planes yet, as among trunks. While the prediction is certain, as
+ * at rest, the pose is good. */
+bool beginsAsExpected(const ScanResult& result, const HealthContext& context)
+{
+  constexpr double kCertain = 0.02;  // [m]
+  const Mat3 position = result.filter.P.block<3, 3>(kPosition, kPosition);
+  return context.map_is_sparse && position.diagonal().maxCoeff() < kCertain * kCertain;
+}
 }  // namespace
 
 ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
@@ -260,7 +269,9 @@ ScanHealth healthOf(const ScanResult& result, const HealthContext& context)
   else if (result.status == ScanStatus::Diverged)
     consider(health, 0.0, HealthCause::Lost, message);
   else if (result.status == ScanStatus::PredictionOnly)
-    consider(health, kPredicted, HealthCause::NoMatch, message);
+    consider(
+        health, beginsAsExpected(result, context) ? 1.0 : kPredicted, HealthCause::NoMatch,
+        message);
   else if (result.status == ScanStatus::Tracking)
   {
     if (!context.map_is_sparse) considerInlierRatio(result.statistics, health);

@@ -25,6 +25,21 @@ TEST(Classify, ScansWithoutUpdateAreInTrouble)
   EXPECT_EQ(lost.value, 0.0);
 }
 
+// Among trunks the first scans make no planes. A platform at rest is where it was.
+TEST(Classify, AScanThatFindsNoPlanesYetIsNoTroubleWhileThePredictionIsCertain)
+{
+  HealthContext context;
+  context.map_is_sparse = true;
+  ScanResult result;
+  result.status = ScanStatus::PredictionOnly;
+  EXPECT_EQ(healthOf(result, context).cause, HealthCause::None);
+  result.filter.P(kPosition, kPosition) = 0.01;  // 0.1 m
+  EXPECT_EQ(healthOf(result, context).cause, HealthCause::NoMatch);
+  result.filter.P.setZero();
+  context.map_is_sparse = false;
+  EXPECT_EQ(healthOf(result, context).cause, HealthCause::NoMatch);
+}
+
 // The inertial data bridge an outage of the LiDAR, however long; its covariance says how well.
 TEST(Classify, APredictionAfterAnOutageIsOneAndSaysWhatItWaitsFor)
 {
