@@ -114,10 +114,9 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
   estimator_.skipScan();
   return classifyUnprocessed(
       popScan(),
-      (imu_.empty() ? "no inertial sample has arrived" : "the inertial data have ended") +
-          std::string(", but scans of ") + std::to_string(waits_s) +
-          " s have after this one; is the IMU running, does it share "
-          "the LiDAR's clock (lidar.time_offset)?",
+      (imu_.empty() ? "no usable inertial sample has arrived" : "the inertial data have ended") +
+          (waits_s > 0.0 ? mrpt::format(", but scans of %.1f s have after this one", waits_s) : "") +
+          "; is the IMU running, does it share the LiDAR's clock (lidar.time_offset)?",
       estimator_.started() || reinitialization_.pending());
 }
 
@@ -138,12 +137,14 @@ std::optional<ScanResult> Odometry::Impl::passBreaks()
     {
       imu_.forgetSamplesBefore(gap->end_ns);
       if (span.begin_ns + time_shift_ns < gap->end_ns - kStartHoldBeforeNs)
-        return classifyUnprocessed(
-            popScan(),
-            mrpt::format(
-                "within %.2f s without inertial samples (imu.max_gap is %.2f s)", gap->seconds(),
-                options_.imu.max_gap),
-            reinitialization_.pending());
+        return gap->new_map
+                   ? classifyUnprocessed(popScan(), "the inertial data before were wrong", false)
+                   : classifyUnprocessed(
+                         popScan(),
+                         mrpt::format(
+                             "within %.2f s without inertial samples (imu.max_gap is %.2f s)",
+                             gap->seconds(), options_.imu.max_gap),
+                         reinitialization_.pending());
     }
     reinitialization_.dropBreak();
   }

@@ -13,6 +13,8 @@ namespace fastlio
 {
 namespace
 {
+constexpr double kLongStart = 1.0 / 3.0;  // a start that takes this part of a run is no success
+
 std::string paragraph(const std::string& html)
 {
   return "<p>" + html + "</p>\n";
@@ -105,6 +107,13 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "warn", "Do not rely on " + untrustedTime(stretches, statistics.duration()) + ".", details};
   const std::string scans = countText(health.scans()) + " scans";
+  const std::size_t starting = statistics.count(ScanStatus::Initializing);
+  if (static_cast<double>(starting) > kLongStart * static_cast<double>(statistics.scans()))
+    return {
+        "warn",
+        "What there is can be trusted, but " + countText(starting) + " of " +
+            countText(statistics.scans()) + " scans have no pose: the odometry waited for its start.",
+        details + adviceParagraphs(HealthCause::Starting)};
   if (first)
     return {
         "good",

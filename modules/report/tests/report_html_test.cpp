@@ -37,6 +37,17 @@ TEST(ReportHtml, AGoodRunIsSaidToBeGood)
   EXPECT_TRUE(has(html, "Nothing was dropped."));
 }
 
+TEST(ReportHtml, AStartThatTakesMostOfARunIsNamed)
+{
+  auto scans = walk(50);
+  for (std::size_t i = 0; i < 30; ++i)
+    scans[i].status = ScanStatus::Initializing;
+  const std::string html = reportOf(scans);
+  expectGoodPage(html);
+  EXPECT_TRUE(has(html, "What there is can be trusted, but 30 of 50 scans have no pose")) << html;
+  EXPECT_TRUE(has(html, "<header class=\"warn\">"));
+}
+
 /** The map of these reports is 2.5 km long and 5 m high, the walk is 5 m long. */
 TEST(ReportHtml, ASmallPathHasAViewOfItsOwnAndLowHeightsAreStretched)
 {
