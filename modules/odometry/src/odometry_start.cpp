@@ -115,7 +115,8 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
   return classifyUnprocessed(
       popScan(),
       (imu_.empty() ? "no usable inertial sample has arrived" : "the inertial data have ended") +
-          (waits_s > 0.0 ? mrpt::format(", but scans of %.1f s have after this one", waits_s) : "") +
+          (waits_s > 0.0 ? mrpt::format(", but scans of %.1f s have after this one", waits_s)
+                         : "") +
           "; is the IMU running, does it share the LiDAR's clock (lidar.time_offset)?",
       estimator_.started() || reinitialization_.pending());
 }
