@@ -10,6 +10,7 @@
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/presets.h>
 #include <fastlio/files/atomic_file.h>
+#include <fastlio/files/made_folders.h>
 #include <fastlio/files/own_file.h>
 #include <fastlio/files/same_file.h>
 #include <fastlio/options/json_text.h>
@@ -25,6 +26,22 @@ namespace
 {
 using namespace fastlio;
 
+/** Minutes of work must not end at a name that cannot be written. */
+void requireWritableFile(const FileUse& output)
+{
+  namespace fs = std::filesystem;
+  if (output.path.empty()) return;
+  if (fs::is_directory(output.path))
+    throw std::invalid_argument(
+        output.role + " '" + output.path + "' is a folder; give the name of a file");
+  const fs::path folder = fs::absolute(output.path).parent_path();
+  if (!fs::is_directory(folder))
+    throw std::invalid_argument(
+        output.role + " '" + output.path + "': the folder '" + folder.string() +
+        "' does not exist; make it, or give another name");
+  requireWritableFolder(folder.string());
+}
+
 /** Nothing may replace what it comes from. */
 void requireHarmlessOutputs(const CalibrateArguments& arguments)
 {
@@ -34,6 +51,8 @@ void requireHarmlessOutputs(const CalibrateArguments& arguments)
   inputs.push_back({arguments.parameters.config_file, "--config"});
   if (arguments.json != "-") outputs.push_back({arguments.json, "--json"});
   requireDistinctFiles(inputs, outputs);
+  for (const FileUse& output : outputs)
+    requireWritableFile(output);
   if (!arguments.overwrite)
     requireOwnFile(arguments.output, {"fastlio-calibrate", kCalibrationMark});
 }

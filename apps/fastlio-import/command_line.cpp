@@ -33,7 +33,8 @@ Exit status:
   0  written
   1  wrong usage, or a file that cannot be written
   2  nothing in the input can be used: nothing is written
-  3  written, but some of the input could not be read; the messages say what)";
+  3  written, but some of the input could not be read; the messages say what
+  130  interrupted; nothing is written)";
 }
 
 /** Empty when the name says which format it is. */

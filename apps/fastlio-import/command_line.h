@@ -19,6 +19,7 @@ enum class ImportStatus
   Usage = 1,
   Unusable = 2,    //!< nothing could be read
   Incomplete = 3,  //!< written, but some of the recording could not be read
+  Interrupted = 130
 };
 
 struct ImportArguments

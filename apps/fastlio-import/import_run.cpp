@@ -4,6 +4,7 @@
 #include "import_run.h"
 
 #include "../shared/failure.h"
+#include "../shared/interruption.h"
 #include "../shared/readable_recordings.h"
 #include "../shared/terminal_line.h"
 #include "import_inputs.h"
@@ -70,12 +71,13 @@ class Import
   void run(ImportInputs& source)
   {
     TerminalLine line(!arguments_.quiet);
-    while (const auto observation = source.next())
+    while (const auto observation = interrupted() ? nullptr : source.next())
     {
       if (isWanted(*observation)) write(converted(observation));
       if (line.isShown()) line.showShare("importing", source.progress().share());
     }
     line.clear();
+    if (interrupted()) throw Failure(ImportStatus::Interrupted, "interrupted; nothing was written");
     files_ = output_->finish();
   }
 

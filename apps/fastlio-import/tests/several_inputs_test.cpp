@@ -7,6 +7,9 @@
 #include "rawlog_reading.h"
 #include "ros2_writers.h"
 
+#include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <map>
 
@@ -69,6 +72,38 @@ TEST_F(SeveralInputs, ASecondSensorOfTheSameLabelGetsAnother)
   const auto scans =
       import({"--merge", first, second, "-o", out(), "--overwrite", "--lidar-topic", "/lidar_2"});
   EXPECT_EQ(scans.exit_status, 0) << scans.output;
+}
+
+bool hasTemporaryFile(const std::string& folder)
+{
+  const std::filesystem::directory_iterator files(folder);
+  return std::any_of(
+      begin(files), end(files),
+      [](const auto& entry) { return entry.path().extension() == ".tmp"; });
+}
+
+bool getsTemporaryFile(const std::string& folder)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!hasTemporaryFile(folder))
+    if (std::chrono::steady_clock::now() > end) return false;
+  return true;
+}
+
+TEST_F(SeveralInputs, AnInterruptionLeavesNothingBehind)
+{
+  const std::string bag = file("long.bag", bagOf(messagesOf(recording(3000), Wire::Ros1, {})));
+  for (const int signal : {SIGINT, SIGTERM})
+  {
+    Process process({FASTLIO_IMPORT_PROGRAM, bag, "-o", out()}, folder_.file("log.txt"));
+    ASSERT_TRUE(getsTemporaryFile(folder_.path()));
+    process.signal(signal);
+    const ProcessResult result = process.wait();
+    EXPECT_EQ(result.exit_status, 130) << result.output;
+    EXPECT_TRUE(contains(result.output, "nothing was written")) << result.output;
+    EXPECT_FALSE(hasTemporaryFile(folder_.path()));
+    EXPECT_FALSE(std::filesystem::exists(out()));
+  }
 }
 }  // namespace
 }  // namespace fastlio::testing

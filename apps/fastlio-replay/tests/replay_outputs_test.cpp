@@ -103,6 +103,17 @@ TEST_F(Outputs, NothingIsWrittenAmongTheExternalFilesOfARecording)
       rawlog);
 }
 
+// A map.pcd among clouds made the folder unreadable.
+TEST_F(Outputs, NothingIsWrittenIntoARecordingThatIsAFolder)
+{
+  fs::create_directory(file("clouds"));
+  const std::string cloud = write("clouds/1700000000.pcd", "points");
+  for (const std::string& inside : {file("clouds"), file("clouds/out")})
+    expectRefusal(
+        {"--input-rawlog", file("clouds"), "--output-dir", inside}, cloud, file("clouds"),
+        "choose another place");
+}
+
 TEST_F(Outputs, TwoOutputsAreTwoFiles)
 {
   fs::create_directory(file("out"));
