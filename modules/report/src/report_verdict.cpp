@@ -112,7 +112,8 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "warn",
         "What there is can be trusted, but " + countText(starting) + " of " +
-            countText(statistics.scans()) + " scans have no pose: the odometry waited for its start.",
+            countText(statistics.scans()) +
+            " scans have no pose: the odometry waited for its start.",
         details + adviceParagraphs(HealthCause::Starting)};
   if (first)
     return {
