@@ -133,6 +133,7 @@ void ImuConditioner::scaled(ImuSample sample)
   if (parameters_.invert_acceleration) sample.accel = -sample.accel;
   const std::size_t steps = time_gate_.clockSteps();
   timed_.clear();
+  if (auto repeats = repeated_.add(sample)) diagnostics_.push_back(std::move(*repeats));
   time_gate_.push(sample, timed_);
   if (time_gate_.clockSteps() != steps) reportClockStep();
   emitAll();
@@ -157,9 +158,7 @@ void ImuConditioner::emitAll()
     emit(timed);
 }
 
-/** The unit of the rates comes last: what waits in the gates while it is found is in that unit,
- * too.
- */
+/** The unit of the rates comes last: what waits in the gates is in that unit, too. */
 void ImuConditioner::emit(TimedSample timed)
 {
   if (units_.gyro_scale != 1.0) timed.sample.gyro *= units_.gyro_scale;

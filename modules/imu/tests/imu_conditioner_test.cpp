@@ -53,6 +53,19 @@ TEST(ImuConditioner, ALoneSpikeIsLeftOutAndItsTimeIsNoiseInflated)
     ASSERT_LT(s.sample.gyro.norm() + s.sample.accel.norm(), 12.0);
 }
 
+TEST(ImuConditioner, ReadingsThatRepeatAreNamedOnceEachTime)
+{
+  auto raw = tilting(1000);
+  for (std::size_t i = 200; i < 500; ++i)  // 1.5 s
+    raw[i].gyro = raw[200].gyro, raw[i].accel = raw[200].accel;
+  for (std::size_t i = 700; i < 790; ++i)  // 0.45 s: a busy host
+    raw[i].gyro = raw[700].gyro, raw[i].accel = raw[700].accel;
+  const std::string text = conditioned(raw).diagnostics;
+  const std::size_t at = text.find("the inertial readings repeat: all six values are the same");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_EQ(text.find("the inertial readings repeat", at + 1), std::string::npos) << text;
+}
+
 TEST(ImuConditioner, AStepThatStaysIsNoSpike)
 {
   auto raw = tilting(400);

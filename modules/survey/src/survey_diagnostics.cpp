@@ -100,6 +100,13 @@ void reportImu(
         "The longest rest (%.1f s) begins %.1f s after the start; initialization.mode: auto does "
         "not wait for it.",
         imu.rest_seconds, before));
+  if (imu.gyro_noise_density == 0.0 && imu.accel_noise_density == 0.0)
+    warn(
+        survey,
+        mrpt::format(
+            "All inertial readings are the same for %.1f s: has the driver or the bus of the IMU "
+            "stopped?",
+            imu.rest_seconds));
   if (imu.accel_unit.empty())
     warn(
         survey, mrpt::format(

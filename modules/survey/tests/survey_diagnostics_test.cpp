@@ -20,6 +20,7 @@ RecordingSurvey surveyWith(double gyro_scale, const Vec3& up)
   survey.lidars.resize(1);
   survey.imu.rests = true;
   survey.imu.accel_unit = "m/s^2";
+  survey.imu.gyro_noise_density = survey.imu.accel_noise_density = 1e-3;
   survey.imu.up = up;
   survey.motion.emplace();
   survey.motion->conclusive = true;
@@ -53,6 +54,14 @@ TEST(SurveyDiagnostics, AGyroOfAnotherUnitOrScaleIsNamed)
     EXPECT_FALSE(says(text, "it is in deg/s")) << text;
   }
   EXPECT_FALSE(says(remarksOn(surveyWith(1.03, up)), "The gyro")) << "as well as the check knows";
+}
+
+TEST(SurveyDiagnostics, AnImuWithoutAnyNoiseHasStopped)
+{
+  RecordingSurvey survey = surveyWith(1.0, {0, 0, 1});
+  EXPECT_FALSE(says(remarksOn(survey), "are the same"));
+  survey.imu.gyro_noise_density = survey.imu.accel_noise_density = 0.0;
+  EXPECT_TRUE(says(remarksOn(survey), "All inertial readings are the same"));
 }
 
 TEST(SurveyDiagnostics, ARecordingWithoutPointsCannotBeUsed)

@@ -12,6 +12,7 @@
 #include <fastlio/imu/imu_time_gate.h>
 #include <fastlio/imu/noise_inflation.h>
 #include <fastlio/imu/recent_motion.h>
+#include <fastlio/imu/repeated_readings.h>
 #include <fastlio/imu/sampling_period.h>
 #include <fastlio/math/time.h>
 
@@ -87,6 +88,7 @@ class ImuConditioner
   ImuSpikeGate spike_gate_;
   SamplingPeriod period_;
   Clipping clipping_;
+  RepeatedReadings repeated_;
   GyroUnitTest gyro_unit_test_;
   RecentMotion recent_;
   std::vector<Diagnostic> diagnostics_;
