@@ -22,6 +22,7 @@ constexpr double kIncidenceStd = 0.02;   // of the range at 80 deg of incidence 
 // Not every LiDAR has a bias of the shape that incidenceShape() has: over simulated rigs that have
 // one of 20 mm, two thirds of it are found.
 constexpr double kIncidenceShapeStd = 0.007;  // [m]
+constexpr double kFarOff = 3.0;               // of the prior of the LiDAR's rotation
 constexpr double kKnown = 0.3;                // of the prior: a beam that the data determine
 constexpr std::size_t kFewestBeams = 3;       // of which constant and stretch are parts
 
@@ -61,6 +62,11 @@ CalibrationPrior CalibrationUnknowns::prior(const Eigen::VectorXd& x) const
 {
   CalibrationPrior prior = calibrationPriorOf(prior_);
   prior.mean = -x.head<kCalibrationErrorDim>();
+  // Gyro, accelerometer and LiDAR may turn together without any data showing it. What the LiDAR is
+  // off by is its own then, and not shared with axes that a factory has put in order.
+  const double turned = x.segment<3>(kExtrinsicError).norm();
+  auto rotation_std = prior.std.segment<3>(kExtrinsicError);
+  if (turned > kFarOff * rotation_std.norm()) rotation_std = rotation_std.cwiseMax(turned).eval();
   return prior;
 }
 

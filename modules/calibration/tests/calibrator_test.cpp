@@ -6,6 +6,7 @@
 #include "temporary_folder.h"
 #include <fastlio/calibration/calibration_report.h>
 #include <fastlio/config/config_yaml.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/scenarios/settings_table.h>
 #include <fastlio/simulation/recording.h>
 
@@ -82,6 +83,19 @@ TEST_F(CalibratorTest, FindsTheErrorsOfTheGivenCalibration)
           << beam.elevation << " rad; they were given 0.02 m off";
       EXPECT_LT(std::abs(beam.elevation_offset), 0.0006) << beam.elevation;
     }
+}
+
+// LiDAR, gyro and accelerometer may all be turned together. An eighth of what the LiDAR was off by
+// went into the axes of the IMU once, and was thought to be known to a tenth of a degree.
+TEST_F(CalibratorTest, ALidarThatIsTurnedByDegreesLeavesTheAxesOfTheImuAlone)
+{
+  const CalibrationRecording recording = record("walk", 20.0, 3);
+  Config config = config_;
+  config.sensors.T_vehicle_lidar = Pose{expSO3({0.0, 0.0, 0.08}), Vec3::Zero()} * truth_;
+  const RigEstimate estimate = Calibrator({recording}, config, 6).calibrate();
+  const Vec3 error = logSO3(estimate.rig.T_imu_lidar.R * truth_.R.transpose());
+  EXPECT_LT(kDegPerRad * error.norm(), 0.15) << "deg; it was given as 4.6";
+  EXPECT_LT(std::abs(estimate.rig.gyro_matrix(0, 1) - estimate.rig.gyro_matrix(1, 0)), 0.004);
 }
 
 TEST_F(CalibratorTest, StandardDeviationsCoverTheErrors)
