@@ -65,16 +65,12 @@ void requireOutsideOfRecordings(
     const ReplayArguments& arguments, const std::vector<FileUse>& outputs)
 {
   for (const std::string& rawlog : arguments.input_files)
-  {
-    std::vector<std::string> folders = externalFolders(rawlog);
-    if (fs::is_directory(rawlog)) folders.push_back(rawlog);  // its clouds and tables are in there
-    for (const std::string& folder : folders)
+    for (const std::string& folder : externalFolders(rawlog))
       for (const FileUse& output : outputs)
         if (isBelow(output.path, folder))
           throw std::invalid_argument(
               "the output '" + output.path + "' (" + output.role + ") lies in '" + folder +
               "', which belongs to the recording '" + rawlog + "'; choose another place");
-  }
 }
 
 /** Only the report compares with a reference. */

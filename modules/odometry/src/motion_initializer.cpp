@@ -22,8 +22,7 @@ namespace fastlio
 namespace
 {
 constexpr std::size_t kMinScans = 4;
-// At most. A narrow view of a fast platform needs ten to fifteen.
-constexpr int kPasses = 16;
+constexpr int kPasses = 16;  // at most; a narrow view of a fast platform needs ten to fifteen
 // Of the downsampling, for these scans: few points make no planes in a map of few scans.
 constexpr int kWindowPoints = 10000;
 // A start in motion knows its velocity so well; else the next scans would not match [m/s].
@@ -39,8 +38,8 @@ constexpr double kLeastTiltStd = 0.05;      // [rad]
 constexpr double kNarrowing = 0.6;
 // Poses at rest drift by up to 0.02 m in a second, those at 0.4 m/s by 0.27 m in a pass at rest.
 constexpr double kMostRestSpeed = 0.05;  // [m/s]
-// A hand that turns slowly looks like rest with a bias, but the scans turn.
-constexpr double kMostRestRate = 0.3 / kDegPerRad;  // [rad/s]
+// A hand that turns slowly looks like rest with a bias, but the scans turn: by 0.7 at most at rest.
+constexpr double kMostRestRate = 1.0 / kDegPerRad;  // [rad/s]
 // No vehicle is thrown up or dropped faster than that; a wrong unit is farther off.
 constexpr double kMostForceError = 3.0;  // [m/s^2]
 // A larger bias is a wrong unit or mounting. Shaken, with clocks 2 ms apart, a start finds 6 deg/s.
@@ -247,7 +246,8 @@ RestVerdict verdictOnRest(
 {
   const Pass pass =
       Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
-  if (!pass.problem.empty() || pass.rate_error > kMostRestRate) return RestVerdict::Denied;
+  const bool turns = !pass.blind && pass.rate_error > kMostRestRate;
+  if (!pass.problem.empty() || turns) return RestVerdict::Denied;
   const Inputs since_rest =
       inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
   const bool agrees =
