@@ -45,10 +45,10 @@ class BeamErrors
   /** There is no map any more. */
   void forgetMap();
 
-  /** What offsets of lasers and of sides do to a scan. The beams that
-   * created a plane had such offsets, too: where the same beam meets it again, nothing is wrong.
-   * The points are those of the last sampled scan, which every fourth one is: what the beams meet
-   * stays nearly the same, seen from the sensor. Dense LiDARs have several lasers in a column.
+  /** What offsets of lasers and of sides do to a scan. The beams that created a plane had such
+   * offsets, too: where the same beam meets it again, nothing is wrong. The points are those of the
+   * last sampled scan, which every fourth one is: what the beams meet stays nearly the same, seen
+   * from the sensor. Dense LiDARs have several lasers in a column.
    * \param R_world_scan attitude of the scan pose */
   [[nodiscard]] BeamPulls pulls(const Mat3& R_world_scan) const;
   /** To be taken off the points of the scans that follow. */

@@ -8,9 +8,9 @@
  * - Where a direction was open for long, what shows it again may be the next one of a row of doors.
  * - Where a scan contradicts its prediction, old and new walls may be in view at once, and the pose
  *   may end beside both.
- * - Where scans one after the other do not fit the map at all, though the prediction was certain,
- * the platform was carried away, a part of the recording is missing, or a sensor fails. What fits
- *   half as well later may be any place.
+ * - Where scans do not fit the map at all, though the prediction was certain, the platform was
+ *   carried away, a part of the recording is missing, or a sensor fails. What fits half as well
+ *   later may be any place.
  *
  * No later scan shows the error: each of them matches the map from the same wrong place. So what
  * was searched, lost or contradicted belongs to the reported covariance from then on. */
