@@ -34,6 +34,7 @@ void requireWritableFile(const FileUse& output)
   if (fs::is_directory(output.path))
     throw std::invalid_argument(
         output.role + " '" + output.path + "' is a folder; give the name of a file");
+  if (fs::exists(output.path)) return;  // a device needs no folder that can be written
   const fs::path folder = fs::absolute(output.path).parent_path();
   if (!fs::is_directory(folder))
     throw std::invalid_argument(

@@ -5,7 +5,6 @@
 
 #include "repeats.h"
 #include "walks.h"
-#include <fastlio/imu/imu_buffer.h>
 #include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>

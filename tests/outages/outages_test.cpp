@@ -6,7 +6,6 @@
 
 #include "repeats.h"
 #include "walks.h"
-#include <fastlio/imu/imu_buffer.h>
 #include <fastlio/math/time.h>
 #include <fastlio/scenarios/realistic.h>
 
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <tuple>
 #include <utility>

@@ -133,7 +133,6 @@ void ImuConditioner::scaled(ImuSample sample)
   if (parameters_.invert_acceleration) sample.accel = -sample.accel;
   const std::size_t steps = time_gate_.clockSteps();
   timed_.clear();
-  if (auto repeats = repeated_.add(sample)) diagnostics_.push_back(std::move(*repeats));
   time_gate_.push(sample, timed_);
   if (time_gate_.clockSteps() != steps) reportClockStep();
   emitAll();
@@ -242,8 +241,7 @@ InterpolationError ImuConditioner::interpolationError(const TimedSample& timed) 
 std::optional<NoiseInflation> ImuConditioner::clippingInflation(const ImuSample& sample)
 {
   Clipping& c = clipping_;
-  const bool held = sample.gyro == c.latest.gyro && sample.accel == c.latest.accel;
-  c.latest = sample;
+  const bool held = c.repeated.add(sample, diagnostics_);
   const double gyro = c.gyro.add(sample.gyro, held), accel = c.accel.add(sample.accel, held);
   reportClipping(sample.stamp_ns);
   const double gyro_between = std::max(gyro, c.gyro.before());

@@ -15,26 +15,27 @@ constexpr double kLongestRepeat = 0.5;  // [s]
 constexpr std::size_t kMostRepeats = 20;
 }  // namespace
 
-std::optional<Diagnostic> RepeatedReadings::add(const ImuSample& sample)
+bool RepeatedReadings::add(const ImuSample& sample, std::vector<Diagnostic>& diagnostics)
 {
   if (sample.gyro != first_.gyro || sample.accel != first_.accel)
   {
     first_ = sample;
     repeats_ = 0;
     reported_ = false;
-    return std::nullopt;
+    return false;
   }
   ++repeats_;
   const double seconds = toSeconds(sample.stamp_ns - first_.stamp_ns);
-  if (reported_ || repeats_ < kMostRepeats || seconds < kLongestRepeat) return std::nullopt;
+  if (reported_ || repeats_ < kMostRepeats || seconds < kLongestRepeat) return true;
   reported_ = true;
-  return Diagnostic{
-      first_.stamp_ns,
-      mrpt::format(
-          "the inertial readings repeat: all six values are the same for %.1f s and more, in %zu "
-          "samples; has the driver or the bus of the IMU stopped? The run follows readings that "
-          "are none",
-          seconds, repeats_ + 1)};
+  diagnostics.push_back(
+      {first_.stamp_ns,
+       mrpt::format(
+           "the inertial readings repeat: all six values are the same for %.1f s and more, in %zu "
+           "samples; has the driver or the bus of the IMU stopped? The run follows readings that "
+           "are none",
+           seconds, repeats_ + 1)});
+  return true;
 }
 
 }  // namespace fastlio

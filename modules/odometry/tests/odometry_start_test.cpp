@@ -177,7 +177,6 @@ TEST(OdometryStart, APlatformThatMovesOffBeforeTheFirstScanHasItsVelocity)
   EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
 }
 
-/** Every scan of a start in motion names the way out, also while the next window is collected. */
 // To the inertial sensor, a hand that turns evenly is at rest with a bias. The scans turn.
 TEST(OdometryStart, AHandThatTurnsSlowlyIsNotAtRest)
 {
@@ -211,6 +210,7 @@ TEST(OdometryStart, AHandThatTurnsSlowlyIsNotAtRest)
   EXPECT_LT(kDegPerRad * bias_error.norm(), 0.2) << "deg/s";
 }
 
+/** Every scan of a start in motion names the way out, also while the next window is collected. */
 TEST(OdometryStart, AStartInMotionNamesTheModeThatTakesIt)
 {
   const RoomRecording moving = movingFromTheStart(200.0);

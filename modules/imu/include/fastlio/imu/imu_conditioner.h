@@ -64,8 +64,8 @@ class ImuConditioner
   struct Clipping
   {
     ClippingDetector gyro, accel;
-    ImuSample latest;        // to know one that is held
-    int rates_in_a_row = 0;  // that are clipped: a turn beyond the range is off to one side
+    RepeatedReadings repeated;  // a held one is no end of the range
+    int rates_in_a_row = 0;     // that are clipped: a turn beyond the range is off to one side
   };
 
   void decideAccelUnit();
@@ -88,7 +88,6 @@ class ImuConditioner
   ImuSpikeGate spike_gate_;
   SamplingPeriod period_;
   Clipping clipping_;
-  RepeatedReadings repeated_;
   GyroUnitTest gyro_unit_test_;
   RecentMotion recent_;
   std::vector<Diagnostic> diagnostics_;

@@ -10,7 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 namespace fastlio
 {
@@ -19,8 +19,9 @@ namespace fastlio
 class RepeatedReadings
 {
  public:
-  /** \return what to tell the user, once for each time that it happens */
-  [[nodiscard]] std::optional<Diagnostic> add(const ImuSample& sample);
+  /** \param diagnostics gets what to tell the user, once for each time that it happens
+   * \return whether the readings are those of the sample before */
+  [[nodiscard]] bool add(const ImuSample& sample, std::vector<Diagnostic>& diagnostics);
 
  private:
   ImuSample first_;  // of those that are the same
