@@ -23,7 +23,10 @@ constexpr double kOddRotation = 10.0;   // between found and given mounting [deg
 constexpr double kOddOffset = 0.02;     // the check is rough [s]
 constexpr double kDegreesScale = 10.0;  // rates differ by more: the gyro is in deg/s
 constexpr double kLittleOverlap = 0.9;
-constexpr double kSlowImu = 50.0;  // [Hz]
+// No inertial sensor is so quiet: these are readings that repeat, and rounding.
+constexpr double kNoGyroNoise = 1e-7;   // [rad/s/sqrt(Hz)]
+constexpr double kNoAccelNoise = 1e-6;  // [m/s^2/sqrt(Hz)]
+constexpr double kSlowImu = 50.0;       // [Hz]
 
 void warn(RecordingSurvey& survey, std::string text)
 {
@@ -100,7 +103,7 @@ void reportImu(
         "The longest rest (%.1f s) begins %.1f s after the start; initialization.mode: auto does "
         "not wait for it.",
         imu.rest_seconds, before));
-  if (imu.gyro_noise_density == 0.0 && imu.accel_noise_density == 0.0)
+  if (imu.gyro_noise_density < kNoGyroNoise && imu.accel_noise_density < kNoAccelNoise)
     warn(
         survey,
         mrpt::format(
