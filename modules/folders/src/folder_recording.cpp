@@ -124,14 +124,34 @@ std::vector<std::string> stemsOf(const std::vector<std::string>& files)
   return stems;
 }
 
-std::vector<std::int64_t> stampsOfNames(const std::vector<std::string>& files)
+/** Clouds whose names are times, and the other files ("map.pcd"). */
+struct NamedByTime
 {
-  const std::vector<std::string> stems = stemsOf(files);
-  const std::int64_t unit_ns = stampUnitOf(stems, kCloudRhythm);
-  std::vector<std::int64_t> stamps;
-  for (const std::string& stem : stems)
-    if (const auto stamp = stampOf(stem, unit_ns)) stamps.push_back(*stamp);
-  return stamps;
+  std::vector<std::string> clouds, others;
+  std::vector<std::int64_t> stamps;  //!< of the clouds
+};
+
+NamedByTime namedByTime(const std::vector<std::string>& files)
+{
+  const std::int64_t unit_ns = stampUnitOf(stemsOf(files), kCloudRhythm);
+  NamedByTime named;
+  for (const std::string& file : files)
+  {
+    const auto stamp = stampOf(fs::path(file).stem().string(), unit_ns);
+    (stamp ? named.clouds : named.others).push_back(file);
+    if (stamp) named.stamps.push_back(*stamp);
+  }
+  return named;
+}
+
+std::vector<std::string> notesOn(const std::vector<std::string>& without_time)
+{
+  if (without_time.empty()) return {};
+  const std::size_t more = without_time.size() - 1;
+  return {
+      "Left out: '" + without_time.front() + "'" +
+      (more > 0 ? " and " + std::to_string(more) + " more" : std::string()) +
+      ", whose name is no time."};
 }
 
 /** The names count the clouds ("000123.bin"): they are no times. */
@@ -230,23 +250,25 @@ bool isCloudFolder(const std::string& path)
   const std::string clouds = cloudsOf(path);
   if (clouds.empty()) return false;
   const auto files = filesIn(clouds, {".pcd", ".bin"});
-  return !timesOf(path, clouds).empty() || stampsOfNames(files).size() == files.size();
+  const NamedByTime named = namedByTime(files);
+  return !timesOf(path, clouds).empty() || named.clouds.size() > named.others.size();
 }
 
 std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)
 {
   const std::string clouds = cloudsOf(path), times = timesOf(path, clouds), table = tableOf(path);
   const auto files = filesIn(clouds, {".pcd", ".bin"});
-  if (times.empty() && areNumbered(files))
+  const NamedByTime named = times.empty() ? namedByTime(files) : NamedByTime{files, {}, {}};
+  if (times.empty() && areNumbered(named.clouds))
     throw std::runtime_error(
         "holds clouds whose names are numbers and no times; put a file times.txt beside them, with "
         "the time of each cloud [s] in a line");
   std::vector<std::unique_ptr<TimedStream>> streams;
   streams.push_back(cloudStream(
-      "lidar", timed(files, times.empty() ? stampsOfNames(files) : stampsOfFile(times), times),
+      "lidar", timed(named.clouds, times.empty() ? named.stamps : stampsOfFile(times), times),
       "LiDAR; stamps from " + (times.empty() ? "the names of the files" : "'" + times + "'")));
   if (!table.empty()) streams.push_back(std::make_unique<ImuTable>(table));
-  return std::make_unique<FolderRecording>(std::move(streams), std::vector<std::string>{});
+  return std::make_unique<FolderRecording>(std::move(streams), notesOn(named.others));
 }
 
 // The extension is asked for, too: trajectories are tables of numbers as well.

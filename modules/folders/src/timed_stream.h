@@ -78,7 +78,7 @@ class FileStream : public TimedStream
 [[nodiscard]] std::unique_ptr<TimedStream> oxtsStream(std::vector<TimedFile> files);
 
 /** A table of inertial samples: time, angular rate, specific force, one sample a line. A first line
- * with names orders the columns, and may give the unit of the times; without one they are time,
+ * with names orders the columns, and may give units ("gyro_x [deg/s]"); without one they are time,
  * three rates, three accelerations. */
 class ImuTable : public TimedStream
 {
@@ -102,6 +102,7 @@ class ImuTable : public TimedStream
   std::string path_;
   std::ifstream in_;
   std::vector<std::size_t> columns_;        // of time, three rates, three accelerations
+  std::vector<double> factors_;             // of columns_, to units of SI
   std::optional<std::size_t> nanoseconds_;  // column of the rest of each second
   std::int64_t unit_ns_ = 1;                // of times; any, as long as it is not known
   std::optional<std::int64_t> stamp_ns_;

@@ -141,6 +141,38 @@ TEST_F(Folders, ATableMayNameItsColumnsInAnyOrder)
   EXPECT_THROW((void)readRecording(folder_.file("a")), std::runtime_error);
 }
 
+TEST_F(Folders, ATableMayNameItsUnits)
+{
+  put("a/1.5.bin", binCloud(1));
+  for (const auto& [gyro, accel] :
+       {std::pair("deg/s", "g"), std::pair("dps", "g"), std::pair("deg s^-1", "G")})
+  {
+    const std::string w = std::string(" [") + gyro + "],", a = std::string(" (") + accel + "),";
+    put("a/imu.csv", "time," + ("wx" + w) + ("wy" + w) + ("wz" + w) + ("ax" + a) + ("ay" + a) +
+                         "az (" + accel + ")\n1.5,180,-90,0,0,0.5,1\n");
+    const Recorded walk = readRecording(folder_.file("a"));
+    ASSERT_EQ(walk.count("imu"), 1U);
+    for (const auto& observation : walk.observations)
+      if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()))
+      {
+        EXPECT_NEAR(imu->get(mrpt::obs::IMU_WX), M_PI, 1e-12) << gyro;
+        EXPECT_NEAR(imu->get(mrpt::obs::IMU_WY), -M_PI / 2.0, 1e-12) << gyro;
+        EXPECT_NEAR(imu->get(mrpt::obs::IMU_Y_ACC), 0.5 * 9.80665, 1e-12) << accel;
+      }
+  }
+}
+
+// A map that was written among the clouds must not make them unreadable.
+TEST_F(Folders, AFileWhoseNameIsNoTimeIsLeftOut)
+{
+  put("a/1.0.bin", binCloud(1));
+  put("a/1.1.bin", binCloud(1));
+  put("a/map.pcd", "no cloud");
+  const Recorded walk = readRecording(folder_.file("a"));
+  EXPECT_EQ(walk.count("lidar"), 2U);
+  EXPECT_TRUE(walk.problems.empty());
+}
+
 TEST_F(Folders, NumbersOfFilesAndTimesMustAgree)
 {
   put("a/clouds/000001.pcd", "");
