@@ -26,8 +26,9 @@ constexpr const char* kFooter = R"(Files in the output directory:
   scenario.json     all settings, true biases, errors of the sensors, gravity and mounting
 
 Exit status:
-  0  written
-  1  wrong usage, an unusable setting, or a file that cannot be written or is not ours to replace)";
+  0    written
+  1    wrong usage, an unusable setting, or a file that cannot be written or is not ours to replace
+  130  interrupted; nothing is written)";
 
 /** An option of its own for a setting that is changed often. */
 struct Shorthand

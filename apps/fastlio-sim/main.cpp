@@ -4,6 +4,7 @@
 /** \file main.cpp fastlio-sim: simulated recordings with exact ground truth. */
 
 #include "../shared/failure.h"
+#include "../shared/interruption.h"
 #include "../shared/parsing.h"
 #include "../shared/terminal_line.h"
 #include "command_line.h"
@@ -19,6 +20,7 @@ namespace
 {
 constexpr int kExitOk = 0;
 constexpr int kExitError = 1;
+constexpr int kExitInterrupted = 130;
 
 void simulate(const fastlio::SimCommand& command)
 {
@@ -31,7 +33,11 @@ void simulate(const fastlio::SimCommand& command)
   const fastlio::RecordingFiles files = fastlio::writeRecording(
       simulation, directory,
       [&line](std::size_t done, std::size_t total)
-      { line.show(std::to_string(done) + " / " + std::to_string(total) + " sweeps"); },
+      {
+        if (fastlio::interrupted())
+          throw fastlio::Failure(kExitInterrupted, "interrupted; nothing was written");
+        line.show(std::to_string(done) + " / " + std::to_string(total) + " sweeps");
+      },
       command.overwrite);
   line.clear();
   if (command.quiet) return;
@@ -62,6 +68,7 @@ void run(const fastlio::SimCommand& command)
 
 int main(int argc, char** argv)
 {
+  fastlio::catchInterruptions();
   return fastlio::endOf(
       "fastlio-sim", kExitError,
       [&]

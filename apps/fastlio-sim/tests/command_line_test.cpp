@@ -5,11 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <process.h>
 #include <string>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -196,5 +199,20 @@ TEST_F(FastlioSim, TwoOutputsAreTwoFiles)
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_TRUE(mentions(result, "are the same file")) << result.output;
   EXPECT_FALSE(fs::exists(path("out/config.yaml")));
+}
+
+TEST_F(FastlioSim, AnInterruptionLeavesNothingBehind)
+{
+  fastlio::testing::Process process(
+      {FASTLIO_SIM_PROGRAM, "office", "-o", path("long"), "--duration", "600"}, path("log.txt"));
+  const auto wait_until = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!fs::exists(path("long")) && std::chrono::steady_clock::now() < wait_until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_TRUE(fs::exists(path("long")));
+  process.signal(SIGINT);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.exit_status, 130) << result.output;
+  EXPECT_TRUE(mentions(result, "nothing was written")) << result.output;
+  EXPECT_FALSE(fs::exists(path("long")));
 }
 }  // namespace
