@@ -102,6 +102,7 @@ OutputPlan planOutputs(const ReplayArguments& arguments, const Config& config)
     plan.inputs.push_back(input.path);
   const std::vector<std::string> names = namesInFolder(arguments, config);
   const std::vector<FileUse> outputs = outputsOf(arguments, names);
+  requireDistinctFiles({}, {{arguments.output_directory, "--output-dir"}});
   requireDistinctFiles(inputs, outputs);
   requireOutsideOfRecordings(arguments, outputs);
   requireReport(arguments, names);

@@ -135,6 +135,11 @@ void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<
 {
   for (std::size_t i = 0; i < outputs.size(); ++i)
   {
+    // Many programs mean the standard output by it: a file of this name would surprise.
+    if (outputs[i].path == "-")
+      throw std::invalid_argument(
+          outputs[i].role +
+          ": '-' is no name of a file here; give './-' for a file of that name, or /dev/stdout");
     for (const FileUse& input : inputs)
       if (isSameFile(input.path, outputs[i].path))
         throw std::invalid_argument(

@@ -66,6 +66,7 @@ TEST(SameFile, TheMessageNamesBoth)
   for (const std::string& text : {input.path, same.path, input.role, same.role})
     EXPECT_NE(messageOf({input}, {other, same}).find(text), std::string::npos) << text;
   EXPECT_NE(messageOf({}, {other, other}).find("are the same file"), std::string::npos);
+  EXPECT_NE(messageOf({}, {{"-", "--plot"}}).find("--plot: '-'"), std::string::npos);
 }
 
 TEST(SameFile, PartsOfARecordingAreGivenOnce)

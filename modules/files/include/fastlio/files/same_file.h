@@ -37,8 +37,8 @@ void requireGivenOnce(const std::vector<std::string>& inputs);
  * the message names both */
 void requireDifferentRecordings(const std::vector<std::string>& inputs);
 
-/** \exception std::invalid_argument an output is the same file as an input or as another output;
- * the message names both */
+/** \exception std::invalid_argument an output is the same file as an input or as another output, and
+ * the message names both; or it is "-", which looks like the standard output */
 void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<FileUse>& outputs);
 
 }  // namespace fastlio
