@@ -27,7 +27,7 @@ PointColumns pointsAt(float range, int count = 1000)
 
 TEST(RangeUnit, MetresStayAsTheyAre)
 {
-  for (const float range : {0.5F, 5.0F, 80.0F, 600.0F})
+  for (const float range : {0.5F, 5.0F, 80.0F, 190.0F})
   {
     RangeUnit unit;
     PointColumns points = pointsAt(range);
@@ -40,13 +40,38 @@ TEST(RangeUnit, MillimetresAreReportedOnceAndScaledEverAfter)
 {
   RangeUnit unit;
   PointColumns points = pointsAt(4000.0F);
-  const auto median = unit.bringToMetres(points);
-  ASSERT_TRUE(median);
-  EXPECT_NEAR(*median, 4000.0, 10.0);
+  const auto finding = unit.bringToMetres(points);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->defect, RangeDefect::Millimetres);
+  EXPECT_NEAR(finding->median, 4000.0, 10.0);
   EXPECT_NEAR(points.x[0], 2.0F, 1e-5F);
   PointColumns near = pointsAt(300.0F);
   EXPECT_FALSE(unit.bringToMetres(near));
   EXPECT_NEAR(near.x[0], 0.15F, 1e-6F);
+}
+
+TEST(RangeUnit, CentimetresAreToldButLeftAsTheyAre)
+{
+  RangeUnit unit;
+  PointColumns points = pointsAt(400.0F);
+  const auto finding = unit.bringToMetres(points);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->defect, RangeDefect::FarAway);
+  EXPECT_NE(describe(*finding).find("400 away"), std::string::npos) << describe(*finding);
+  EXPECT_EQ(points.x, pointsAt(400.0F).x);
+  EXPECT_FALSE(unit.bringToMetres(points)) << "told once";
+}
+
+TEST(RangeUnit, PointsInTheFrameOfAMapAreNoMillimetres)
+{
+  PointColumns points = pointsAt(10.0F);
+  for (float& x : points.x)
+    x += 500'000.0F;
+  const PointColumns given = points;
+  const auto finding = RangeUnit().bringToMetres(points);
+  ASSERT_TRUE(finding);
+  EXPECT_EQ(finding->defect, RangeDefect::OneDirection);
+  EXPECT_EQ(points.x, given.x);
 }
 
 TEST(RangeUnit, TheFirstScanWithEnoughPointsDecides)

@@ -129,7 +129,7 @@ std::vector<std::string> messageSources()
 {
   std::vector<std::string> texts;
   for (const char* folder :
-       {"modules/imu/src", "modules/initialization/src", "modules/health/src",
+       {"modules/imu/src", "modules/lidar/src", "modules/initialization/src", "modules/health/src",
         "modules/odometry/src", "apps/fastlio-replay"})
     for (const auto& entry : fs::directory_iterator(kSource / folder))
       if (entry.path().extension() == ".cpp")
