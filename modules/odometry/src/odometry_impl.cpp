@@ -128,12 +128,8 @@ void Odometry::Impl::addScan(LidarScan scan)
     ++counted_.scans_bad_stamp;
     return;
   }
-  if (const auto median = range_unit_.bringToMetres(scan.points))
-    diagnostics_.report(
-        scan.stamp_ns, mrpt::format(
-                           "the points of the LiDAR are %.0f away in the median: they are taken as "
-                           "millimetres, not metres",
-                           *median));
+  if (const auto finding = range_unit_.bringToMetres(scan.points))
+    diagnostics_.report(scan.stamp_ns, describe(*finding));
   scan.stamp_ns += toNanoseconds(options_.lidar.time_offset);
   const auto inertial_ns =
       imu_.empty() ? std::nullopt : std::optional<std::int64_t>(imu_.newestStamp());
@@ -159,17 +155,10 @@ const InputStatistics& Odometry::Impl::inputStatistics()
   return statistics_;
 }
 
-QueuedScan Odometry::Impl::popScan()
-{
-  QueuedScan scan = std::move(intake_.queue().front());
-  intake_.queue().pop_front();
-  return scan;
-}
-
-bool Odometry::Impl::usable(const ScanSpan& span)
+bool Odometry::Impl::usable(const ScanSpan& span, bool is_repeated)
 {
   const double missing_s = toSeconds(span.end_ns - imu_.newestStamp());
-  if (missing_s > options_.imu.max_gap || span.end_ns <= estimator_.stamp())
+  if (missing_s > options_.imu.max_gap || span.end_ns <= estimator_.stamp() || is_repeated)
   {
     ++(missing_s > 0.0 ? counted_.scans_without_imu : counted_.scans_out_of_order);
     return false;
@@ -179,9 +168,11 @@ bool Odometry::Impl::usable(const ScanSpan& span)
 
 std::optional<ScanResult> Odometry::Impl::processOldest()
 {
-  QueuedScan queued = popScan();
+  // By the recorded stamps: with a new estimate of the clocks' offset it would seem to be newer.
+  const bool is_repeated = intake_.oldestIsRepeated();
+  QueuedScan queued = intake_.takeOldest();
   estimator_.applyCalibration(queued.scan, queued.span);
-  if (!usable(queued.span)) return std::nullopt;
+  if (!usable(queued.span, is_repeated)) return std::nullopt;
   beam_corrections_.apply(queued.scan.points);
   own_body_.look(queued.scan.points);
   const std::size_t masked = own_body_.mask(queued.scan.points);

@@ -58,8 +58,7 @@ class Odometry::Impl
   void start(const StartDecision& decision);
   void reinitialise(const std::string& why, std::int64_t stamp_ns);
   [[nodiscard]] bool waitsTooLong(std::int64_t end_ns) const;
-  [[nodiscard]] bool usable(const ScanSpan& span);
-  [[nodiscard]] QueuedScan popScan();
+  [[nodiscard]] bool usable(const ScanSpan& span, bool is_repeated);
 
   InputStatistics counted_;     // here, without what other stages drop
   InputStatistics statistics_;  // with it

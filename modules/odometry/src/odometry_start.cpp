@@ -79,8 +79,8 @@ std::optional<ScanResult> Odometry::Impl::waitForStart(bool at_end)
     const StartDecision decision = decideStart(at_end);
     if (decision.drop_oldest)
       return classifyUnprocessed(
-          popScan(), (reinitialization_.pending() ? "starting anew: " : "") + decision.message,
-          false);
+          intake_.takeOldest(),
+          (reinitialization_.pending() ? "starting anew: " : "") + decision.message, false);
     if (!decision.state) break;
     start(decision);
   }
@@ -113,7 +113,7 @@ std::optional<ScanResult> Odometry::Impl::giveUpOldest(bool at_end)
   const double waits_s = toSeconds(scans.back().span.end_ns - end_ns);
   estimator_.skipScan();
   return classifyUnprocessed(
-      popScan(),
+      intake_.takeOldest(),
       (imu_.empty() ? "no usable inertial sample has arrived" : "the inertial data have ended") +
           (waits_s > 0.0 ? mrpt::format(", but scans of %.1f s have after this one", waits_s)
                          : "") +
@@ -139,9 +139,10 @@ std::optional<ScanResult> Odometry::Impl::passBreaks()
       imu_.forgetSamplesBefore(gap->end_ns);
       if (span.begin_ns + time_shift_ns < gap->end_ns - kStartHoldBeforeNs)
         return gap->new_map
-                   ? classifyUnprocessed(popScan(), "the inertial data before were wrong", false)
+                   ? classifyUnprocessed(
+                         intake_.takeOldest(), "the inertial data before were wrong", false)
                    : classifyUnprocessed(
-                         popScan(),
+                         intake_.takeOldest(),
                          mrpt::format(
                              "within %.2f s without inertial samples (imu.max_gap is %.2f s)",
                              gap->seconds(), options_.imu.max_gap),

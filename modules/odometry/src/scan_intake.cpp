@@ -30,6 +30,14 @@ ScanIntake::ScanIntake(double max_step, double max_ahead)
 {
 }
 
+QueuedScan ScanIntake::takeOldest()
+{
+  QueuedScan scan = std::move(queue_.front());
+  queue_.pop_front();
+  taken_ns_ = std::max(taken_ns_.value_or(scan.span.end_ns), scan.span.end_ns);
+  return scan;
+}
+
 void ScanIntake::sortIn(QueuedScan scan)
 {
   const auto after = std::upper_bound(

@@ -33,8 +33,14 @@ class ScanIntake
   /** Scans from the past are lost. */
   void finish();
 
-  [[nodiscard]] ScanQueue& queue() { return queue_; }
   [[nodiscard]] const ScanQueue& queue() const { return queue_; }
+  /** Takes the oldest scan out of the queue, which is not empty. */
+  [[nodiscard]] QueuedScan takeOldest();
+  /** The oldest scan ends no later than the one that was taken before it. */
+  [[nodiscard]] bool oldestIsRepeated() const
+  {
+    return taken_ns_ && queue_.front().span.end_ns <= *taken_ns_;
+  }
   /** Scans that came too late for the queue. */
   [[nodiscard]] std::size_t late() const { return late_; }
   /** Scans with stamps far in the future that were left out. */
@@ -48,6 +54,7 @@ class ScanIntake
   std::int64_t offset_ns_ = 0;             // added to the stamps of scans
   std::optional<std::int64_t> newest_ns_;  // end of the newest believed scan
   std::optional<std::int64_t> ahead_ns_;   // of a scan far ahead that awaits confirmation
+  std::optional<std::int64_t> taken_ns_;   // the latest end of a scan that was taken
   std::size_t believed_ = 0;
   ScanQueue queue_;
   std::vector<QueuedScan> past_;  // with their own stamps

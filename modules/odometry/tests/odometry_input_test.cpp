@@ -130,6 +130,32 @@ TEST(OdometryInput, BadInertialSamplesAreCountedAndChangeNothing)
   EXPECT_EQ(counts.imu_in, n + each(10) + each(20) + each(40) + each(80));
 }
 
+// The estimate of the clocks' offset moves the stamps of scans: a repeated one seemed to be newer.
+TEST(OdometryInput, ARepeatedScanIsNoNewOne)
+{
+  OdometryOptions parameters = roomParameters();
+  parameters.calibration.estimate_time_offset = true;
+  parameters.lidar.time_offset = -0.003;
+  const Results once = runInOrder(parameters, roomForInput());
+  for (const bool at_once : {true, false})
+  {
+    Odometry odometry(parameters);
+    Results results;
+    for (const ImuSample& s : roomForInput().imu)
+      odometry.addImu(s);
+    for (const LidarScan& scan : roomForInput().scans)
+      for (int i = 0; i < 2; ++i)
+      {
+        odometry.addScan(scan);
+        if (at_once) drain(odometry, results);
+      }
+    drain(odometry, results);
+    finish(odometry, results);
+    EXPECT_TRUE(sameBits(results, once)) << at_once;
+    EXPECT_EQ(odometry.inputStatistics().scans_out_of_order, roomForInput().scans.size());
+  }
+}
+
 TEST(OdometryInput, EmptyAndRepeatedScansAreCounted)
 {
   Odometry odometry(roomParameters());
