@@ -67,6 +67,13 @@ std::string imuText(const ImuReport& imu)
   return text;
 }
 
+std::string pathText(const RunStatistics& statistics)
+{
+  const std::string known = endUncertaintyText(statistics);
+  return fixedText(statistics.pathLength(), 2) + " m" +
+         (known.empty() ? std::string() : "; its end is known to " + known);
+}
+
 std::string healthText(const RunHealth& health)
 {
   if (health.scans() == 0) return "no pose";
@@ -164,6 +171,9 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
   sentences.insert(sentences.end(), output.begin(), output.end());
   if (!summary.failure.empty()) sentences.push_back(summary.failure);
   const auto& statistics = summary.statistics;
+  if (exitStatusOf(summary) != ExitStatus::Ok)
+    for (const std::string& loss : lossSentences(summary))
+      sentences.push_back(loss);
   if (isLost(statistics)) sentences.push_back(whyOdometryFailed(summary));
   if (exitStatusOf(summary) == ExitStatus::Degraded)
     sentences.emplace_back(
@@ -178,7 +188,7 @@ std::string reportText(const RunSummary& summary)
   const auto& statistics = summary.statistics;
   const auto lost = losses(summary);
   std::string text = line("Scans", scanCountsText(statistics));
-  text += line("Path", fixedText(statistics.pathLength(), 2) + " m");
+  text += line("Path", pathText(statistics));
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));
   if (const std::size_t without = countOf(summary, "points_without_return"))

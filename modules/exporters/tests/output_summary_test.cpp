@@ -21,7 +21,7 @@ using Json = nlohmann::json;
 TEST(RunStatistics, AddsUpAWalk)
 {
   RunStatistics statistics;
-  statistics.add(resultAt(0, ScanStatus::Initializing, 99.0, 0.1));
+  statistics.add(resultAt(0, ScanStatus::Initializing, 99.0, 500.0));
   for (int i = 1; i <= 101; ++i)
     statistics.add(
         resultAt(i, i == 1 ? ScanStatus::FirstScan : ScanStatus::Tracking, 0.5 * (i - 1), i));
@@ -31,9 +31,25 @@ TEST(RunStatistics, AddsUpAWalk)
   EXPECT_DOUBLE_EQ(statistics.duration(), 10.2);
   EXPECT_DOUBLE_EQ(statistics.scanTimes().median, 51.0);
   EXPECT_DOUBLE_EQ(statistics.scanTimes().p99, 100.0);
-  EXPECT_DOUBLE_EQ(statistics.scanTimes().max, 101.0);
+  EXPECT_DOUBLE_EQ(statistics.scanTimes().max, 500.0) << "of all scans";
   EXPECT_EQ(statistics.points().in, 102U * 20000U);
   EXPECT_FALSE(statistics.firstTrouble());
+}
+
+TEST(RunSummary, NamesTheReasonWhereMostOfASensorIsLost)
+{
+  RunSummary run;
+  EXPECT_TRUE(lossSentences(run).empty());
+  run.input_counts = {{"imu_samples", 0}, {"imu_not_finite", 3001}, {"scans", 149}};
+  EXPECT_EQ(
+      lossSentences(run),
+      (std::vector<std::string>{
+          "3001 inertial samples were dropped: they hold values that are not finite"}));
+  run.input_counts = {{"imu_samples", 100}, {"imu_duplicate", 50}, {"scans", 3}};
+  EXPECT_TRUE(lossSentences(run).empty()) << "each one twice";
+  run.input_counts.push_back({"scans_out_of_order", 2});
+  ASSERT_EQ(lossSentences(run).size(), 1U);
+  EXPECT_EQ(lossSentences(run)[0].find("2 scans were dropped"), 0U);
 }
 
 TEST(RunStatistics, RemembersTheFirstTroubleOnlySoMany)

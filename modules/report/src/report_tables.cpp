@@ -98,6 +98,7 @@ std::string factsHtml(const RunSummary& run)
        {"Scans", htmlText(scanCountsText(s))},
        {"Poses", countText(s.poses()) + " of the body \u201c" + htmlText(run.frame) + "\u201d"},
        {"Path", fixedText(s.pathLength(), 3) + " m"},
+       {"End known to", s.poses() > 0 ? endUncertaintyText(s) : "-"},
        {"Points", pointsText(s.points())},
        {"Health", healthText(s.health())},
        {"Degenerate directions", htmlText(degenerateText(s.degenerateDirections()))},

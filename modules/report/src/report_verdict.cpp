@@ -90,6 +90,15 @@ std::string longestStretchHtml(const RunHealth& health, const std::vector<Untrus
          adviceParagraphs(longest->cause);
 }
 
+/** Behind the headline, where also poses that can be trusted may be far away. */
+std::string uncertainEnd(const RunStatistics& statistics)
+{
+  constexpr double kFar = 1.0;  // [m]
+  const double std = statistics.endPositionStd();
+  return std < kFar ? std::string()
+                    : " The place of its end is uncertain by " + fixedText(std, 1) + " m.";
+}
+
 RunVerdict ofHealth(const RunStatistics& statistics)
 {
   const RunHealth& health = statistics.health();
@@ -101,11 +110,14 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "bad",
         "The odometry lost its pose: do not rely on " +
-            untrustedTime(stretches, statistics.duration()) + ".",
+            untrustedTime(stretches, statistics.duration()) + "." + uncertainEnd(statistics),
         details};
   if (!stretches.empty())
     return {
-        "warn", "Do not rely on " + untrustedTime(stretches, statistics.duration()) + ".", details};
+        "warn",
+        "Do not rely on " + untrustedTime(stretches, statistics.duration()) + "." +
+            uncertainEnd(statistics),
+        details};
   const std::string scans = countText(health.scans()) + " scans";
   const std::size_t starting = statistics.count(ScanStatus::Initializing);
   if (static_cast<double>(starting) > kLongStart * static_cast<double>(statistics.scans()))
@@ -119,9 +131,12 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "good",
         "The run can be trusted: of " + scans + ", " + countText(health.troubled()) +
-            " were in trouble, none of them for long.",
+            " were in trouble, none of them for long." + uncertainEnd(statistics),
         details};
-  return {"good", "The run can be trusted: none of " + scans + " was in trouble.", ""};
+  return {
+      "good",
+      "The run can be trusted: none of " + scans + " was in trouble." + uncertainEnd(statistics),
+      ""};
 }
 
 /** Further problems. */
@@ -143,6 +158,9 @@ RunVerdict verdictOf(const RunSummary& run)
                        : statistics.health().hasNoMap() ? withoutMap()
                                                         : ofHealth(statistics);
   const std::vector<std::string> problems = furtherProblems(run);
+  if (verdict.tone != "good")
+    for (const std::string& loss : lossSentences(run))
+      verdict.details = paragraph(htmlText(loss + ".")) + verdict.details;
   if (problems.empty()) return verdict;
   if (verdict.tone == "good")
   {

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/matching/degeneracy.h>
+#include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/run/run_statistics.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +25,13 @@ double quantile(std::vector<float>& values, double fraction)
   const auto rank = static_cast<std::ptrdiff_t>(std::lround(fraction * last));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return static_cast<double>(values[static_cast<std::size_t>(rank)]);
+}
+
+/** Along the most uncertain axis. */
+double largestStd(const FilterState& state, StateBlock block)
+{
+  const Mat3 P = state.P.block<3, 3>(block, block);
+  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat3>(P).eigenvalues()[2]));
 }
 
 PointTotals plus(PointTotals sum, const ScanStatistics& scan)
@@ -57,6 +67,9 @@ void RunStatistics::add(const ScanResult& result)
   points_ = plus(points_, result.statistics);
   health_.add(result);
   compute_ms_ += result.milliseconds.total;
+  const auto scan_ms = static_cast<float>(result.milliseconds.total);
+  longest_scan_ms_ = std::max(longest_scan_ms_, scan_ms);
+  if (result.status != ScanStatus::Initializing) scan_ms_.push_back(scan_ms);
   if (hasPose(result.status)) addPose(result);
   // Matches of a search for the start say nothing about the run.
   if (result.status != ScanStatus::Initializing && result.statistics.constraints.unconstrained > 0)
@@ -92,7 +105,6 @@ void RunStatistics::addPose(const ScanResult& result)
   const Vec3& position = result.filter.x.p;
   if (last_position_) path_length_ += (position - *last_position_).norm();
   last_position_ = position;
-  scan_ms_.push_back(static_cast<float>(result.milliseconds.total));
 }
 
 std::size_t RunStatistics::count(ScanStatus status) const
@@ -126,13 +138,13 @@ double RunStatistics::duration() const
 
 ScanTimeSummary RunStatistics::scanTimes() const
 {
-  if (scan_ms_.empty()) return {};
-  std::vector<float> ms = scan_ms_;
   ScanTimeSummary times;
+  times.max = static_cast<double>(longest_scan_ms_);
+  if (scan_ms_.empty()) return times;
+  std::vector<float> ms = scan_ms_;
   times.mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
   times.median = quantile(ms, 0.5);
   times.p99 = quantile(ms, 0.99);
-  times.max = quantile(ms, 1.0);
   return times;
 }
 
@@ -157,6 +169,19 @@ std::string scanCountsText(const RunStatistics& statistics)
   if (const std::size_t missing = statistics.missingScans(); missing > 0)
     text += "; " + std::to_string(missing) + " missing in between";
   return text;
+}
+
+double RunStatistics::endPositionStd() const
+{
+  return last_state_ ? largestStd(*last_state_, kPosition) : 0.0;
+}
+
+std::string endUncertaintyText(const RunStatistics& statistics)
+{
+  const auto& end = statistics.lastState();
+  if (!end) return {};
+  return fixedText(largestStd(*end, kPosition), 3) + " m, " +
+         fixedText(kDegPerRad * largestStd(*end, kAttitude), 2) + " deg (1 sigma)";
 }
 
 std::string scanTimesText(const ScanTimeSummary& times)

@@ -18,6 +18,46 @@ constexpr std::array<std::string_view, 7> kNoLoss = {
     "other_sensors",        "scans_skipped", "scans_with_synthetic_point_times",
     "points_without_return"};  // a beam into the sky has none
 
+/** A reason for data to be dropped. */
+struct LossReason
+{
+  std::string_view count;
+  const char* words;
+};
+
+constexpr std::array<LossReason, 7> kImuLosses = {
+    {{"imu_not_finite", "they hold values that are not finite"},
+     {"imu_bad_stamp", "their stamps are no times"},
+     {"imu_without_stamp", "they have no stamp"},
+     {"imu_duplicate", "their stamps repeat"},
+     {"imu_out_of_order", "their stamps are out of order"},
+     {"imu_without_acceleration", "they have no acceleration"},
+     {"imu_without_angular_rate", "they have no angular rate"}}};
+constexpr std::array<LossReason, 4> kScanLosses = {
+    {{"scans_out_of_order", "their stamps repeat, or are out of order"},
+     {"scans_bad_stamp", "their stamps are no times"},
+     {"scans_without_stamp", "they have no stamp"},
+     {"scans_unreadable", "they cannot be read"}}};
+
+std::size_t countOf(const RunSummary& run, std::string_view name)
+{
+  for (const NamedCount& count : run.input_counts)
+    if (count.name == name) return count.count;
+  return 0;
+}
+
+/** Samples or scans of which more than half were dropped for one reason. */
+template <std::size_t Count>
+void addLoss(
+    const RunSummary& run, std::string_view total, const char* what,
+    const std::array<LossReason, Count>& reasons, std::vector<std::string>& sentences)
+{
+  for (const LossReason& reason : reasons)
+    if (const std::size_t lost = countOf(run, reason.count); 2 * lost > countOf(run, total))
+      sentences.push_back(
+          std::to_string(lost) + " " + what + " were dropped: " + std::string(reason.words));
+}
+
 struct StatusRow
 {
   ExitStatus status;
@@ -89,6 +129,14 @@ std::vector<NamedCount> losses(const RunSummary& run)
     if (count.count > 0 && std::find(kNoLoss.begin(), kNoLoss.end(), count.name) == kNoLoss.end())
       lost.push_back(count);
   return lost;
+}
+
+std::vector<std::string> lossSentences(const RunSummary& run)
+{
+  std::vector<std::string> sentences;
+  addLoss(run, "imu_samples", "inertial samples", kImuLosses, sentences);
+  addLoss(run, "scans", "scans", kScanLosses, sentences);
+  return sentences;
 }
 
 double realTimeFactor(const RunSummary& summary)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <fastlio/math/so3.h>
+#include <fastlio/run/run_health.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,14 +28,21 @@ class BoundedPath
    * break. */
   [[nodiscard]] std::vector<Vec3> positions() const;
 
+  /** Those within the stretches alone, with a break between two stretches. */
+  [[nodiscard]] std::vector<Vec3> positionsWithin(
+      const std::vector<UntrustedStretch>& stretches) const;
+
  private:
   struct Place
   {
+    std::int64_t stamp_ns;
     Vec3 position;
     bool is_after_gap;
   };
 
   void leaveOutEverySecond();
+  /** The path with the last position. */
+  [[nodiscard]] std::vector<Place> places() const;
 
   std::size_t most_;
   double gap_s_;

@@ -58,6 +58,9 @@ struct RunSummary
 /** Counts of dropped data, by the input and by the limits of range; without zeros. */
 [[nodiscard]] std::vector<NamedCount> losses(const RunSummary& run);
 
+/** Of a sensor that lost more than half of its data for one reason, a sentence with that reason. */
+[[nodiscard]] std::vector<std::string> lossSentences(const RunSummary& run);
+
 /** There is no pose, the pose was lost, or there is no map. */
 [[nodiscard]] bool isLost(const RunStatistics& statistics);
 
