@@ -28,7 +28,7 @@ class ReportExporter : public Exporter
 
   std::vector<OutputFile> finish(const RunEnd& end) override
   {
-    MapViews views = mapViewsOf(series_, end.map);
+    MapViews views = mapViewsOf(series_, end.summary.statistics.health().untrusted(), end.map);
     if (!end.map_problem.empty()) views.problem = end.map_problem;
     file_.write(reportPage({end.summary, series_, std::move(views), comparison_.findings()}));
     return {file_.commit()};

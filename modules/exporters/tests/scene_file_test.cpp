@@ -146,6 +146,23 @@ TEST(BoundedPath, BreaksWhereThereIsNoPoseForLong)
 }
 
 /** Whatever is left out: no line is drawn across the time without poses. */
+TEST(BoundedPath, GivesStretchesByThemselves)
+{
+  BoundedPath path(100, 1.0);
+  for (int i = 0; i <= 20; ++i)
+    path.add(i * 100'000'000LL, Vec3(i, 0.0, 0.0));
+  UntrustedStretch first, second;
+  first.begin_ns = 300'000'000;
+  first.end_ns = 500'000'000;
+  second.begin_ns = 1'900'000'000;
+  second.end_ns = 5'000'000'000;
+  std::vector<double> along;
+  for (const Vec3& p : path.positionsWithin({first, second}))
+    along.push_back(p.allFinite() ? p.x() : -1.0);
+  EXPECT_EQ(along, (std::vector<double>{3, 4, 5, -1, 19, 20}));
+  EXPECT_TRUE(path.positionsWithin({}).empty());
+}
+
 TEST(BoundedPath, StillBreaksWhereALongPathIsThinned)
 {
   for (int gap_after = 1; gap_after < 500; ++gap_after)

@@ -51,7 +51,8 @@ std::string fewMatches(
 std::string foundAgain(const PoseSearchResult& search)
 {
   return mrpt::format(
-      "the pose is found again in the map: %.0f %% of the points match, %zu places were tried",
+      "the pose is found again in the map: %.0f %% of the points match; places that were tried: "
+      "%zu",
       100.0 * search.best->inlier_ratio, search.candidates);
 }
 

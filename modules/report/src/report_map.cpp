@@ -257,11 +257,16 @@ MapViews mapViewsOf(const MapOverlay& overlay, const OutputMap& map)
   return views;
 }
 
-MapViews mapViewsOf(const ReportSeries& series, const OutputMap& map)
+MapViews mapViewsOf(
+    const ReportSeries& series, const std::vector<UntrustedStretch>& untrusted,
+    const OutputMap& map)
 {
-  const std::vector<Vec3> path = series.path();
+  constexpr double kWide = 3.0;  // it covers the path [px]
+  const std::vector<Vec3> path = series.path(), unreliable = series.pathWithin(untrusted);
   MapOverlay overlay;
   overlay.lines = {{"path", "var(--path)", path}};
+  if (!unreliable.empty())
+    overlay.lines.push_back({"not to rely on", "var(--bad)", unreliable, kWide});
   if (!path.empty()) overlay.marks = {{"start", "var(--path)", path.front()}};
   MapViews views = mapViewsOf(overlay, map);
   views.top.series.push_back(openBars(series, map.origin(), *views.top.x_range));

@@ -54,8 +54,11 @@ struct MapViews
 /** Draws at most one cell per few pixels, whatever the size of the map; reads the map twice. */
 [[nodiscard]] MapViews mapViewsOf(const MapOverlay& overlay, const OutputMap& map);
 
-/** The same of a run: its path, and the directions that its scans left open. */
-[[nodiscard]] MapViews mapViewsOf(const ReportSeries& series, const OutputMap& map);
+/** The same of a run: its path, the stretches of it not to rely on, and the directions that its
+ * scans left open. */
+[[nodiscard]] MapViews mapViewsOf(
+    const ReportSeries& series, const std::vector<UntrustedStretch>& untrusted,
+    const OutputMap& map);
 
 /** The views as figures of a page, as HTML. */
 [[nodiscard]] std::string mapFigures(const MapViews& views);

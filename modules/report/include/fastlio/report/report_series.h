@@ -73,6 +73,10 @@ class ReportSeries
   [[nodiscard]] const std::vector<ReportBin>& bins() const { return bins_; }
   /** Positions of the body: BoundedPath::positions(). */
   [[nodiscard]] std::vector<Vec3> path() const { return path_.positions(); }
+  [[nodiscard]] std::vector<Vec3> pathWithin(const std::vector<UntrustedStretch>& stretches) const
+  {
+    return path_.positionsWithin(stretches);
+  }
   [[nodiscard]] std::int64_t beginNs() const { return begin_ns_; }
 
  private:
