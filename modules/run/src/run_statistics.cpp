@@ -54,6 +54,25 @@ std::string machineName(ScanStatus status)
   return name;
 }
 
+void ScanTimes::add(double ms, bool started)
+{
+  total_ += ms;
+  longest_ = std::max(longest_, ms);
+  if (started) started_.push_back(static_cast<float>(ms));
+}
+
+ScanTimeSummary ScanTimes::summary() const
+{
+  ScanTimeSummary times;
+  times.max = longest_;
+  if (started_.empty()) return times;
+  std::vector<float> ms = started_;
+  times.mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
+  times.median = quantile(ms, 0.5);
+  times.p99 = quantile(ms, 0.99);
+  return times;
+}
+
 void RunStatistics::add(const ScanResult& result)
 {
   const Trouble trouble{scans_, result.stamp_ns, result.status, result.message};
@@ -66,10 +85,7 @@ void RunStatistics::add(const ScanResult& result)
   ++counts_.at(static_cast<std::size_t>(result.status));
   points_ = plus(points_, result.statistics);
   health_.add(result);
-  compute_ms_ += result.milliseconds.total;
-  const auto scan_ms = static_cast<float>(result.milliseconds.total);
-  longest_scan_ms_ = std::max(longest_scan_ms_, scan_ms);
-  if (result.status != ScanStatus::Initializing) scan_ms_.push_back(scan_ms);
+  times_.add(result.milliseconds.total, result.status != ScanStatus::Initializing);
   if (hasPose(result.status)) addPose(result);
   // Matches of a search for the start say nothing about the run.
   if (result.status != ScanStatus::Initializing && result.statistics.constraints.unconstrained > 0)
@@ -128,24 +144,15 @@ std::size_t RunStatistics::missingScans() const
 
 std::size_t RunStatistics::poses() const
 {
-  return scan_ms_.size();
+  std::size_t poses = 0;
+  for (std::size_t i = 0; i < kScanStatusCount; ++i)
+    if (hasPose(static_cast<ScanStatus>(i))) poses += counts_.at(i);
+  return poses;
 }
 
 double RunStatistics::duration() const
 {
   return toSeconds(end_ns_ - begin_ns_);
-}
-
-ScanTimeSummary RunStatistics::scanTimes() const
-{
-  ScanTimeSummary times;
-  times.max = static_cast<double>(longest_scan_ms_);
-  if (scan_ms_.empty()) return times;
-  std::vector<float> ms = scan_ms_;
-  times.mean = std::accumulate(ms.begin(), ms.end(), 0.0) / static_cast<double>(ms.size());
-  times.median = quantile(ms, 0.5);
-  times.p99 = quantile(ms, 0.99);
-  return times;
 }
 
 std::optional<Trouble> RunStatistics::firstTrouble() const

@@ -38,6 +38,20 @@ struct ScanTimeSummary
   double max = 0;  //!< over all scans: the search for a start may take longest
 };
 
+/** Milliseconds of each scan. */
+class ScanTimes
+{
+ public:
+  /** \param started from the start on */
+  void add(double ms, bool started);
+  [[nodiscard]] ScanTimeSummary summary() const;
+  [[nodiscard]] double total() const { return total_; }
+
+ private:
+  std::vector<float> started_;  //!< 35 MB for a day and a night at 100 Hz
+  double longest_ = 0.0, total_ = 0.0;
+};
+
 /** Sums of the per-scan point counts. */
 struct PointTotals
 {
@@ -77,9 +91,9 @@ class RunStatistics
   [[nodiscard]] std::int64_t beginNs() const { return begin_ns_; }
   [[nodiscard]] std::int64_t endNs() const { return end_ns_; }
   [[nodiscard]] const PointTotals& points() const { return points_; }
-  [[nodiscard]] ScanTimeSummary scanTimes() const;
+  [[nodiscard]] ScanTimeSummary scanTimes() const { return times_.summary(); }
   /** Sum of the computation of all scans [s]. */
-  [[nodiscard]] double computeSeconds() const { return compute_ms_ * 1e-3; }
+  [[nodiscard]] double computeSeconds() const { return times_.total() * 1e-3; }
   /** The first scan that was predicted only or diverged; without any pose, why there is none. */
   [[nodiscard]] std::optional<Trouble> firstTrouble() const;
   /** The first kMaxTroubles scans that were predicted only or diverged. */
@@ -110,10 +124,8 @@ class RunStatistics
   DegenerateDirections open_;
   RunHealth health_;
   double path_length_ = 0;
-  double compute_ms_ = 0;
+  ScanTimes times_;
   std::vector<float> intervals_s_;  //!< between the ends of scans
-  std::vector<float> scan_ms_;      //!< from the start on: 35 MB for a day and a night at 100 Hz
-  float longest_scan_ms_ = 0.0F;
   PointTotals points_;
   std::vector<Trouble> troubles_;
   std::optional<Trouble> not_initialized_;
