@@ -8,13 +8,13 @@ namespace fastlio
 std::string reportStyle()
 {
   return R"(:root{color-scheme:light dark;--paper:#ffffff;--card:#f6f7f9;--ink:#1b1f24;--soft:#5b6570;
---line:#d5dae0;--grid:#e3e7eb;--good:#1a7f4b;--warn:#b26a00;--bad:#c0322b;--path:#111418;
+--line:#d5dae0;--grid:#e3e7eb;--good:#1a7f4b;--warn:#b26a00;--bad:#c0322b;--path:#111418;--untrusted:#b5107d;
 --s1:#1f6fc4;--s2:#c2410c;--s3:#15803d;--s4:#8e44ad;--s5:#b8860b;--s6:#0e8a92;
 --c-none:#888888;--c-starting:#8a94a0;--c-lost:#c0322b;--c-no_match:#e2572b;--c-few_matches:#e09a1a;
 --c-large_residual:#b03a8c;--c-degenerate_direction:#7a52c7;--c-inertial_data:#1d7fd1;
 --c-bias:#0e9aa7;--c-scan_timing:#8d6e2f;--c-motion_disagreement:#4f8f2f}
 @media (prefers-color-scheme:dark){:root{--paper:#14171a;--card:#1d2125;--ink:#e6e9ec;--soft:#9aa5b0;
---line:#3a424a;--grid:#2b3137;--good:#4cc38a;--warn:#f0b054;--bad:#ff7b72;--path:#ffffff;
+--line:#3a424a;--grid:#2b3137;--good:#4cc38a;--warn:#f0b054;--bad:#ff7b72;--path:#ffffff;--untrusted:#ff6ec7;
 --s1:#5fa8f5;--s2:#f59057;--s3:#57c785;--s4:#c79bea;--s5:#e3bf4f;--s6:#4cc4cc}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}

@@ -266,7 +266,7 @@ MapViews mapViewsOf(
   MapOverlay overlay;
   overlay.lines = {{"path", "var(--path)", path}};
   if (!unreliable.empty())
-    overlay.lines.push_back({"not to rely on", "var(--bad)", unreliable, kWide});
+    overlay.lines.push_back({"not to rely on", "var(--untrusted)", unreliable, kWide});
   if (!path.empty()) overlay.marks = {{"start", "var(--path)", path.front()}};
   MapViews views = mapViewsOf(overlay, map);
   views.top.series.push_back(openBars(series, map.origin(), *views.top.x_range));

@@ -158,20 +158,19 @@ RunVerdict verdictOf(const RunSummary& run)
                        : statistics.health().hasNoMap() ? withoutMap()
                                                         : ofHealth(statistics);
   const std::vector<std::string> problems = furtherProblems(run);
-  if (verdict.tone != "good")
-    for (const std::string& loss : lossSentences(run))
-      verdict.details = paragraph(htmlText(loss + ".")) + verdict.details;
-  if (problems.empty()) return verdict;
-  if (verdict.tone == "good")
-  {
-    verdict.tone = "warn";
-    verdict.headline = run.interrupted ? "The run was interrupted. What there is can be trusted."
-                                       : "The run is not complete. What there is can be trusted.";
-  }
   std::string text;
   for (const std::string& problem : problems)
     text += paragraph(htmlText(problem));
+  if (verdict.tone != "good")
+    for (const std::string& loss : lossSentences(run))
+      text += paragraph(htmlText(loss + "."));
   verdict.details = text + verdict.details;
+  if (verdict.tone != "good" && !run.diagnostics.empty())
+    verdict.details += paragraph("See also the <a href=\"#diagnostics\">diagnostics</a> below.");
+  if (problems.empty() || verdict.tone != "good") return verdict;
+  verdict.tone = "warn";
+  verdict.headline = run.interrupted ? "The run was interrupted. What there is can be trusted."
+                                     : "The run is not complete. What there is can be trusted.";
   return verdict;
 }
 

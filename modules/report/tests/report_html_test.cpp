@@ -70,6 +70,17 @@ TEST(ReportHtml, ABadStretchIsNamedWithItsFirstSecondAndWhatToTry)
   EXPECT_TRUE(has(html, adviceOf(HealthCause::NoMatch).remedy));
   EXPECT_TRUE(has(html, "<a href=\"#no_match\">"));
   EXPECT_TRUE(has(html, "docs/troubleshooting.md#no_match"));
+  EXPECT_TRUE(has(html, "not to rely on</span>")) << "the path in the map";
+  EXPECT_FALSE(has(reportOf(walk(50)), "not to rely on</span>"));
+  EXPECT_FALSE(has(html, "uncertain by"));
+}
+
+TEST(ReportHtml, AnUncertainEndIsInTheHeadline)
+{
+  auto scans = walk(20);
+  scans.back().filter.P(kPosition, kPosition) = 100.0;
+  EXPECT_TRUE(has(reportOf(scans), "The place of its end is uncertain by 10.0 m."))
+      << reportOf(scans);
 }
 
 TEST(ReportHtml, TheLongestStretchIsExplainedAfterAnEarlierTrouble)
