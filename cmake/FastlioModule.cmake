@@ -92,6 +92,8 @@ endfunction()
 # Sanitizers slow programs down by a factor of ten or so; what they need in the environment is in the test
 # presets.
 set(FASTLIO_TEST_TIMEOUT 600)
+# The cost of tests that take a minute: CTest starts them first, so that no core waits for them at the end.
+set(FASTLIO_LONG_TEST 100)
 if(MRPT_FASTLIO_SANITIZE)
   set(FASTLIO_TEST_TIMEOUT 3600)
 endif()
