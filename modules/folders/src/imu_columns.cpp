@@ -3,6 +3,8 @@
 
 #include "imu_columns.h"
 
+#include <fastlio/math/angles.h>
+#include <fastlio/math/gravity.h>
 #include <fastlio/math/time.h>
 
 #include <algorithm>
@@ -102,15 +104,14 @@ struct ValueUnit
   const char* word;
   double si;
 };
-constexpr double kDegree = 3.14159265358979323846 / 180.0, kStandardGravity = 9.80665;
 constexpr std::array<ValueUnit, 11> kValueUnits{{
-    {"degs", kDegree},
-    {"degs1", kDegree},
-    {"degsec", kDegree},
-    {"degpersec", kDegree},
-    {"degreess", kDegree},
-    {"dps", kDegree},
-    {"mdps", 1e-3 * kDegree},
+    {"degs", kRadPerDeg},
+    {"degs1", kRadPerDeg},
+    {"degsec", kRadPerDeg},
+    {"degpersec", kRadPerDeg},
+    {"degreess", kRadPerDeg},
+    {"dps", kRadPerDeg},
+    {"mdps", 1e-3 * kRadPerDeg},
     {"mrads", 1e-3},
     {"g", kStandardGravity},
     {"mg", 1e-3 * kStandardGravity},
