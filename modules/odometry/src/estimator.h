@@ -130,6 +130,8 @@ class Estimator
   const DeskewedScan& deskew(const LidarScan& scan, std::int64_t end_ns, const NavState& motion);
   [[nodiscard]] MapSearchResult matchWithMap(const Work& work);
   [[nodiscard]] MapSearchResult trackOrSearch(const Work& work);
+  [[nodiscard]] MapSearchResult searchOrWait(
+      const DeskewedScan& scan, const FilterState& predicted, std::int64_t end_ns);
   [[nodiscard]] MatchResult matchPrediction(const Work& work);
   [[nodiscard]] MatchResult alongOpenDirections(MatchResult match, const Work& work);
   /** \param start the prediction, more uncertain than the filter has it */

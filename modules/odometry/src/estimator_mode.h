@@ -6,6 +6,7 @@
 
 #include <fastlio/initialization/motion_window.h>
 #include <fastlio/localmap/outage_search.h>
+#include <fastlio/matching/pose_search.h>
 #include <fastlio/math/pose.h>
 
 #include <cstdint>
@@ -21,6 +22,13 @@ struct Initializing
   std::optional<Pose> T_map_imu;  //!< about where the run begins in a given map
 };
 
+/** A search of the map that found nothing: the next one waits. */
+struct SearchPause
+{
+  std::int64_t until_ns = 0;
+  std::optional<PoseSearchResult> last;  //!< what it said
+};
+
 /** What every mode of a running filter knows. */
 struct FilterRun
 {
@@ -29,6 +37,7 @@ struct FilterRun
   bool consistent = true;                     //!< the latest match was as usual with this map
   bool trusted = true;                        //!< the latest scan left a pose to be believed
   std::optional<MotionWindow> motion_window;  //!< after a start in motion
+  SearchPause search_pause;
 
   /** Is a scan that ends then one of those from which a start in motion was computed? */
   [[nodiscard]] bool startingAt(std::int64_t end_ns) const

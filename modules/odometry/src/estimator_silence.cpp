@@ -68,8 +68,9 @@ MapSearchResult Estimator::searchAfterOutage(const Work& work)
   const FilterState state = outage.withVelocity(scan, work.predicted.state, work.end_ns, matcher_);
   if (outage.knowsVelocity() && !knew) deskew(work.scan, work.end_ns, state.x);
   const MapSearch search(options_, matcher_, scan, map_);
-  MapSearchResult result = outage.measuresVelocity(work.end_ns) ? search.postponed(state)
-                                                                : search.aroundPrediction(state);
+  MapSearchResult result = outage.measuresVelocity(work.end_ns)
+                               ? search.postponed(state)
+                               : searchOrWait(scan, state, work.end_ns);
   const bool over = result.found || outage.isOver(work.end_ns);
   if (over && !result.found && outage.knowsVelocity() && tiltStd(state) < kKnownTilt)
   {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 
 using namespace fastlio;
@@ -99,6 +100,34 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
   const WorstPoseErrors worst = worstFrom(results, recording, 7.5);
   EXPECT_LT(worst.position, 0.03);
   EXPECT_LT(worst.attitude, 0.01);
+}
+
+/** What a search said of the best place; empty: there was none. */
+std::string searchIn(const std::string& message)
+{
+  const std::size_t begin = message.find("mean z^2/r");
+  return begin == std::string::npos ? std::string() : message.substr(begin);
+}
+
+TEST(OdometryRecovery, ASearchWithoutHopeWaitsBeforeItIsRepeated)
+{
+  RoomRecording recording = roomForRecovery();
+  recording.scans.erase(recording.scans.begin() + 30, recording.scans.begin() + 60);
+  for (std::size_t k = 30; k < recording.scans.size(); ++k)  // another room
+    for (float& x : recording.scans[k].points.x)
+      x *= 1.8F;
+  std::size_t scans = 0;
+  std::set<std::string> searches;
+  OdometryOptions parameters = roomParameters();
+  parameters.imu.noise.accel_noise_density *= 400.0;  // many places are possible
+  for (const ScanResult& result : runInOrder(parameters, recording))
+    if (const std::string search = searchIn(result.message); !search.empty())
+    {
+      ++scans;
+      searches.insert(search);
+    }
+  EXPECT_GE(searches.size(), 2U);
+  EXPECT_LE(searches.size() + 5, scans) << "scans between searches say what the last one said";
 }
 
 TEST(OdometryRecovery, APoseThatIsLostIsGivenUpAndFoundAgain)
