@@ -112,13 +112,6 @@ std::string reportPageOf(const std::vector<OutputFile>& files)
   return {};
 }
 
-std::size_t countOf(const RunSummary& run, const std::string& name)
-{
-  for (const NamedCount& count : run.input_counts)
-    if (count.name == name) return count.count;
-  return 0;
-}
-
 std::string noEchoText(std::size_t without, std::size_t points)
 {
   return std::to_string(without) + " of " + std::to_string(without + points) +
@@ -128,22 +121,23 @@ std::string noEchoText(std::size_t without, std::size_t points)
 /** Of the scans that were read, none was left after those of --skip-first-n. */
 bool allAreSkipped(const RunSummary& run)
 {
-  const std::size_t dropped = countOf(run, "scans_without_imu") + countOf(run, "scans_empty") +
-                              countOf(run, "scans_out_of_order") + countOf(run, "scans_bad_stamp");
-  return countOf(run, "scans_skipped") > 0 && dropped == 0;
+  const std::size_t dropped =
+      inputCount(run, "scans_without_imu") + inputCount(run, "scans_empty") +
+      inputCount(run, "scans_out_of_order") + inputCount(run, "scans_bad_stamp");
+  return inputCount(run, "scans_skipped") > 0 && dropped == 0;
 }
 
 /** Why no scan came to the odometry. */
 std::string whyNoScan(const RunSummary& run)
 {
   if (allAreSkipped(run))
-    return "--skip-first-n leaves out all " + std::to_string(countOf(run, "scans_skipped")) +
+    return "--skip-first-n leaves out all " + std::to_string(inputCount(run, "scans_skipped")) +
            " scans of the recording";
-  const std::size_t empty = countOf(run, "scans_empty");
-  if (empty > 0 && empty == countOf(run, "scans"))
+  const std::size_t empty = inputCount(run, "scans_empty");
+  if (empty > 0 && empty == inputCount(run, "scans"))
     return "none of the " + std::to_string(empty) + " scans has a point that can be used: " +
-           std::to_string(countOf(run, "points_without_return")) + " beams without a return, " +
-           std::to_string(countOf(run, "points_invalid")) +
+           std::to_string(inputCount(run, "points_without_return")) + " beams without a return, " +
+           std::to_string(inputCount(run, "points_invalid")) +
            " points that are not finite; was the view of the LiDAR covered, or did it not turn?";
   return "no IMU samples cover a scan; check that both sensors recorded at the same time and that "
          "their clocks agree";
@@ -172,8 +166,10 @@ std::vector<std::string> troubleSentences(const RunSummary& summary)
   if (!summary.failure.empty()) sentences.push_back(summary.failure);
   const auto& statistics = summary.statistics;
   if (exitStatusOf(summary) != ExitStatus::Ok)
-    for (const std::string& loss : lossSentences(summary))
-      sentences.push_back(loss);
+  {
+    const auto lost = lossSentences(summary);
+    sentences.insert(sentences.end(), lost.begin(), lost.end());
+  }
   if (isLost(statistics)) sentences.push_back(whyOdometryFailed(summary));
   if (exitStatusOf(summary) == ExitStatus::Degraded)
     sentences.emplace_back(
@@ -191,8 +187,8 @@ std::string reportText(const RunSummary& summary)
   text += line("Path", pathText(statistics));
   text += line("Per scan", scanTimesText(statistics.scanTimes()));
   text += line("Speed", speedText(summary));
-  if (const std::size_t without = countOf(summary, "points_without_return"))
-    text += line("No echo", noEchoText(without, countOf(summary, "points")));
+  if (const std::size_t without = inputCount(summary, "points_without_return"))
+    text += line("No echo", noEchoText(without, inputCount(summary, "points")));
   if (!lost.empty()) text += line("Dropped", countsText(lost));
   if (statistics.degenerateDirections().scans > 0)
     text += line("Degenerate", degenerateText(statistics.degenerateDirections()));

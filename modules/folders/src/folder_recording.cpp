@@ -249,9 +249,9 @@ bool isCloudFolder(const std::string& path)
 {
   const std::string clouds = cloudsOf(path);
   if (clouds.empty()) return false;
-  const auto files = filesIn(clouds, {".pcd", ".bin"});
-  const NamedByTime named = namedByTime(files);
-  return !timesOf(path, clouds).empty() || named.clouds.size() > named.others.size();
+  if (!timesOf(path, clouds).empty()) return true;
+  const NamedByTime named = namedByTime(filesIn(clouds, {".pcd", ".bin"}));
+  return named.clouds.size() > named.others.size();
 }
 
 std::unique_ptr<RecordingReader> openCloudFolder(const std::string& path)

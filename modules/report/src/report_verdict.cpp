@@ -110,14 +110,11 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "bad",
         "The odometry lost its pose: do not rely on " +
-            untrustedTime(stretches, statistics.duration()) + "." + uncertainEnd(statistics),
+            untrustedTime(stretches, statistics.duration()) + ".",
         details};
   if (!stretches.empty())
     return {
-        "warn",
-        "Do not rely on " + untrustedTime(stretches, statistics.duration()) + "." +
-            uncertainEnd(statistics),
-        details};
+        "warn", "Do not rely on " + untrustedTime(stretches, statistics.duration()) + ".", details};
   const std::string scans = countText(health.scans()) + " scans";
   const std::size_t starting = statistics.count(ScanStatus::Initializing);
   if (static_cast<double>(starting) > kLongStart * static_cast<double>(statistics.scans()))
@@ -131,12 +128,9 @@ RunVerdict ofHealth(const RunStatistics& statistics)
     return {
         "good",
         "The run can be trusted: of " + scans + ", " + countText(health.troubled()) +
-            " were in trouble, none of them for long." + uncertainEnd(statistics),
+            " were in trouble, none of them for long.",
         details};
-  return {
-      "good",
-      "The run can be trusted: none of " + scans + " was in trouble." + uncertainEnd(statistics),
-      ""};
+  return {"good", "The run can be trusted: none of " + scans + " was in trouble.", ""};
 }
 
 /** Further problems. */
@@ -167,10 +161,13 @@ RunVerdict verdictOf(const RunSummary& run)
   verdict.details = text + verdict.details;
   if (verdict.tone != "good" && !run.diagnostics.empty())
     verdict.details += paragraph("See also the <a href=\"#diagnostics\">diagnostics</a> below.");
-  if (problems.empty() || verdict.tone != "good") return verdict;
-  verdict.tone = "warn";
-  verdict.headline = run.interrupted ? "The run was interrupted. What there is can be trusted."
-                                     : "The run is not complete. What there is can be trusted.";
+  if (!problems.empty() && verdict.tone == "good")
+  {
+    verdict.tone = "warn";
+    verdict.headline = run.interrupted ? "The run was interrupted. What there is can be trusted."
+                                       : "The run is not complete. What there is can be trusted.";
+  }
+  if (!statistics.health().hasNoMap()) verdict.headline += uncertainEnd(statistics);
   return verdict;
 }
 

@@ -3,12 +3,11 @@
 
 #include <fastlio/matching/degeneracy.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/time.h>
 #include <fastlio/options/number_text.h>
 #include <fastlio/run/pose_output.h>
 #include <fastlio/run/run_statistics.h>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +30,7 @@ double quantile(std::vector<float>& values, double fraction)
 double largestStd(const FilterState& state, StateBlock block)
 {
   const Mat3 P = state.P.block<3, 3>(block, block);
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat3>(P).eigenvalues()[2]));
+  return std::sqrt(std::max(0.0, symmetricEigensystem(P).values[2]));
 }
 
 PointTotals plus(PointTotals sum, const ScanStatistics& scan)

@@ -39,13 +39,6 @@ constexpr std::array<LossReason, 4> kScanLosses = {
      {"scans_without_stamp", "they have no stamp"},
      {"scans_unreadable", "they cannot be read"}}};
 
-std::size_t countOf(const RunSummary& run, std::string_view name)
-{
-  for (const NamedCount& count : run.input_counts)
-    if (count.name == name) return count.count;
-  return 0;
-}
-
 /** Samples or scans of which more than half were dropped for one reason. */
 template <std::size_t Count>
 void addLoss(
@@ -53,7 +46,7 @@ void addLoss(
     const std::array<LossReason, Count>& reasons, std::vector<std::string>& sentences)
 {
   for (const LossReason& reason : reasons)
-    if (const std::size_t lost = countOf(run, reason.count); 2 * lost > countOf(run, total))
+    if (const std::size_t lost = inputCount(run, reason.count); 2 * lost > inputCount(run, total))
       sentences.push_back(
           std::to_string(lost) + " " + what + " were dropped: " + std::string(reason.words));
 }
@@ -117,6 +110,13 @@ const char* wordsOf(ExitStatus status)
 ExitStatus graver(ExitStatus a, ExitStatus b)
 {
   return std::min(rowOf(a), rowOf(b))->status;
+}
+
+std::size_t inputCount(const RunSummary& run, std::string_view name)
+{
+  for (const NamedCount& count : run.input_counts)
+    if (count.name == name) return count.count;
+  return 0;
 }
 
 std::vector<NamedCount> losses(const RunSummary& run)

@@ -12,6 +12,7 @@
 #include <fastlio/survey/input_plan.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fastlio
@@ -54,6 +55,9 @@ struct RunSummary
   std::vector<std::string> output_problems;  //!< files that could not be written
   std::vector<OutputFile> outputs;           //!< files that are complete
 };
+
+/** The count of the input by its name; 0: there is none. */
+[[nodiscard]] std::size_t inputCount(const RunSummary& run, std::string_view name);
 
 /** Counts of dropped data, by the input and by the limits of range; without zeros. */
 [[nodiscard]] std::vector<NamedCount> losses(const RunSummary& run);
