@@ -139,7 +139,8 @@ void requireDistinctFiles(const std::vector<FileUse>& inputs, const std::vector<
     if (outputs[i].path == "-")
       throw std::invalid_argument(
           outputs[i].role +
-          ": '-' is no name of a file here; give './-' for a file of that name, or /dev/stdout");
+          ": '-' is no name of an output here; give './-' for one of that name. A file may also be "
+          "/dev/stdout");
     for (const FileUse& input : inputs)
       if (isSameFile(input.path, outputs[i].path))
         throw std::invalid_argument(
