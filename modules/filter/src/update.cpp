@@ -223,10 +223,14 @@ UpdateStep standardStep(
   return step;
 }
 
+double normalizedInnovation(const InformationSums& sums)
+{
+  return sums.weighted_squares / static_cast<double>(std::max<std::size_t>(sums.count, 1));
+}
+
 double normalizedInnovation(const UpdateResult& update)
 {
-  return update.last.weighted_squares /
-         static_cast<double>(std::max<std::size_t>(update.last.count, 1));
+  return normalizedInnovation(update.last);
 }
 
 // Eq. 15-20.

@@ -175,12 +175,11 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
 {
   const std::vector<Mat3> attitudes = headingsAround(predicted);
   MatchOptions pull_in = ordinaryMatching(options_);
-  MatchResult latest;
-  const auto match = [&](const FilterState& start, const DeskewedScan& scan, int iterations)
+  const auto match =
+      [&](const std::vector<PoseStart>& starts, const DeskewedScan& scan, int iterations)
   {
     pull_in.association_iterations = pull_in.limits.max_iterations = iterations;
-    latest = matcher_.match(scan, start, map_.matched(), pull_in);
-    return latest.update;
+    return matcher_.matchPoses(scan, starts, map_.matched(), pull_in);
   };
   PoseSearchLimits wanted;
   wanted.min_inlier_ratio = std::max(kFoundInlierRatio, kUsualPart * map_.usualInlierRatio());
@@ -197,7 +196,8 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
     const FilterState turned =
         carried ? turnedBy(headingBetween(predicted.x, found.R), predicted) : predicted;
     const MatchOptions ordinary = ordinaryMatching(options_);
-    latest = matcher_.match(scan_, correctedByPose(turned, found), map_.matched(), ordinary);
+    MatchResult latest =
+        matcher_.match(scan_, correctedByPose(turned, found), map_.matched(), ordinary);
     // Where the surroundings leave a motion open, the found pose determines neither it nor the
     // velocity there.
     if (latest.update.updated && latest.constraints.unconstrained > 0)
@@ -209,9 +209,7 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
     if (attitudes.size() > 1) poses.searched_heading_variance = std::pow(headingStd(predicted), 2);
     if (poses.accepted) return {std::move(latest), true, poses};
   }
-  // The matches that are handed over are those of the whole scan, not of the sample.
-  latest = matcher_.match(scan_, predicted, map_.matched(), ordinaryMatching(options_));
-  MapSearchResult refused = notFound(std::move(latest), predicted, {});
+  MapSearchResult refused = postponed(predicted);
   if (!map_.empty()) refused.poses = poses;
   return refused;
 }

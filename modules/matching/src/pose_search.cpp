@@ -38,12 +38,12 @@ constexpr StartWidth kPullIn{0.3, kWideAttitudeStd}, kNear{0.1, 0.03}, kFound{0.
 // this fraction of the best.
 constexpr double kExactRivalShare = 0.25;
 
-PoseCandidate candidateOf(const UpdateResult& update, std::size_t points)
+PoseCandidate candidateOf(const PoseMatch& match, std::size_t points)
 {
   PoseCandidate candidate;
-  candidate.T_world_imu = update.posterior.x.pose();
-  candidate.innovation = normalizedInnovation(update);
-  candidate.inlier_ratio = inlierRatio(update.last.count, points);
+  candidate.T_world_imu = match.T_world_imu;
+  candidate.innovation = normalizedInnovation(match.sums);
+  candidate.inlier_ratio = inlierRatio(match.sums.count, points);
   candidate.score = candidate.inlier_ratio / std::max(1.0, candidate.innovation);
   return candidate;
 }
@@ -92,18 +92,19 @@ std::vector<PoseCandidate> bestPlaces(const std::vector<PoseCandidate>& candidat
 /** Matches the whole scan, from wide to narrow. */
 PoseCandidate refined(
     PoseCandidate candidate, std::initializer_list<StartWidth> widths, const FilterState& predicted,
-    const DeskewedScan& scan, const MatchFromStart& match)
+    const DeskewedScan& scan, const MatchFromStarts& match)
 {
   for (const StartWidth& width : widths)
   {
-    const FilterState start = startAt(predicted, candidate.T_world_imu, width);
-    const UpdateResult update = match(start, scan, kScanIterations);
-    if (!update.updated)
+    const PoseMatch found =
+        match({poseStartAt(predicted, candidate.T_world_imu, width)}, scan, kScanIterations)
+            .front();
+    if (!found.updated)
     {
       candidate.score = 0.0;
       return candidate;
     }
-    candidate = candidateOf(update, scan.surfaces.size());
+    candidate = candidateOf(found, scan.surfaces.size());
   }
   return candidate;
 }
@@ -118,7 +119,7 @@ void sortByScore(std::vector<PoseCandidate>& places)
  * from the right place. \return places with matches, best first */
 std::vector<PoseCandidate> refinedPlaces(
     std::vector<PoseCandidate> candidates, const FilterState& predicted, const DeskewedScan& scan,
-    const MatchFromStart& match)
+    const MatchFromStarts& match)
 {
   std::stable_sort(candidates.begin(), candidates.end(), better);
   std::vector<PoseCandidate> places = bestPlaces(candidates);
@@ -198,17 +199,27 @@ CandidateGrid gridOf(const Vec3& std, double step, std::size_t most)
 }
 }  // namespace
 
+PoseStart poseStartAt(
+    const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width)
+{
+  return {
+      T_world_imu,
+      predicted.P.diagonal()
+          .segment<3>(kAttitude)
+          .cwiseMax(kLeastAttitudeStd * kLeastAttitudeStd)
+          .cwiseMin(width.attitude_std * width.attitude_std),
+      width.position_std * width.position_std};
+}
+
 FilterState startAt(const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width)
 {
+  const PoseStart pose = poseStartAt(predicted, T_world_imu, width);
   FilterState start = predicted;
   start.x.R = T_world_imu.R;
   start.x.p = T_world_imu.p;
   start.P.setZero();
-  start.P.diagonal().segment<3>(kAttitude) = predicted.P.diagonal()
-                                                 .segment<3>(kAttitude)
-                                                 .cwiseMax(kLeastAttitudeStd * kLeastAttitudeStd)
-                                                 .cwiseMin(width.attitude_std * width.attitude_std);
-  start.P.diagonal().segment<3>(kPosition).setConstant(width.position_std * width.position_std);
+  start.P.diagonal().segment<3>(kAttitude) = pose.attitude_variance;
+  start.P.diagonal().segment<3>(kPosition).setConstant(pose.position_variance);
   return start;
 }
 
@@ -230,7 +241,7 @@ CandidateGrid levelGrid(const FilterState& predicted, double height, std::size_t
 
 PoseSearchResult searchPose(
     const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
-    const PoseSearchLimits& limits, const MatchFromStart& match)
+    const PoseSearchLimits& limits, const MatchFromStarts& match)
 {
   PoseSearchResult result;
   result.searched_std = positionStd(predicted).maxCoeff();
@@ -241,15 +252,15 @@ PoseSearchResult searchPose(
   std::vector<PoseCandidate> candidates;
   const auto tryPlaces = [&](const CandidateGrid& grid)
   {
+    std::vector<PoseStart> starts;
+    starts.reserve(grid.offsets.size() * attitudes.size());
     for (const Vec3& offset : grid.offsets)
       for (const Mat3& R : attitudes)
-      {
-        ++result.candidates;
-        const FilterState start = startAt(
-            predicted, {R, predicted.x.p + offset}, {kStartStd * grid.step, kWideAttitudeStd});
-        const UpdateResult update = match(start, sample, kSampleIterations);
-        if (update.updated) candidates.push_back(candidateOf(update, sample.surfaces.size()));
-      }
+        starts.push_back(poseStartAt(
+            predicted, {R, predicted.x.p + offset}, {kStartStd * grid.step, kWideAttitudeStd}));
+    result.candidates += starts.size();
+    for (const PoseMatch& found : match(starts, sample, kSampleIterations))
+      if (found.updated) candidates.push_back(candidateOf(found, sample.surfaces.size()));
     result.complete = grid.complete;
     return refinedPlaces(candidates, predicted, scan, match);
   };

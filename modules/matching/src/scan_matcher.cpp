@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "residual_model.h"
 #include <fastlio/matching/point_to_line.h>
 #include <fastlio/matching/scan_matcher.h>
 #include <fastlio/math/stopwatch.h>
@@ -49,18 +50,18 @@ Mat3 priorOfGate(const Mat3& P)
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(P, Eigen::EigenvaluesOnly);
   return P + solver.eigenvalues().head<2>().sum() * Mat3::Identity();
 }
+}  // namespace
 
-ResidualModel residualModelOf(const MeasurementOptions& p, const Matrix6& predicted)
+ResidualModel residualModelOf(const MeasurementOptions& options, const Matrix6& predicted)
 {
   ResidualModel model;
-  model.range_variance = p.range_noise * p.range_noise;
+  model.range_variance = options.range_noise * options.range_noise;
   model.gate = kResidualGate;
   model.prior_position_covariance = priorOfGate(predicted.bottomRightCorner<3, 3>());
   model.prior_attitude_variance = predicted.topLeftCorner<3, 3>().trace();
   model.direction_variance = kDirectionStd * kDirectionStd;
   return model;
 }
-}  // namespace
 
 MatchOptions ordinaryMatching(const OdometryOptions& options)
 {
@@ -136,25 +137,31 @@ void ScanMatcher::findConstraints(
       call.options.at_start ? kSupportedPartAtStart : kSupportedPart);
 }
 
-// Eq. 12-14 at an iterate.
+// Eq. 12-14 at an iterate, without the directions that the scan does not constrain.
+InformationSums ScanMatcher::measure(const Pose& T_world_scan, int iteration, const Call& call)
+{
+  const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
+  const ResidualModel& model = call.result.model;
+  if (iteration < call.options.association_iterations) associate(T_world_scan, iteration, call);
+  measured_.measure(*workers_, T_world_scan, points, matches_, model);
+  InformationSums sums = measured_.sums();
+  addSums(sums, accumulateLines(T_world_scan, edges, edge_matches_, model, 0, edges.size()));
+  if (iteration == 0) findConstraints(T_world_scan.R, sums, call);
+  return constrainedSums(sums, call.result.constraints);
+}
+
 MeasurementEvaluation ScanMatcher::evaluate(
     const NavState& iterate, int iteration, const Call& call)
 {
   const CompensatedWith& compensation = call.scan.compensation;
-  const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
-  const ResidualModel& model = call.result.model;
   const Pose T_world_scan = scanPose(iterate, compensation);
-  if (iteration < call.options.association_iterations) associate(T_world_scan, iteration, call);
-  measured_.measure(*workers_, T_world_scan, points, matches_, model);
   MeasurementEvaluation evaluation;
-  evaluation.sums = measured_.sums();
-  addSums(
-      evaluation.sums, accumulateLines(T_world_scan, edges, edge_matches_, model, 0, edges.size()));
-  if (iteration == 0) findConstraints(T_world_scan.R, evaluation.sums, call);
+  evaluation.sums = measure(T_world_scan, iteration, call);
   const ScanConstraints& constraints = call.result.constraints;
-  evaluation.sums = constrainedSums(evaluation.sums, constraints);
   if (call.options.gain == GainForm::Standard)
   {
+    const BodyPoints &points = call.scan.surfaces, &edges = call.scan.edges;
+    const ResidualModel& model = call.result.model;
     evaluation.stacked = stack(T_world_scan, points, matches_, model);
     stackLines(T_world_scan, edges, edge_matches_, model, evaluation.stacked);
     for (Vector6& h : evaluation.stacked.h)
@@ -165,9 +172,7 @@ MeasurementEvaluation ScanMatcher::evaluate(
   return evaluation;
 }
 
-MatchResult ScanMatcher::match(
-    const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
-    const MatchOptions& options)
+void ScanMatcher::makeRoomFor(const DeskewedScan& scan)
 {
   const std::size_t points = scan.surfaces.size();
   world_.resize(points);
@@ -178,12 +183,20 @@ MatchResult ScanMatcher::match(
   // Which scans need these depends on what they see.
   makeRoom(chunk_noise_, Workers::chunks(points));
   strongest_planes_.reserve(points);
+}
+
+MatchResult ScanMatcher::match(
+    const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
+    const MatchOptions& options)
+{
+  makeRoomFor(scan);
   MatchResult result;
   const FilterState& start = options.start ? *options.start : predicted;
   result.model = residualModelOf(
       options.measurement, options.gate_factor * scanPoseCovariance(start, scan.compensation));
   result.model.direction_variance += options.map_attitude_variance;
-  const double shared = static_cast<double>(points) * options.deskew_std * options.deskew_std;
+  const double shared =
+      static_cast<double>(scan.surfaces.size()) * options.deskew_std * options.deskew_std;
   result.model.weight = result.model.range_variance / (result.model.range_variance + shared);
   result.matches = &matches_;
   result.measured = &measured_;

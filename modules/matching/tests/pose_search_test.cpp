@@ -36,23 +36,31 @@ struct Place
   Vec3 p;
   double inlier_ratio;
 };
-MatchFromStart matcherWith(const std::vector<Place>& places)
+MatchFromStarts matcherWith(const std::vector<Place>& places)
 {
-  return [places](const FilterState& start, const DeskewedScan& scan, int /*iterations*/)
+  const auto one = [places](const PoseStart& start, const DeskewedScan& scan)
   {
-    UpdateResult update;
-    update.posterior = start;
+    PoseMatch match;
+    match.T_world_imu = start.T_world_imu;
     for (const Place& place : places)
     {
-      if ((place.p - start.x.p).norm() > 0.5) continue;
-      update.updated = true;
-      update.posterior.x.p = place.p;
+      if ((place.p - start.T_world_imu.p).norm() > 0.5) continue;
+      match.updated = true;
+      match.T_world_imu.p = place.p;
       const double count = place.inlier_ratio * static_cast<double>(scan.surfaces.size());
-      update.last.count = static_cast<std::size_t>(count);
-      update.last.weighted_squares = static_cast<double>(update.last.count);
-      return update;
+      match.sums.count = static_cast<std::size_t>(count);
+      match.sums.weighted_squares = static_cast<double>(match.sums.count);
+      return match;
     }
-    return update;
+    return match;
+  };
+  return [one](const std::vector<PoseStart>& starts, const DeskewedScan& scan, int /*iterations*/)
+  {
+    std::vector<PoseMatch> matches;
+    matches.reserve(starts.size());
+    for (const PoseStart& start : starts)
+      matches.push_back(one(start, scan));
+    return matches;
   };
 }
 

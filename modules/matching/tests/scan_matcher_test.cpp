@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "random_matching.h"
+#include <fastlio/matching/pose_search.h>
 #include <fastlio/matching/scan_matcher.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
@@ -98,6 +99,78 @@ TEST(ScanMatcher, GroundFarAwayDoesNotOutweighAllElse)
   const NavState& x = result.update.posterior.x;
   EXPECT_LT((x.p - predicted.x.p).norm(), 0.002);
   EXPECT_LT(logSO3(x.R).norm(), 2e-4);
+}
+
+/** Starts around the pose that the scan was taken from, up to 0.3 m and 0.05 rad off. */
+std::vector<PoseStart> startsAround(const FilterState& predicted, int starts)
+{
+  Random random(7);
+  std::vector<PoseStart> all;
+  for (int i = 0; i < starts; ++i)
+    all.push_back(poseStartAt(
+        predicted, {expSO3(random.vector(0.05)), predicted.x.p + random.vector(0.3)}, {0.3, 0.1}));
+  return all;
+}
+
+FilterState uncertainPrediction()
+{
+  FilterState predicted;
+  predicted.x.p = Vec3(0.0, 0.0, kHeight);
+  predicted.P.diagonal().head<3>().setConstant(1e-2);
+  return predicted;
+}
+
+TEST(ScanMatcher, ThePoseAloneIsMatchedAsTheWholeStateIs)
+{
+  const FlatWorld world;
+  const EdgeMap edges;
+  const DeskewedScan scan = scanWithGroundFarAway();
+  const FilterState predicted = uncertainPrediction();
+  ScanMatcher matcher(std::make_shared<const Workers>(1));
+  for (const PoseStart& start : startsAround(predicted, 20))
+  {
+    const PoseMatch pose = matcher.matchPoses(scan, {start}, {world, edges}, {}).front();
+    const MatchResult whole =
+        matcher.match(scan, startAt(predicted, start.T_world_imu, {0.3, 0.1}), {world, edges}, {});
+    ASSERT_TRUE(pose.updated);
+    ASSERT_TRUE(whole.update.updated);
+    EXPECT_EQ(pose.sums.count, whole.update.last.count);
+    const Pose expected = whole.update.posterior.x.pose();
+    EXPECT_LT((pose.T_world_imu.p - expected.p).norm(), 1e-4);
+    EXPECT_LT(logSO3(pose.T_world_imu.R.transpose() * expected.R).norm(), 1e-4);
+  }
+}
+
+TEST(ScanMatcher, ManyStartsGiveTheSameOnAnyNumberOfThreads)
+{
+  const FlatWorld world;
+  const EdgeMap edges;
+  const DeskewedScan scan = scanWithGroundFarAway();
+  const FilterState predicted = uncertainPrediction();
+  const std::vector<PoseStart> starts = startsAround(predicted, 100);
+  ScanMatcher alone(std::make_shared<const Workers>(1)), four(std::make_shared<const Workers>(4));
+  const auto one_by_one = alone.matchPoses(scan, starts, {world, edges}, {});
+  const auto together = four.matchPoses(scan, starts, {world, edges}, {});
+  ASSERT_EQ(one_by_one.size(), starts.size());
+  ASSERT_EQ(together.size(), starts.size());
+  for (std::size_t i = 0; i < starts.size(); ++i)
+  {
+    EXPECT_EQ(one_by_one[i].T_world_imu.p, together[i].T_world_imu.p);
+    EXPECT_EQ(one_by_one[i].T_world_imu.R, together[i].T_world_imu.R);
+  }
+}
+
+TEST(ScanMatcher, AStartOfWhichTooLittleMatchesFindsNoPose)
+{
+  const FlatWorld world;
+  const EdgeMap edges;
+  DeskewedScan few;
+  for (int i = 0; i < 10; ++i)
+    addPoint(few.surfaces, {1.0 + i, 0.0, -kHeight});
+  const FilterState predicted = uncertainPrediction();
+  ScanMatcher matcher(std::make_shared<const Workers>(1));
+  EXPECT_FALSE(
+      matcher.matchPoses(few, startsAround(predicted, 1), {world, edges}, {}).front().updated);
 }
 }  // namespace
 }  // namespace fastlio

@@ -91,6 +91,7 @@ struct UpdateResult
 /** Mean of z^2/r at the last iterate: about 1 when the noise explains the residuals; 0 without
  * measurements. */
 [[nodiscard]] double normalizedInnovation(const UpdateResult& update);
+[[nodiscard]] double normalizedInnovation(const InformationSums& sums);
 
 /** Evaluates the measurements at an iterate; \a iteration counts from 0. */
 using MeasurementModel =

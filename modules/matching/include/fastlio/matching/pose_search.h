@@ -7,6 +7,7 @@
 
 #include <fastlio/filter/state.h>
 #include <fastlio/matching/match_result.h>
+#include <fastlio/matching/pose_match.h>
 
 #include <cstddef>
 #include <functional>
@@ -50,6 +51,10 @@ struct StartWidth
   double attitude_std;  //!< at most; else as uncertain as the prediction is [rad]
 };
 
+/** A start there, as uncertain in attitude as the prediction is, within limits. */
+[[nodiscard]] PoseStart poseStartAt(
+    const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width);
+
 /** The predicted motion at another pose, which is uncertain by so much and by nothing else. */
 [[nodiscard]] FilterState startAt(
     const FilterState& predicted, const Pose& T_world_imu, const StartWidth& width);
@@ -71,9 +76,9 @@ struct CandidateGrid
 [[nodiscard]] CandidateGrid levelGrid(
     const FilterState& predicted, double height, std::size_t most);
 
-/** Matches a scan from a start; so many iterations search the map anew. */
-using MatchFromStart =
-    std::function<UpdateResult(const FilterState& start, const DeskewedScan& scan, int iterations)>;
+/** Matches a scan from each of the starts; so many iterations search the map anew. */
+using MatchFromStarts = std::function<std::vector<PoseMatch>(
+    const std::vector<PoseStart>& starts, const DeskewedScan& scan, int iterations)>;
 
 /** A rival as good as this fraction of the best: nobody knows which of the two is right. */
 inline constexpr double kRivalShare = 0.8;
@@ -116,7 +121,7 @@ struct PoseSearchResult
  * \param attitudes that are tried at each place: R_world_imu */
 [[nodiscard]] PoseSearchResult searchPose(
     const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
-    const PoseSearchLimits& limits, const MatchFromStart& match);
+    const PoseSearchLimits& limits, const MatchFromStarts& match);
 
 /** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
  * and biases, too, as far as they made the error. The scan itself makes it exact afterwards.

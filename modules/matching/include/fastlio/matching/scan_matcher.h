@@ -13,6 +13,7 @@
 #include <fastlio/matching/match_result.h>
 #include <fastlio/matching/measured_scan.h>
 #include <fastlio/matching/point_to_plane.h>
+#include <fastlio/matching/pose_match.h>
 #include <fastlio/parallel/workers.h>
 
 #include <memory>
@@ -65,6 +66,13 @@ class ScanMatcher
       const DeskewedScan& scan, const FilterState& predicted, const MatchedMaps& maps,
       const MatchOptions& options);
 
+  /** The same where only the pose is uncertain, by so much at each of the starts: eq. 12-20 in six
+   * dimensions. The starts share the threads.
+   * \return one for each start, in their order */
+  [[nodiscard]] std::vector<PoseMatch> matchPoses(
+      const DeskewedScan& scan, const std::vector<PoseStart>& starts, const MatchedMaps& maps,
+      const MatchOptions& options);
+
  private:
   /** One call of match(). */
   struct Call
@@ -75,8 +83,13 @@ class ScanMatcher
     MatchResult& result;
   };
 
+  void makeRoomFor(const DeskewedScan& scan);
+  [[nodiscard]] PoseMatch matchPose(
+      const DeskewedScan& scan, const PoseStart& start, const MatchedMaps& maps,
+      const MatchOptions& options);
   [[nodiscard]] MeasurementEvaluation evaluate(
       const NavState& iterate, int iteration, const Call& call);
+  [[nodiscard]] InformationSums measure(const Pose& T_world_scan, int iteration, const Call& call);
   void associate(const Pose& T_world_scan, int iteration, const Call& call);
   void findConstraints(const Mat3& R_world_scan, const InformationSums& sums, const Call& call);
 
