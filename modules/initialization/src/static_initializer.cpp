@@ -3,10 +3,12 @@
 
 #include <fastlio/initialization/static_initializer.h>
 #include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/LU>
 #include <mrpt/core/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace fastlio
@@ -30,6 +32,12 @@ constexpr std::size_t kBlocks = 20, kReferenceBlocks = kBlocks / 2;
 constexpr double kDepartureSigmas = 7.0;
 constexpr double kSmallestDeparture = 1e-6;  // [rad/s], [m/s^2]: of signals without any noise
 
+// Where the means of blocks scatter by this factor more than those of white noise would, in
+// variance, the platform sways: noise alone does that in one of 150 cases.
+constexpr double kSwayFactor = 2.0;
+// A body that stands sways once in a second or slower: so long a time averages one sway out.
+constexpr double kSwayPeriod = 1.0;  // [s]
+
 /** Rate and specific force, averaged over a block. */
 using BlockMean = Eigen::Array<double, 6, 1>;
 
@@ -42,6 +50,58 @@ BlockMean meanOfBlock(const std::vector<ImuSample>& samples, std::size_t begin, 
     sum.tail<3>() += samples[i].accel.array();
   }
   return sum / static_cast<double>(length);
+}
+
+/** Means of the blocks of a window; none of a window that is too short. */
+std::vector<BlockMean> meansOfBlocks(const std::vector<ImuSample>& samples)
+{
+  const std::size_t length = samples.size() / kBlocks;
+  std::vector<BlockMean> means;
+  for (std::size_t block = 0; length > 0 && block < kBlocks; ++block)
+    means.push_back(meanOfBlock(samples, block * length, length));
+  return means;
+}
+
+/** Variance of the blocks' means beyond that of noise, which alone makes \a white. */
+BlockMean swayVariance(
+    const std::vector<BlockMean>& means, const BlockMean& mean, const BlockMean& white)
+{
+  BlockMean variance = BlockMean::Zero();
+  for (const BlockMean& block : means)
+    variance += (block - mean).square() / static_cast<double>(kBlocks - 1);
+  return (variance > kSwayFactor * white).select(variance - white, 0.0);
+}
+
+/** Standard deviation of the velocity that the specific force makes beside its mean, along the
+ * worst axis. \param seconds of a block */
+double swayVelocity(const std::vector<BlockMean>& means, const BlockMean& mean, double seconds)
+{
+  Vec3 velocity = Vec3::Zero(), sum = Vec3::Zero(), squares = Vec3::Zero();
+  for (const BlockMean& block : means)
+  {
+    velocity += seconds * (block - mean).tail<3>().matrix();
+    sum += velocity;
+    squares += velocity.cwiseAbs2();
+  }
+  constexpr auto kCount = static_cast<double>(kBlocks);
+  return std::sqrt((squares / kCount - (sum / kCount).cwiseAbs2()).cwiseMax(0.0).maxCoeff());
+}
+
+Sway swayOf(const std::vector<ImuSample>& samples, const RestStatistics& rest)
+{
+  const std::vector<BlockMean> means = meansOfBlocks(samples);
+  if (means.empty()) return {};
+  BlockMean mean = BlockMean::Zero(), white;
+  for (const BlockMean& block : means)
+    mean += block / static_cast<double>(kBlocks);
+  white << rest.gyro_std.array().square(), rest.accel_std.array().square();
+  const std::size_t length = samples.size() / kBlocks;
+  const BlockMean variance = swayVariance(means, mean, white / static_cast<double>(length));
+  Sway sway;
+  sway.rate = std::sqrt(variance.head<3>().maxCoeff());
+  sway.force = std::sqrt(variance.tail<3>().maxCoeff());
+  if (sway.force > 0.0) sway.velocity = swayVelocity(means, mean, rest.seconds / kBlocks);
+  return sway;
 }
 
 /** Accelerometer bias and gravity after the mean specific force y = b_a - g + n has been seen. */
@@ -64,7 +124,9 @@ BiasAndGravity estimateBiasAndGravity(
 
   Eigen::Matrix<double, 3, 6> H;
   H << Mat3::Identity(), -Mat3::Identity();
-  const Vec3 noise = rest.accel_std.cwiseAbs2() / static_cast<double>(rest.samples);
+  // Who sways leans at the end otherwise than in the mean.
+  const Vec3 noise = (rest.accel_std.cwiseAbs2() / static_cast<double>(rest.samples)).array() +
+                     std::pow(rest.sway.force, 2);
   const Mat3 S = H * P * H.transpose() + Mat3(noise.asDiagonal());
   const Eigen::Matrix<double, 6, 3> K = P * H.transpose() * S.inverse();
   const Vec3 g_prior = -parameters.gravity * up;
@@ -96,16 +158,16 @@ RestStatistics restStatistics(const std::vector<ImuSample>& samples)
   rest.accel_std = standardDeviation(accel2, accel / n, n);
   rest.gyro_mean = first.gyro + gyro / n;
   rest.accel_mean = first.accel + accel / n;
+  rest.seconds = toSeconds(samples.back().stamp_ns - first.stamp_ns);
+  rest.sway = swayOf(samples, rest);
   return rest;
 }
 
 std::size_t restingSamples(const std::vector<ImuSample>& samples)
 {
   const std::size_t length = samples.size() / kBlocks;
-  if (length == 0) return samples.size();
-  std::vector<BlockMean> means;
-  for (std::size_t block = 0; block < kBlocks; ++block)
-    means.push_back(meanOfBlock(samples, block * length, length));
+  const std::vector<BlockMean> means = meansOfBlocks(samples);
+  if (means.empty()) return samples.size();
   BlockMean mean = BlockMean::Zero(), squares = BlockMean::Zero();
   for (std::size_t block = 0; block < kReferenceBlocks; ++block)
     mean += means[block] / static_cast<double>(kReferenceBlocks);
@@ -155,9 +217,12 @@ FilterState initialState(const RestStatistics& rest, const InitializationOptions
   s.x.g = R * at_rest.g;
 
   const Vec3 gyro_variance = rest.gyro_std.cwiseAbs2() / static_cast<double>(rest.samples);
-  s.P.block<3, 3>(kVelocity, kVelocity).diagonal().setConstant(std::pow(kRestVelocityStd, 2));
+  const double sways = std::max(1.0, rest.seconds / kSwayPeriod);
+  s.P.block<3, 3>(kVelocity, kVelocity)
+      .diagonal()
+      .setConstant(std::pow(kRestVelocityStd, 2) + std::pow(rest.sway.velocity, 2));
   s.P.block<3, 3>(kGyroBias, kGyroBias).diagonal() =
-      gyro_variance.array() + std::pow(kRestGyroBiasStd, 2);
+      gyro_variance.array() + std::pow(kRestGyroBiasStd, 2) + std::pow(rest.sway.rate, 2) / sways;
   s.P.block<3, 3>(kAccelBias, kAccelBias) = at_rest.P.topLeftCorner<3, 3>();
   s.P.block<3, 3>(kGravity, kGravity) = R * at_rest.P.bottomRightCorner<3, 3>() * R.transpose();
   s.P.block<3, 3>(kAccelBias, kGravity) = at_rest.P.topRightCorner<3, 3>() * R.transpose();

@@ -18,12 +18,22 @@ namespace fastlio
  * [m/s^2]. */
 inline constexpr double kGravityStd = 0.02;
 
+/** What is slower than noise and engines in the samples at rest, as of somebody who stands. It may
+ * happen along any axis: a slow turn about one of them does not show in a short time. */
+struct Sway
+{
+  double rate = 0.0, force = 0.0;  //!< standard deviations along the worst axes [rad/s], [m/s^2]
+  double velocity = 0.0;           //!< that the force may make [m/s]
+};
+
 /** Mean and scatter of the samples at rest; evidence of the initialisation. */
 struct RestStatistics
 {
   std::size_t samples = 0;
   Vec3 gyro_mean = Vec3::Zero(), gyro_std = Vec3::Zero();    //!< [rad/s]
   Vec3 accel_mean = Vec3::Zero(), accel_std = Vec3::Zero();  //!< [m/s^2]
+  double seconds = 0.0;                                      //!< from the first sample to the last
+  Sway sway;
 };
 
 [[nodiscard]] RestStatistics restStatistics(const std::vector<ImuSample>& samples);
@@ -44,7 +54,8 @@ struct RestStatistics
  * force with the configured length, accelerometer bias and gravity jointly from one Kalman update
  * with the mean specific force (which makes their errors correlated, as they are: at rest only
  * their difference is observed). Position and attitude define the world frame: their variance is
- * zero. */
+ * zero. Where the platform sways, velocity, biases and gravity are as uncertain as that makes them.
+ */
 [[nodiscard]] FilterState initialState(
     const RestStatistics& rest, const InitializationOptions& parameters);
 
