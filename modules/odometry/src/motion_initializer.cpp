@@ -7,6 +7,7 @@
 #include <fastlio/initialization/motion_fit.h>
 #include <fastlio/initialization/motion_prior.h>
 #include <fastlio/initialization/static_initializer.h>
+#include <fastlio/matching/match_evidence.h>
 #include <fastlio/math/angles.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
@@ -40,6 +41,9 @@ constexpr double kNarrowing = 0.6;
 constexpr double kMostRestSpeed = 0.05;  // [m/s]
 // A hand that turns slowly looks like rest with a bias, but the scans turn: by 0.7 at most at rest.
 constexpr double kMostRestRate = 1.0 / kDegPerRad;  // [rad/s]
+// Among leaves, a few percent of the points match planes by chance, and such scans may seem to
+// move: 3 to 12 % in a forest, where even a fast car on a street has 20 %.
+constexpr double kFewMatches = 0.15;
 // No vehicle is thrown up or dropped faster than that; a wrong unit is farther off.
 constexpr double kMostForceError = 3.0;  // [m/s^2]
 // A larger bias is a wrong unit or mounting. Shaken, with clocks 2 ms apart, a start finds 6 deg/s.
@@ -56,6 +60,7 @@ struct Pass
   NavState start;                   // that follows from the state at the window's end
   double mean_speed = 0.0;          // along the straight line from the first pose to the last [m/s]
   double rate_error = 0.0;          // of the gyro with the bias at the start [rad/s]
+  double inlier_ratio = 0.0;        // of the scans, in the median
   double velocity_std = 0.0;        // at the end, least known direction [m/s]
   Vec3 least_known = Vec3::Zero();  // that direction, in the IMU frame at the start
   bool blind = false;               // the scans do not see motion in that direction
@@ -101,6 +106,7 @@ class Window
     ScanResult last;
     std::size_t unmatched = 0;
     std::vector<double> contrast;  // of the least known direction to others
+    std::vector<double> inliers;
     std::vector<StampedPose> poses;
     for (std::size_t i = 0; i < count_; ++i)
     {
@@ -108,11 +114,14 @@ class Window
       last = estimator.process(scans_[i].scan, scans_[i].span, imu_);
       const Vector6& information = last.statistics.information_eigenvalues;
       if (information[2] > 0.0) contrast.push_back(information[0] / information[2]);
+      if (i > 0)
+        inliers.push_back(inlierRatio(last.statistics, last.statistics.points_downsampled));
       poses.push_back({last.stamp_ns, last.filter.x.pose()});
       unmatched += i > 0 && last.status != ScanStatus::Tracking ? 1 : 0;
     }
     Pass pass;
     pass.blind = median(contrast) < kNormalStd * kNormalStd;
+    pass.inlier_ratio = inliers.empty() ? 0.0 : median(inliers);
     if (2 * unmatched > count_) pass.problem = "most scans do not match each other";
     const StampedPose &first = poses.front(), &end = poses.back();
     pass.mean_speed = (end.T_world_body.p - first.T_world_body.p).norm() /
@@ -246,13 +255,14 @@ RestVerdict verdictOnRest(
 {
   const Pass pass =
       Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
-  const bool turns = !pass.blind && pass.rate_error > kMostRestRate;
-  if (!pass.problem.empty() || turns) return RestVerdict::Denied;
+  if (!pass.problem.empty()) return RestVerdict::Denied;
   const Inputs since_rest =
       inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
-  const bool agrees =
-      pass.mean_speed < kMostRestSpeed || agree(at_rest.x, propagatedBack(pass.start, since_rest));
-  if (!agrees) return RestVerdict::Denied;
+  const bool turns = !pass.blind && pass.rate_error > kMostRestRate;
+  const bool moves = pass.mean_speed >= kMostRestSpeed &&
+                     !agree(at_rest.x, propagatedBack(pass.start, since_rest));
+  if (turns || moves)
+    return pass.inlier_ratio < kFewMatches ? RestVerdict::Open : RestVerdict::Denied;
   return pass.blind ? RestVerdict::Open : RestVerdict::Confirmed;
 }
 

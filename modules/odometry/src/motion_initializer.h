@@ -44,7 +44,7 @@ struct MotionStart
 enum class RestVerdict
 {
   Confirmed,
-  Open,   //!< they agree with it, but they do not see motion along a direction
+  Open,   //!< they do not see motion along a direction, or too few points match to show any
   Denied  //!< the platform was not at rest, or they do not match each other
 };
 

@@ -4,7 +4,6 @@
 // How the odometry starts: late inertial data, no rest, rest after motion.
 
 #include "odometry_runs.h"
-#include <fastlio/math/angles.h>
 
 #include <gtest/gtest.h>
 
@@ -175,39 +174,6 @@ TEST(OdometryStart, APlatformThatMovesOffBeforeTheFirstScanHasItsVelocity)
   const Results results = runInOrder(odometry, recording);
   EXPECT_EQ(countOf(results, ScanStatus::Initializing), 0U);
   EXPECT_LT(worstPoseErrors(results, recording).position, 0.008);
-}
-
-// To the inertial sensor, a hand that turns evenly is at rest with a bias. The scans turn.
-TEST(OdometryStart, AHandThatTurnsSlowlyIsNotAtRest)
-{
-  constexpr double kRate = 2.0 / kDegPerRad;  // [rad/s], about the vertical axis
-  RoomSettings settings;
-  settings.duration = settings.rest = 5.0;
-  RoomRecording recording = recordRoom(settings);
-  for (ImuSample& sample : recording.imu)
-    sample.gyro.z() += kRate;
-  for (LidarScan& scan : recording.scans)
-    for (std::size_t i = 0; i < scan.points.size(); ++i)
-    {
-      PointColumns& p = scan.points;
-      const std::int64_t stamp_ns = scan.stamp_ns + p.time_offset_ns[i];
-      const Mat3 R = expSO3({0.0, 0.0, -kRate * toSeconds(stamp_ns - kRecordingStart)});
-      const Vec3 turned =
-          scan.T_imu_lidar.inverse() * (R * (scan.T_imu_lidar * Vec3(p.x[i], p.y[i], p.z[i])));
-      p.x[i] = static_cast<float>(turned.x());
-      p.y[i] = static_cast<float>(turned.y());
-      p.z[i] = static_cast<float>(turned.z());
-    }
-  OdometryOptions parameters = roomParameters(settings);
-  parameters.initialization.mode = InitializationMode::Auto;
-  Odometry odometry(parameters);
-  const Results results = runInOrder(odometry, recording);
-  const auto first = std::find_if(
-      results.begin(), results.end(),
-      [](const ScanResult& r) { return r.status != ScanStatus::Initializing; });
-  ASSERT_NE(first, results.end());
-  const Vec3 bias_error = first->filter.x.gyro_bias - settings.gyro_bias;
-  EXPECT_LT(kDegPerRad * bias_error.norm(), 0.2) << "deg/s";
 }
 
 /** Every scan of a start in motion names the way out, also while the next window is collected. */

@@ -12,7 +12,7 @@ namespace fastlio
 namespace
 {
 constexpr std::int64_t kMs = 1'000'000, kGapBegin = 1000 * kMs, kGapEnd = 1300 * kMs;
-const Vec3 kVelocity{2.0, 0.0, 0.0};
+const Vec3 kSpeed{2.0, 0.0, 0.0};
 
 /** Samples of a steady motion at 200 Hz, none for 0.3 s. */
 ImuBuffer samplesWithGap()
@@ -27,7 +27,7 @@ ImuBuffer samplesWithGap()
 StampedState stateAt(std::int64_t stamp_ns)
 {
   StampedState state;
-  state.filter.x.v = kVelocity;
+  state.filter.x.v = kSpeed;
   state.filter.P = 1e-6 * StateMatrix::Identity();
   state.stamp_ns = stamp_ns;
   return state;
