@@ -199,6 +199,38 @@ TEST(Degeneracy, AWallAtTheEndConstrainsTheTunnel)
   EXPECT_EQ(a.constraints.projection, Matrix6::Identity());
 }
 
+/** Open ground of planes that lean by \a lean [rad], every \a step-th of them, while their normals
+ * are known to 0.01 rad. */
+MatchedScan roughGround(double lean, int step)
+{
+  constexpr double kNormalStd = 0.01;
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> around(-15.0, 15.0), near(-0.5, 0.5);
+  MatchedScan scan;
+  for (int plane = 0; plane < 300; ++plane)
+  {
+    const double std = std::hypot(plane % step == 0 ? lean : 0.0, kNormalStd);
+    const Vec3 normal = Vec3(std * gauss(random), std * gauss(random), 1.0).normalized();
+    const Vec3 middle(around(random), around(random), -2.0);
+    for (int i = 0; i < 5; ++i)
+    {
+      const double x = near(random), y = near(random);
+      const double z = -(normal.x() * x + normal.y() * y) / normal.z();
+      addPoint(scan, middle + Vec3(x, y, z), normal, kNormalStd);
+    }
+  }
+  return scan;
+}
+
+// A car on an open field was lost with perfect sensors: its ground has no tenfold signal.
+TEST(Degeneracy, ManyPlanesThatLeanALittleConstrainAnOpenField)
+{
+  EXPECT_EQ(analyse(roughGround(0.03, 1)).constraints.unconstrained, 0);
+  EXPECT_EQ(analyse(roughGround(0.0, 1)).constraints.unconstrained, 3) << "noise of the normals";
+  EXPECT_EQ(analyse(roughGround(0.09, 12)).constraints.unconstrained, 3) << "of few planes";
+}
+
 TEST(Degeneracy, WhatIsLeftMovesTheOtherDirectionsOnly)
 {
   const Analysis a = analyse(tunnel(0.01, 0));

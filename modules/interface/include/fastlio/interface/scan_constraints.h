@@ -19,6 +19,9 @@ struct ScanConstraints
   /** Information of the weak directions that is left without the few planes that say most about
    * them; of the others all of it [1/m^2]. */
   Vector6 supported_information = Vector6::Zero();
+  /** Of the weak directions, what all planes but the many that say most say together; of the others
+   * 0 [1/m^2]. */
+  Vector6 common_information = Vector6::Zero();
   int unconstrained = 0;  //!< number of directions that are left alone, the weakest ones
   Matrix6 projection = Matrix6::Identity();  //!< of a scan pose step on the constrained ones
 };

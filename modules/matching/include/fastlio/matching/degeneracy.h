@@ -60,23 +60,25 @@ class StrongestPlanes
   [[nodiscard]] TranslationAxes unsupportedTranslations(
       const MeasuredScan& scan, const Matrix6& information, const Matrix6& noise_information,
       double min_signal_to_noise);
-  /** Takes them from the supported information of the weak directions. */
+  /** Takes the few and the many strongest ones from what supports the weak directions. */
   void takeFromSupport(const MeasuredScan& scan, ScanConstraints& constraints);
 
  private:
-  /** Information along a direction of the three planes that say most about it [1/m^2].
-   * \param direction of a step of the scan pose \param most_points planes with more are left out */
-  [[nodiscard]] double informationAlong(
-      const MeasuredScan& scan, const Vector6& direction, double most_points);
+  /** Information of each plane along a direction [1/m^2]. \param direction of a step of the scan
+   * pose \param most_points planes with more are left out */
+  void informationAlong(const MeasuredScan& scan, const Vector6& direction, double most_points);
+  /** Sum over the planes that say most, so many of them. */
+  [[nodiscard]] double ofStrongest(std::size_t planes);
 
   PlaneNumbers planes_;
-  std::vector<double> of_plane_;                // information by number of the plane
+  std::vector<double> of_plane_;                // information by number of the plane, or sorted
   std::vector<std::uint32_t> points_of_plane_;  // likewise
 };
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
  * that of the noise, or where its supported information is not more than \a supported_part of that;
- * and so are all weaker ones. */
+ * and so are all weaker ones. Where many planes say the same, as on rough ground, a third of it is
+ * enough. */
 void leaveOutUnconstrained(
     double min_signal_to_noise, ScanConstraints& constraints,
     double supported_part = kSupportedPart);
