@@ -18,6 +18,9 @@ namespace
 {
 // So many of a scan's points match before the time offset is estimated: the map has become dense.
 constexpr double kTimeOffsetInlierRatio = 0.3;
+// Or so many scans are in the map, which then is as dense as it gets: among leaves, 30 % of the
+// points never match.
+constexpr std::size_t kTimeOffsetInsertions = 50;
 
 ScanOutcome::Place placeOf(const Mode& mode)
 {
@@ -277,7 +280,9 @@ void Estimator::releaseTimeOffset(const ScanResult& result, const DeskewedScan& 
   if (!p.estimate_time_offset || released || !map_.surfaces().knowsSharedErrors()) return;
   const bool tracks = result.status == ScanStatus::Tracking && run.consistent;
   const auto matched = static_cast<double>(result.statistics.points_effective);
-  const bool dense = matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size());
+  const bool dense =
+      matched >= kTimeOffsetInlierRatio * static_cast<double>(scan.surfaces.size()) ||
+      map_.insertions() >= kTimeOffsetInsertions;
   const bool settled = tracks && dense && !run.settlingAt(state_.stamp_ns);
   const bool cannot_wait =
       run.motion_window && (tracks || result.status == ScanStatus::FirstScan) &&
