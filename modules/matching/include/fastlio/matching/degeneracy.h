@@ -20,6 +20,10 @@ namespace fastlio
  * map turned a little between two of its planes. Half a degree about each of two axes [rad^2]. */
 inline constexpr double kNormalVariance = 2.0 * 0.00873 * 0.00873;
 
+/** Scans whose weakest direction has more than this fraction of the strongest one's information are
+ * far from degenerate: normals would have to be off by tens of degrees. */
+inline constexpr double kClearlyConstrained = 0.05;
+
 /** Information that appears where there is none, because the normals of the map are noisy: the sum
  * of w_j cov(h_j), the rows' covariance for the normals' variance and kNormalVariance. A wall of a
  * tunnel that is known to a degree seems to constrain the position along the tunnel. Of a chunk of
@@ -77,8 +81,8 @@ class StrongestPlanes
 
 /** A direction is unconstrained where its information is not more than \a min_signal_to_noise times
  * that of the noise, or where its supported information is not more than \a supported_part of that;
- * and so are all weaker ones. Where many planes say the same, as on rough ground, a third of it is
- * enough. */
+ * and so are all weaker ones. On open ground three tenths of it are enough where many planes say
+ * the same. */
 void leaveOutUnconstrained(
     double min_signal_to_noise, ScanConstraints& constraints,
     double supported_part = kSupportedPart);
