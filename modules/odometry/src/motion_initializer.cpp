@@ -3,16 +3,12 @@
 
 #include "motion_initializer.h"
 
-#include "estimator.h"
-#include <fastlio/initialization/motion_fit.h>
+#include "start_window.h"
 #include <fastlio/initialization/motion_prior.h>
 #include <fastlio/initialization/static_initializer.h>
-#include <fastlio/matching/match_evidence.h>
 #include <fastlio/math/angles.h>
-#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 
-#include <Eigen/Eigenvalues>
 #include <mrpt/core/format.h>
 
 #include <algorithm>
@@ -24,14 +20,9 @@ namespace
 {
 constexpr std::size_t kMinScans = 4;
 constexpr int kPasses = 16;  // at most; a narrow view of a fast platform needs ten to fifteen
-// Of the downsampling, for these scans: few points make no planes in a map of few scans.
-constexpr int kWindowPoints = 10000;
 // A start in motion knows its velocity so well; else the next scans would not match [m/s].
 constexpr double kMaxVelocityStd = 0.3;
-// Normals are known to that: what leaks over to a direction that no plane faces is no information.
-constexpr double kNormalStd = 0.015;  // [rad]
 // What the prior leaves open narrows with each pass: far-off planes are no match then.
-constexpr double kFirstVelocityStd = 10.0;  // [m/s], of cars and drones, about zero
 constexpr double kSecondVelocityStd = 1.0;  // [m/s]
 constexpr double kLeastVelocityStd = 0.2;   // [m/s]
 constexpr double kFirstTiltStd = 0.15;      // [rad]
@@ -54,135 +45,6 @@ constexpr double kDamping = 0.6;
 constexpr double kAgreedVelocity = 0.08;  // [m/s]
 constexpr double kAgreedTilt = 0.008;     // [rad]
 
-/** One run over the window. */
-struct Pass
-{
-  NavState start;                   // that follows from the state at the window's end
-  double mean_speed = 0.0;          // along the straight line from the first pose to the last [m/s]
-  double rate_error = 0.0;          // of the gyro with the bias at the start [rad/s]
-  double inlier_ratio = 0.0;        // of the scans, in the median
-  double velocity_std = 0.0;        // at the end, least known direction [m/s]
-  Vec3 least_known = Vec3::Zero();  // that direction, in the IMU frame at the start
-  bool blind = false;               // the scans do not see motion in that direction
-  std::string problem;
-};
-
-class Window
-{
- public:
-  Window(
-      const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
-      const OdometryOptions& parameters)
-      : scans_(scans), count_(count), imu_(imu), parameters_(parameters)
-  {
-    const std::int64_t begin_ns = scans.front().span.latestStart();
-    all_ = inputsOf(imu, begin_ns, scans[count - 1].span.end_ns, parameters.imu.hold);
-    window_ = motionWindowUntil(all_.end_ns, kWindowPoints);
-    first_scan_ = inputsOf(imu, begin_ns, scans.front().span.end_ns, parameters.imu.hold);
-  }
-
-  [[nodiscard]] const MotionWindow& motionWindow() const { return window_; }
-
-  [[nodiscard]] double force() const { return meanForce(all_); }
-
-  [[nodiscard]] NavState guess() const { return firstGuess(all_, parameters_.initialization); }
-
-  [[nodiscard]] FilterState prior(const NavState& x0, const PriorWidth& width) const
-  {
-    return startPrior(x0, width, first_scan_, parameters_.initialization);
-  }
-
-  /** \param far_off the scans lie far from the map: planes are searched for longer
-   * \param stamp_ns of \a start, if not of the first scan's begin: an earlier one */
-  [[nodiscard]] Pass run(
-      const FilterState& start, const OdometryOptions& parameters, bool far_off,
-      std::optional<std::int64_t> stamp_ns = std::nullopt) const
-  {
-    Estimator estimator(parameters);
-    MotionWindow trial = window_;
-    trial.trial = true;
-    trial.pull_in = far_off;
-    estimator.start(start, stamp_ns.value_or(scans_.front().span.latestStart()), trial);
-    ScanResult last;
-    std::size_t unmatched = 0;
-    std::vector<double> contrast;  // of the least known direction to others
-    std::vector<double> inliers;
-    std::vector<StampedPose> poses;
-    for (std::size_t i = 0; i < count_; ++i)
-    {
-      if (scans_[i].span.end_ns <= estimator.stamp()) continue;  // out of order
-      last = estimator.process(scans_[i].scan, scans_[i].span, imu_);
-      const Vector6& information = last.statistics.information_eigenvalues;
-      if (information[2] > 0.0) contrast.push_back(information[0] / information[2]);
-      if (i > 0)
-        inliers.push_back(inlierRatio(last.statistics, last.statistics.points_downsampled));
-      poses.push_back({last.stamp_ns, last.filter.x.pose()});
-      unmatched += i > 0 && last.status != ScanStatus::Tracking ? 1 : 0;
-    }
-    Pass pass;
-    pass.blind = median(contrast) < kNormalStd * kNormalStd;
-    pass.inlier_ratio = inliers.empty() ? 0.0 : median(inliers);
-    if (2 * unmatched > count_) pass.problem = "most scans do not match each other";
-    const StampedPose &first = poses.front(), &end = poses.back();
-    pass.mean_speed = (end.T_world_body.p - first.T_world_body.p).norm() /
-                      toSeconds(end.stamp_ns - first.stamp_ns);
-    const Inputs between = inputsOf(imu_, first.stamp_ns, end.stamp_ns, parameters_.imu.hold);
-    pass.rate_error = unexplainedRate(first, end, between, start.x.gyro_bias);
-    describeStart(last.filter, poses, between, pass);
-    describeEnd(last.filter, pass);
-    keepVelocityLikely(pass);
-    return pass;
-  }
-
- private:
-  /** Velocity and gravity at the first scan's end from all poses, then back to its begin. */
-  void describeStart(
-      const FilterState& end, const std::vector<StampedPose>& poses, const Inputs& between,
-      Pass& pass) const
-  {
-    const StampedPose& first = poses.front();
-    MotionFitPrior prior;
-    prior.gyro_bias = end.x.gyro_bias;
-    prior.g = parameters_.initialization.gravity * end.x.g.normalized();
-    prior.gravity_std = kGravityStd;
-    const MotionFit fit = fitMotion(poses, between.samples, prior);
-    if (!fit.solved) pass.problem = "too few of the first scans match each other";
-
-    NavState x = end.x;
-    x.R = first.T_world_body.R;
-    x.v = fit.velocity;
-    x.g = fit.g;
-    x.accel_bias.setZero();
-    x = propagatedBack(x, first_scan_);
-    const Mat3 R_imu_world = x.R.transpose();
-    pass.start =
-        startState(R_imu_world * x.g, R_imu_world * x.v, x.gyro_bias, parameters_.initialization);
-  }
-
-  static void describeEnd(const FilterState& end, Pass& pass)
-  {
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(end.P.block<3, 3>(kVelocity, kVelocity));
-    pass.velocity_std = std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
-    pass.least_known = end.x.R.transpose() * eigen.eigenvectors().col(2);
-  }
-
-  /** What the scans leave open is anything, up to tens of m/s, and the next pass, which begins
-   * with it, would not find back: there the velocity goes as far as its prior admits. */
-  static void keepVelocityLikely(Pass& pass)
-  {
-    const Vec3 direction = pass.start.R * pass.least_known;
-    const double ratio = pass.velocity_std / kFirstVelocityStd, share = ratio * ratio;
-    pass.start.v -= share / (1.0 + share) * direction.dot(pass.start.v) * direction;
-  }
-
-  const ScanQueue& scans_;
-  std::size_t count_;
-  const ImuBuffer& imu_;
-  const OdometryOptions& parameters_;
-  Inputs all_, first_scan_;
-  MotionWindow window_;
-};
-
 bool agree(const NavState& a, const NavState& b)
 {
   // Both worlds are fixed by gravity in the IMU frame.
@@ -202,7 +64,7 @@ NavState damped(const NavState& from, const NavState& to, const InitializationOp
       between(from.gyro_bias, to.gyro_bias), p);
 }
 
-std::string refusal(const Pass& pass, bool agreed)
+std::string refusal(const StartPass& pass, bool agreed)
 {
   if (!pass.problem.empty())
     return "no start in motion: " + pass.problem +
@@ -253,8 +115,8 @@ RestVerdict verdictOnRest(
     const ScanQueue& scans, std::size_t count, const ImuBuffer& imu,
     const OdometryOptions& parameters, const FilterState& at_rest, std::int64_t stamp_ns)
 {
-  const Pass pass =
-      Window(scans, count, imu, parameters).run(at_rest, passOptions(parameters), false, stamp_ns);
+  const StartPass pass = StartWindow(scans, count, imu, parameters)
+                             .run(at_rest, passOptions(parameters), false, stamp_ns);
   if (!pass.problem.empty()) return RestVerdict::Denied;
   const Inputs since_rest =
       inputsOf(imu, stamp_ns, scans.front().span.latestStart(), parameters.imu.hold);
@@ -271,7 +133,7 @@ MotionStart startInMotion(
     const OdometryOptions& parameters)
 {
   const InitializationOptions& p = parameters.initialization;
-  const Window window(scans, count, imu, parameters);
+  const StartWindow window(scans, count, imu, parameters);
   const OdometryOptions pass_parameters = passOptions(parameters);
 
   NavState x0 = window.guess();
@@ -286,7 +148,7 @@ MotionStart startInMotion(
     return result;
   }
   PriorWidth width{kFirstVelocityStd, kFirstTiltStd};
-  Pass pass = window.run(window.prior(x0, width), pass_parameters, true);
+  StartPass pass = window.run(window.prior(x0, width), pass_parameters, true);
   width.velocity = std::min(width.velocity, kSecondVelocityStd);
   bool agreed = false, over = false;
   for (int i = 1; i < kPasses && !over && isFinite(pass.start); ++i)
