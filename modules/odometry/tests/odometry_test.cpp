@@ -197,3 +197,17 @@ TEST(Odometry, CanBeMoved)
   EXPECT_EQ(second.parameters().downsampling.target_points, 1000);
   EXPECT_EQ(second.map().pointCount(), results.back().statistics.map_points);
 }
+
+// 89 rides of another simulator were 6 mm off along each axis, where a run was sure to 1.3 mm.
+TEST(Odometry, IsNotSureOfThePositionOfTheLidarToAMillimetre)
+{
+  OdometryOptions parameters = roomParameters();
+  for (const double given : {0.01, 0.0})
+  {
+    parameters.calibration.extrinsic_translation_std = given;
+    const Results results = runInOrder(parameters, room());
+    const Vec3 std = results.back().statistics.calibration.translation_std;
+    EXPECT_GE(std.minCoeff(), given > 0.0 ? 0.004 : 0.0);
+    EXPECT_LE(std.maxCoeff(), given > 0.0 ? 0.011 : 0.0) << "given as exact";
+  }
+}
