@@ -14,7 +14,7 @@ namespace fastlio
 {
 namespace
 {
-// Some milliseconds of work; a matcher of its own costs a few microseconds.
+// So many that a matcher of its own costs little beside them.
 constexpr std::size_t kStartsPerTask = 32;
 
 Matrix6 covarianceOf(const PoseStart& start)
