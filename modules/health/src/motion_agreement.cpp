@@ -30,6 +30,10 @@ constexpr double kVibrationAngle = 5e-4;  // [rad]
 constexpr double kVibrationShift = 1e-3;  // [m]
 constexpr double kStampJitter = 5e-4;     // [s]
 
+// While a turn begins, clocks that are apart and the filter of an IMU look like a scale of the
+// gyro: what is left of both before the offset of the clocks is known.
+constexpr double kLag = 5e-3;  // [s]
+
 /** Covariance of a correction by vibration and jitter. */
 Matrix6 byVibration(const NavState& x)
 {
@@ -117,6 +121,7 @@ void MotionAgreement::add(
   const Vec3 inertial = logSO3(before.R.transpose() * predicted.x.R) + seconds * before.gyro_bias;
   if (R_last_scan_) turns_.add(logSO3(R_last_scan_->transpose() * R_scan), inertial);
   R_last_scan_ = R_scan;
+  interval_s_ = seconds;
   changes_.add(before, seconds, predicted.x, scan.T_world_imu.p, scan.position_std);
 }
 
@@ -187,7 +192,8 @@ std::optional<GyroScale> MotionAgreement::gyroScale() const
   const double common = seen->strengths.sum();
   scale.lower = common / turns_.scanSquares();
   scale.upper = turns_.inertialSquares() / common;
-  scale.std = std::sqrt(seen->variance / turns_.scanSquares());
+  const double by_lag = kLag / interval_s_ * turns_.lagProduct() / turns_.inertialSquares();
+  scale.std = std::hypot(std::sqrt(seen->variance / turns_.scanSquares()), by_lag);
   return scale;
 }
 

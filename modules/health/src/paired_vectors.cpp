@@ -29,6 +29,8 @@ void PairedVectors::add(const Vec3& scans, const Vec3& inertial)
   scans_.add(scans);
   inertial_.add(inertial);
   products_ = kForgetting * products_ + scans * inertial.transpose();
+  lag_product_ = kForgetting * lag_product_ + inertial.dot(inertial - last_inertial_);
+  last_inertial_ = inertial;
   count_ = kForgetting * count_ + 1.0;
 }
 

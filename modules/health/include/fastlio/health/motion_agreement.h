@@ -81,6 +81,7 @@ class MotionAgreement
   VelocityChanges changes_;
   std::optional<Mat3> R_last_scan_;  // attitude that the last scan alone showed
   PairedVectors turns_;              // between scans [rad]
+  double interval_s_ = 0.0;          // between the last two of them
 };
 
 }  // namespace fastlio

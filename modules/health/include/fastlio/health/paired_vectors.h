@@ -24,6 +24,9 @@ class PairedVectors
   /** Sums of squared norms. */
   [[nodiscard]] double scanSquares() const { return scans_.centred(count_); }
   [[nodiscard]] double inertialSquares() const { return inertial_.centred(count_); }
+  /** Sum of inertial * (its change since the pair before): what a lag by one pair would add to the
+   * products. Motion that begins and ends in the sums adds little. */
+  [[nodiscard]] double lagProduct() const { return lag_product_; }
 
  private:
   struct Sums
@@ -37,7 +40,8 @@ class PairedVectors
 
   Sums scans_, inertial_;
   Mat3 products_ = Mat3::Zero();
-  double count_ = 0.0;
+  double count_ = 0.0, lag_product_ = 0.0;
+  Vec3 last_inertial_ = Vec3::Zero();
 };
 
 }  // namespace fastlio
