@@ -6,6 +6,8 @@
 
 #include <fastlio/initialization/static_initializer.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -54,6 +56,15 @@ inline std::vector<ImuSample> samplesAtRest(const RestTruth& truth, Random& rand
     samples.push_back(
         {5'000'000 * i, truth.gyro_bias + random.vector(kGyroNoise),
          truth.accel_bias - truth.g + random.vector(kAccelNoise)});
+  return samples;
+}
+
+/** The same beside an engine. */
+inline std::vector<ImuSample> samplesWithAnEngine(const RestTruth& truth, Random& random)
+{
+  std::vector<ImuSample> samples = samplesAtRest(truth, random);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i].accel.z() += 2.0 * std::sin(0.9 * static_cast<double>(i));
   return samples;
 }
 

@@ -5,6 +5,7 @@
 
 #include "samples_at_rest.h"
 #include <fastlio/initialization/static_initializer.h>
+#include <fastlio/math/time.h>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
@@ -40,7 +41,7 @@ std::vector<ImuSample> samplesOf(const Standing& sway, const RestTruth& truth, R
   std::vector<ImuSample> samples = samplesAtRest(truth, random);
   for (ImuSample& sample : samples)
   {
-    const double t = 1e-9 * static_cast<double>(sample.stamp_ns);
+    const double t = toSeconds(sample.stamp_ns);
     sample.gyro.y() += sway.angularRate(t);
     // Gravity leans the other way in the frame of the sensor.
     sample.accel.x() += sway.acceleration(t) + truth.g.z() * sway.angle(t);
@@ -55,10 +56,7 @@ TEST(RestStatistics, FindNoSwayInNoiseNorInAnEngine)
   int found = 0;
   for (int k = 0; k < kDraws; ++k)
   {
-    std::vector<ImuSample> samples = samplesAtRest(drawTruth({}, random), random);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      samples[i].accel.z() += 2.0 * std::sin(0.9 * static_cast<double>(i));
-    const RestStatistics rest = restStatistics(samples);
+    const RestStatistics rest = restStatistics(samplesWithAnEngine(drawTruth({}, random), random));
     found += rest.sway.rate + rest.sway.force > 0.0 ? 1 : 0;
     EXPECT_EQ(rest.sway.velocity > 0.0, rest.sway.force > 0.0);
   }
