@@ -94,9 +94,11 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
-  const bool agrees = calibration_.expectedInnovation() == 1.0;
+  // Residuals of a match that was refused, or of a search, may be those of a wrong pose.
+  const bool beams_learn =
+      match.update.updated && !work.searched && calibration_.expectedInnovation() == 1.0;
   const ConsideredUpdate considered =
-      map_.considerUpdate(work.deskewed, match, update, beams_, agrees);
+      map_.considerUpdate(work.deskewed, match, update, beams_, beams_learn);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
   const double surprise = learnFromInnovation(match, considered, update, work);
   if (!work.searched && !run().settlingAt(state_.stamp_ns))

@@ -102,6 +102,22 @@ TEST(OdometryRecovery, ALongGapInMotionSplitsTheRunAndTheMapIsFoundAgain)
   EXPECT_LT(worst.attitude, 0.01);
 }
 
+// Matches that were refused are those of a wrong pose. The offsets of beams that they taught were
+// as large as such offsets can be, and no scan matched well ever after.
+TEST(OdometryRecovery, ScansThatFindNoPoseTeachNothingOfTheBeams)
+{
+  RoomRecording recording = roomForRecovery();
+  recording.imu.erase(recording.imu.begin() + 900, recording.imu.begin() + 1140);  // 1.2 s
+  const Results results = runInOrder(roomParameters(), recording);
+  ASSERT_EQ(results.back().status, ScanStatus::Tracking);
+  const CalibrationCheck usual =
+      runInOrder(roomParameters(), roomForRecovery()).back().statistics.calibration;
+  const CalibrationCheck& check = results.back().statistics.calibration;
+  EXPECT_LT(check.range_offset, 1.5 * usual.range_offset);
+  EXPECT_LT(check.elevation_offset, 1.5 * usual.elevation_offset);
+  EXPECT_LT(check.azimuth_offset, 1.5 * usual.azimuth_offset);
+}
+
 /** What a search said of the best place; empty: there was none. */
 std::string searchIn(const std::string& message)
 {
