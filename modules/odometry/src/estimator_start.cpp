@@ -4,6 +4,7 @@
 // Starts of the estimator, and its state between scans.
 
 #include "estimator.h"
+#include "zero_velocity.h"
 #include <fastlio/initialization/start_in_map.h>
 #include <fastlio/math/time.h>
 
@@ -18,6 +19,12 @@ namespace
 constexpr double kMapSearchTime = 1.5;
 // What a scan that is matched can correct until the next one comes [m/s].
 constexpr double kKnownVelocityStd = 1.0;
+
+/** Who sways while standing turns faster than a zero-velocity update admits. */
+bool standsStill(const FilterState& at_rest)
+{
+  return at_rest.P.diagonal().segment<3>(kGyroBias).maxCoeff() < kZeroRateStd * kZeroRateStd;
+}
 
 FilterRun startedRun(
     std::int64_t stamp_ns, bool trusted, const std::optional<MotionWindow>& motion_window)
@@ -46,7 +53,7 @@ void Estimator::start(
     const FilterState& state, std::int64_t stamp_ns,
     const std::optional<MotionWindow>& motion_window)
 {
-  if (options_.rest.at_start && !motion_window) rest_.assumeRest();
+  if (options_.rest.at_start && !motion_window && standsStill(state)) rest_.assumeRest();
   FilterRun run = startedRun(stamp_ns, true, motion_window);
   const auto* initializing = std::get_if<Initializing>(&mode_);
   const std::optional<Pose> T_map_imu =

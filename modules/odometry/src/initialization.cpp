@@ -3,6 +3,7 @@
 
 #include "initialization.h"
 
+#include <fastlio/math/angles.h>
 #include <fastlio/math/time.h>
 
 #include <mrpt/core/format.h>
@@ -19,6 +20,9 @@ constexpr double kWindowStep = 0.1;
 constexpr std::size_t kRefusedParts = 2;
 // Slower motion, which a pass at rest does not see, may be none.
 constexpr double kMotionForSure = 0.5;  // [m/s]
+// Somebody who stands turns by 0.3 to 0.7 deg/s, to and fro, and moves by millimetres: a start at
+// rest takes that for biases, and for errors of a map that is still sparse.
+constexpr double kSwayingRate = 0.1 / kDegPerRad;  // [rad/s]
 constexpr const char* kStartInMotionHint = "; initialization.mode: auto starts in motion, too";
 // A sample holds a little before its stamp, too.
 constexpr std::int64_t kSampleHoldBeforeNs = 20'000'000;
@@ -32,6 +36,7 @@ double secondsBetween(std::int64_t from_ns, std::int64_t to_ns)
 struct RestSearch
 {
   StartDecision decision;
+  bool sways = false;               // it does not rest as a vehicle does
   bool rejected = false;            // the latest window does not rest, nor does one before it
   std::int64_t next_window_ns = 0;  // then the search goes on from here
 };
@@ -76,7 +81,9 @@ RestSearch searchRest(
       const std::int64_t rest_end_ns =
           resting < samples.size() ? samples[resting - 1].stamp_ns : end_ns;
       samples.resize(resting);
-      search.decision.state = initialState(restStatistics(samples), parameters);
+      const RestStatistics rest = restStatistics(samples);
+      search.sways = rest.sway.rate > kSwayingRate;
+      search.decision.state = initialState(rest, parameters);
       search.decision.stamp_ns = std::clamp(first_scan_begin_ns, begin_ns, rest_end_ns);
       return search;
     }
@@ -197,7 +204,7 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
 {
   const std::int64_t begin_ns = scans.front().span.latestStart();
   RestSearch search = searchRest(imu, parameters_.initialization, begin_ns);
-  if (search.decision.state) return confirmRest(search.decision, scans, imu, at_end);
+  if (search.decision.state) return confirmRest(search.decision, search.sways, scans, imu, at_end);
   if (!search.rejected && !at_end) return search.decision;
   StartDecision moving = decideInMotion(scans, imu, at_end);
   if (moving.state) return moving;
@@ -211,9 +218,9 @@ StartDecision StartFinder::decideAutomatically(const ScanQueue& scans, ImuBuffer
 
 /** To the inertial sensor, motion that is steady, or speeds up evenly, looks like rest: the scans
  * distinguish them. A rest that they do not confirm is none, unless they show no motion either, as
- * in a tunnel. */
+ * in a tunnel. Who sways moves a little: the scans say how. */
 StartDecision StartFinder::confirmRest(
-    StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end)
+    StartDecision at_rest, bool sways, const ScanQueue& scans, ImuBuffer& imu, bool at_end)
 {
   const ScanSpan span = scans.front().span;
   if (!inertialGap(scans, imu).empty()) return at_rest;
@@ -223,8 +230,10 @@ StartDecision StartFinder::confirmRest(
   if (count == 0) return at_rest;
   const RestVerdict verdict =
       verdictOnRest(scans, count, imu, parameters_, *at_rest.state, at_rest.stamp_ns);
-  if (verdict == RestVerdict::Confirmed) return at_rest;
+  const bool rests = verdict == RestVerdict::Confirmed;
+  if (rests && !sways) return at_rest;
   const MotionStart start = startInMotion(scans, count, imu, parameters_);
+  if (rests && !start.state) return at_rest;
   const bool moves = start.state && start.state->x.v.norm() > kMotionForSure;
   if (verdict == RestVerdict::Open && !moves) return at_rest;
   if (start.state) return startedInMotion(start, span.latestStart());

@@ -46,7 +46,7 @@ class StartFinder
   [[nodiscard]] StartDecision decideAutomatically(
       const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision confirmRest(
-      StartDecision at_rest, const ScanQueue& scans, ImuBuffer& imu, bool at_end);
+      StartDecision at_rest, bool sways, const ScanQueue& scans, ImuBuffer& imu, bool at_end);
   [[nodiscard]] StartDecision refuse(
       const MotionStart& start, const ScanQueue& scans, std::size_t count, ImuBuffer& imu);
 

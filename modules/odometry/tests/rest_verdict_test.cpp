@@ -93,5 +93,50 @@ TEST(RestVerdict, FewPointsThatMoveDoNotDenyARest)
   EXPECT_LT(first.filter.x.v.norm(), 0.02);
   EXPECT_LT(toSeconds(first.stamp_ns - kRecordingStart), 2.5) << "the first rest is taken";
 }
+
+/** About the x axis of the IMU, as somebody who stands [rad]. \param t [s] */
+double swayAngle(double t)
+{
+  constexpr double kAmplitude = 0.4 / kDegPerRad, kFrequency = 0.25;  // up to 0.63 deg/s
+  return kAmplitude * std::cos(2.0 * kPi * kFrequency * t);
+}
+
+// The mean rate of half a sway is no bias of the gyro: a start at rest takes it for one, and so did
+// the zero-velocity updates that followed.
+TEST(RestVerdict, WhoSwaysStartsAsIfInMotion)
+{
+  RoomRecording recording = restingInTheRoom();
+  const auto R_still_imu = [](double t) { return expSO3({swayAngle(t), 0.0, 0.0}); };
+  constexpr double kStep = 1e-3;  // [s]
+  for (ImuSample& sample : recording.imu)
+  {
+    const double t = toSeconds(sample.stamp_ns - kRecordingStart);
+    sample.gyro.x() += (swayAngle(t + kStep) - swayAngle(t - kStep)) / (2.0 * kStep);
+    sample.accel = R_still_imu(t).transpose() * sample.accel;
+  }
+  movePoints(
+      recording,
+      [&](const Vec3& point, double t) -> Vec3 { return R_still_imu(t).transpose() * point; });
+  OdometryOptions parameters = roomParameters(recording.settings);
+  parameters.initialization.mode = InitializationMode::Auto;
+  const Results results = runInOrder(parameters, recording);
+  const auto first = std::find_if(
+      results.begin(), results.end(),
+      [](const ScanResult& r) { return r.status == ScanStatus::FirstScan; });
+  ASSERT_NE(first, results.end());
+  const Mat3 R_first =
+      first->filter.x.R * R_still_imu(toSeconds(first->stamp_ns - kRecordingStart)).transpose();
+  double worst = 0.0, worst_position = 0.0;
+  for (auto r = first; r != results.end(); ++r)
+  {
+    const Mat3 expected = R_first * R_still_imu(toSeconds(r->stamp_ns - kRecordingStart));
+    worst = std::max(worst, logSO3(Mat3(expected.transpose() * r->filter.x.R)).norm());
+    worst_position = std::max(worst_position, (r->filter.x.p - first->filter.x.p).norm());
+  }
+  EXPECT_LT(kDegPerRad * worst, 0.05) << "deg";
+  EXPECT_LT(worst_position, 0.003) << "m";
+  const Vec3 bias_error = first->filter.x.gyro_bias - recording.settings.gyro_bias;
+  EXPECT_LT(kDegPerRad * bias_error.norm(), 0.1) << "deg/s";
+}
 }  // namespace
 }  // namespace fastlio::testing
