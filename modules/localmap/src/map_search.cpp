@@ -31,6 +31,8 @@ constexpr double kUsualFit = 0.8;
 // Where the map has planes for this part of the points, and fewer of them fit than this part of the
 // usual, it is another place, even if what fits leaves a direction open.
 constexpr double kWellMapped = 0.3, kLeastFit = 0.2;
+// So few of a scan's points say where it is when they fit: 75 of 1500.
+constexpr double kLeastInView = 0.05;
 // Where only the places on one level can be tried, a rival may be above or below.
 constexpr double kUsualPartOnLevel = 0.75;
 // A carried pose is searched once in a while and by heading, too: some seconds are well spent.
@@ -93,9 +95,13 @@ bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const Loca
 {
   if (isContradicted(match, scan, map)) return false;
   if (match.constraints.unconstrained > 0) return true;
-  return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
-         inlierRatio(match.update.last.count, scan.surfaces.size()) >=
-             kMinUsualFraction * map.usualInlierRatio();
+  if (normalizedInnovation(match.update) > kWrongPoseInnovation) return false;
+  const double inliers = inlierRatio(match.update.last.count, scan.surfaces.size());
+  // A narrow view that turns to what it has not seen yet matches little, but all that is mapped.
+  const bool fits_as_usual =
+      inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
+  return inliers >= kMinUsualFraction * map.usualInlierRatio() ||
+         (inliers >= kLeastInView && fits_as_usual);
 }
 
 bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
