@@ -68,13 +68,27 @@ double ClippingDetector::findRange(const Vec3& reading)
     Axis& axis = axes_[static_cast<std::size_t>(i)];
     const std::optional<double> before = std::exchange(axis.latest, reading[i]);
     if (before) follow(axis, *before);
+    if (before) tellWhereRunEnds(axis, i, *before);
     const bool positive = isClipped(axis, 0, before);
     if (!isClipped(axis, 1, before) && !positive) continue;
     clipped = std::max(clipped, std::abs(reading[i]));
-    if (!told_) found_ = RangeEnd{i, reading[i]};
-    told_ = true;
   }
   return clipped;
+}
+
+/** A larger reading that ends a run at the end of the range refutes it: nothing has been told yet.
+ */
+void ClippingDetector::tellWhereRunEnds(const Axis& axis, int number, double before)
+{
+  for (std::size_t which = 0; which < axis.sides.size() && !told_; ++which)
+  {
+    const Side& side = axis.sides[which];
+    const double value = which == 0 ? *axis.latest : -*axis.latest;
+    const bool at_extreme = value > side.extreme || areEqual(value, side.extreme);
+    if (!side.clipped || side.run < 2 || at_extreme) continue;
+    found_ = RangeEnd{number, before};
+    told_ = true;
+  }
 }
 
 void ClippingDetector::follow(Axis& axis, double before)

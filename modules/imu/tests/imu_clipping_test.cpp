@@ -225,6 +225,25 @@ TEST(ClippingDetector, ALargerReadingRefutesTheRange)
   EXPECT_EQ(all.accel, found(clipped).accel);
 }
 
+// Four equal readings at the flank of a peak: noise did that. The sentence had been said by then.
+TEST(ClippingDetector, NothingIsToldOfARangeThatTheNextReadingRefutes)
+{
+  auto samples = walk(0.002, 0.02);
+  toSteps(samples, 0.001, 0.0048);
+  const auto top = [&](double next)
+  {
+    auto changed = samples;
+    for (std::size_t i = 1000; i < 1004; ++i)
+      changed[i].gyro.z() = 1.8;
+    changed[1004].gyro.z() = next;
+    return found(changed);
+  };
+  EXPECT_TRUE(top(1.5).gyro_end.has_value());
+  const Found refuted = top(1.9);
+  EXPECT_GT(refuted.gyro, 0U);
+  EXPECT_FALSE(refuted.gyro_end.has_value());
+}
+
 TEST(ImuConditioner, TellsWhichAxisClipsAndWhere)
 {
   auto samples = walk(0.002, 0.02);

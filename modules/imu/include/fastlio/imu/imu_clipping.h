@@ -36,7 +36,7 @@ class ClippingDetector
   double add(const Vec3& reading, bool held = false);
   /** The result of add() for the reading before the latest one; 0 when there was none. */
   [[nodiscard]] double before() const { return before_; }
-  /** The first clipped reading, once. */
+  /** The end of the range, once, after the first run of clipped readings. */
   [[nodiscard]] std::optional<RangeEnd> takeFound();
 
  private:
@@ -63,6 +63,7 @@ class ClippingDetector
   [[nodiscard]] double clippedRange(const Vec3& reading);
   [[nodiscard]] double findRange(const Vec3& reading);
   void follow(Axis& axis, double before);
+  void tellWhereRunEnds(const Axis& axis, int number, double before);
   [[nodiscard]] bool isClipped(Axis& axis, std::size_t which, const std::optional<double>& before);
   void weigh(const Axis& axis, Side& side) const;
 
