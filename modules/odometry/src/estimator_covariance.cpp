@@ -95,8 +95,8 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
   // Residuals of a match that was refused, or of a search, may be those of a wrong pose.
-  const bool beams_learn =
-      match.update.updated && !work.searched && calibration_.expectedInnovation() == 1.0;
+  const bool refused = !match.update.updated && !map_.empty();
+  const bool beams_learn = !refused && !work.searched && calibration_.expectedInnovation() == 1.0;
   const ConsideredUpdate considered =
       map_.considerUpdate(work.deskewed, match, update, beams_, beams_learn);
   work.explained = calibration_.byPrior(considered.by_calibration.correction);
