@@ -95,13 +95,16 @@ bool isConvincing(const MatchResult& match, const DeskewedScan& scan, const Loca
 {
   if (isContradicted(match, scan, map)) return false;
   if (match.constraints.unconstrained > 0) return true;
-  if (normalizedInnovation(match.update) > kWrongPoseInnovation) return false;
-  const double inliers = inlierRatio(match.update.last.count, scan.surfaces.size());
-  // A narrow view that turns to what it has not seen yet matches little, but all that is mapped.
-  const bool fits_as_usual =
-      inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
-  return inliers >= kMinUsualFraction * map.usualInlierRatio() ||
-         (inliers >= kLeastInView && fits_as_usual);
+  return normalizedInnovation(match.update) <= kWrongPoseInnovation &&
+         inlierRatio(match.update.last.count, scan.surfaces.size()) >=
+             kMinUsualFraction * map.usualInlierRatio();
+}
+
+bool fitsAllThatIsMapped(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
+{
+  return normalizedInnovation(match.update) <= kMaxInnovation &&
+         inlierRatio(match.update.last.count, scan.surfaces.size()) >= kLeastInView &&
+         inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
 }
 
 bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)

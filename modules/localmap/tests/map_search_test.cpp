@@ -24,8 +24,13 @@ LocalMap usualMap()
   return map;
 }
 
+struct Verdict
+{
+  bool convinces = false, fits = false;
+};
+
 /** \param mapped points where the map has a plane \param matched those that fit it */
-bool convinces(std::size_t mapped, std::size_t matched, double innovation = 1.0)
+Verdict verdictOn(std::size_t mapped, std::size_t matched, double innovation = 1.0)
 {
   MatchResult match;
   match.mapped = mapped;
@@ -33,22 +38,24 @@ bool convinces(std::size_t mapped, std::size_t matched, double innovation = 1.0)
   match.update.last.weighted_squares = innovation * static_cast<double>(matched);
   DeskewedScan scan;
   scan.surfaces.resize(kPoints);
-  return isConvincing(match, scan, usualMap());
+  const LocalMap map = usualMap();
+  return {isConvincing(match, scan, map), fitsAllThatIsMapped(match, scan, map)};
 }
 
 // A narrow view that turns round a corner. Such runs went on without the map, and were lost.
-TEST(MapSearch, WhereLittleIsMappedWhatFitsItConvinces)
+TEST(MapSearch, WhereLittleIsMappedAllOfThatFits)
 {
-  EXPECT_TRUE(convinces(170, 165));
-  EXPECT_FALSE(convinces(170, 120)) << "a third of what is mapped does not fit";
-  EXPECT_FALSE(convinces(40, 40)) << "so few fit by chance";
-  EXPECT_FALSE(convinces(170, 165, 20.0)) << "residuals of a wrong pose";
+  EXPECT_FALSE(verdictOn(170, 165).convinces);
+  EXPECT_TRUE(verdictOn(170, 165).fits);
+  EXPECT_FALSE(verdictOn(170, 120).fits) << "a third of what is mapped does not fit";
+  EXPECT_FALSE(verdictOn(40, 40).fits) << "so few fit by chance";
+  EXPECT_FALSE(verdictOn(170, 165, 20.0).fits) << "residuals of a wrong pose";
 }
 
 TEST(MapSearch, WhereMuchIsMappedAFifthOfTheUsualConvinces)
 {
-  EXPECT_TRUE(convinces(400, 210));
-  EXPECT_FALSE(convinces(1000, 120)) << "another place";
+  EXPECT_TRUE(verdictOn(400, 210).convinces);
+  EXPECT_FALSE(verdictOn(1000, 120).convinces) << "another place";
 }
 }  // namespace
 }  // namespace fastlio

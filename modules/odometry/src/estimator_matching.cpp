@@ -143,8 +143,11 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
       match = alongOpenDirections(std::move(match), work);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
     const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
-    const bool good = match.update.updated ? found && isConvincing(match, scan, map_)
-                                           : !isContradicted(match, scan, map_);
+    const bool turns_away = !uncertain && calibration_.expectedInnovation() == 1.0 &&
+                            fitsAllThatIsMapped(match, scan, map_);
+    const bool good = match.update.updated
+                          ? found && (turns_away || isConvincing(match, scan, map_))
+                          : !isContradicted(match, scan, map_);
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
     if (uncertain) deskew(work.scan, work.end_ns, predicted.x);
     if (seen_again && velocityStd(predicted) > kShearingVelocity)

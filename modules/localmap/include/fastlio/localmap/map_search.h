@@ -39,6 +39,12 @@ struct MapSearchResult
 [[nodiscard]] bool isConvincing(
     const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
 
+/** Little of the scan is mapped, but all of that fits: a narrow view that turns to what it has not
+ * seen yet. This shows the pose only where scans and inertial data agree. Where they do not, the
+ * planes that would show it may have left the gate. */
+[[nodiscard]] bool fitsAllThatIsMapped(
+    const MatchResult& match, const DeskewedScan& scan, const LocalMap& map);
+
 /** As many points match as a searched pose has to show. A match from an uncertain prediction needs
  * that: its gate is narrow, so that whatever matches has small residuals. */
 [[nodiscard]] bool matchesAsFound(
