@@ -12,8 +12,6 @@ namespace
 {
 using testing::contentOf;
 using testing::goodRun;
-using testing::kPeriod;
-using testing::kRunStart;
 using testing::resultAt;
 using testing::TemporaryFolder;
 using Json = nlohmann::json;

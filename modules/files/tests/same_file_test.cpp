@@ -96,12 +96,13 @@ TEST(SameFile, ManyMissingPartsAreLookedUpOnceEach)
   constexpr int kCount = 3000;
   constexpr std::chrono::seconds kPlenty{5};  // each with each other would take a minute
   std::vector<std::string> missing;
+  missing.reserve(kCount + 1);
   for (int i = 0; i < kCount; ++i)
     missing.push_back("/no/such/folder/part_" + std::to_string(i));
   const auto begin = std::chrono::steady_clock::now();
   requireGivenOnce(missing);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, kPlenty);
-  missing.push_back("/no/such/folder/../folder/part_0");
+  missing.emplace_back("/no/such/folder/../folder/part_0");
   EXPECT_THROW(requireGivenOnce(missing), std::invalid_argument);
 }
 

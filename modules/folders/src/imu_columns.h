@@ -16,7 +16,7 @@ namespace fastlio
 
 /** The content of a column by its name: 0: time, 1 to 3: angular rates, 4 to 6: specific forces
  * about and along x, y, z; -1: something else. */
-[[nodiscard]] int roleOfColumn(std::string_view name);
+[[nodiscard]] int roleOfColumn(std::string_view column);
 
 /** Whether the column holds the nanoseconds behind the whole seconds of another one. */
 [[nodiscard]] bool isNanosecondColumn(std::string_view name);

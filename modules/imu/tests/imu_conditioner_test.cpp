@@ -142,8 +142,8 @@ TEST(ImuConditioner, AGapCostsWhatTheMotionBeforeItShows)
   auto raw = tilting(1000);
   raw.erase(raw.begin() + 700, raw.begin() + 740);
   const Conditioned calm = conditioned(raw);
-  for (std::size_t i = 0; i < raw.size(); ++i)
-    raw[i].gyro.x() += 4.0 * std::sin(toSeconds(raw[i].stamp_ns - kStart) * 20.0);
+  for (ImuSample& sample : raw)
+    sample.gyro.x() += 4.0 * std::sin(toSeconds(sample.stamp_ns - kStart) * 20.0);
   const Conditioned shaken = conditioned(raw);
   ASSERT_TRUE(calm.samples[700].inflation && shaken.samples[700].inflation);
   // The tilt changes by 2 rad/s^2 and less; a tenth of 30 deg/s times 0.205 s / imu.max_gap.
