@@ -66,8 +66,29 @@ void PlaceAmbiguity::addOpenDirection(const Vec3& axis, const Mat3& position)
   lost_ += std::max(0.0, variance - axis.dot(lost_ * axis)) * axis * axis.transpose();
 }
 
+void PlaceAmbiguity::beginInMotion(const NavState& x, const Vec3& angular_rate)
+{
+  first_position_ = x.p;
+  first_velocity_ = x.v;
+  first_rate_ = x.R * angular_rate;
+  first_offset_ = x.time_offset;
+}
+
+/** All poses lie as they do from where the first one was when its scan ended by the clock of the
+ * IMU. It was given as where the platform was before, by as much as the offset was wrong then. */
+Vector6 PlaceAmbiguity::shiftOf(const NavState& x) const
+{
+  const double late = x.time_offset - first_offset_;
+  const Vec3 turn = late * first_rate_;
+  Vector6 shift;
+  shift << x.R.transpose() * turn, late * first_velocity_ + turn.cross(x.p - first_position_);
+  return shift;
+}
+
 void PlaceAmbiguity::addTo(const NavState& x, const StateMatrix& P, StateMatrix& systematic) const
 {
+  const Vector6 shift = shiftOf(x);
+  systematic.topLeftCorner<6, 6>() += shift * shift.transpose();
   const Vec3 down = x.down();
   systematic.block<3, 3>(kAttitude, kAttitude) += heading_ * down * down.transpose();
   Mat3 position = systematic.block<3, 3>(kPosition, kPosition) + position_;

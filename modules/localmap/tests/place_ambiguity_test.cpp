@@ -130,5 +130,30 @@ TEST(PlaceAmbiguity, IsHowFarAPositionWasLostAlongAnOpenDirection)
   EXPECT_LT(systematic.norm(), 1e-12);
 }
 
+// A hand that turned by 60 deg/s when it started, with clocks 6 ms apart: 0.4 deg, known to 0.1.
+TEST(PlaceAmbiguity, IsHowFarTheFirstPoseMovedByTheOffsetOfTheClocks)
+{
+  constexpr double kOffset = 0.006;  // [s]
+  const Vec3 rate(0.2, -0.3, 1.0);
+  NavState first;
+  first.R = expSO3({0.3, -0.2, 1.1});
+  first.p = {1.0, 2.0, 0.5};
+  first.v = {0.5, -0.4, 0.1};
+  PlaceAmbiguity ambiguity;
+  ambiguity.beginInMotion(first, rate);
+  EXPECT_EQ(added(ambiguity, first).norm(), 0.0);
+
+  NavState later = first;
+  later.R = expSO3({0.1, 0.2, -2.0});
+  later.p = {12.0, -7.0, 1.5};
+  later.time_offset = kOffset;
+  const Pose moved{first.R * expSO3(kOffset * rate), first.p + kOffset * first.v};
+  const Pose truth = moved * first.pose().inverse() * later.pose();
+  Vector6 error;
+  error << logSO3(Mat3(later.R.transpose() * truth.R)), truth.p - later.p;
+  const Matrix6 P = added(ambiguity, later).topLeftCorner<6, 6>();
+  EXPECT_LT((P - error * error.transpose()).norm(), 1e-2 * error.squaredNorm());
+  EXPECT_GT(error.norm(), 0.05);
+}
 }  // namespace
 }  // namespace fastlio

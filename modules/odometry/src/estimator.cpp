@@ -96,7 +96,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   correctExtrinsic(result);
   insertIntoMap(work, result);  // eq. 21
   result.statistics.map_points = map_.surfaces().pointCount();
-  widenAfterFirstScan(result.status);
+  widenAfterFirstScan(result.status, deskewed);
   releaseTimeOffset(result, deskewed);
   changeMode(result.status);
 
@@ -259,11 +259,12 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
 }
 
 /** All scans of a start in motion share the errors of the map that the first one has created. */
-void Estimator::widenAfterFirstScan(ScanStatus status)
+void Estimator::widenAfterFirstScan(ScanStatus status, const DeskewedScan& scan)
 {
   const std::optional<MotionWindow>& window = run().motion_window;
-  if (status == ScanStatus::FirstScan && window)
-    state_.filter.P += window->covariance_after_first_scan;
+  if (status != ScanStatus::FirstScan || !window) return;
+  state_.filter.P += window->covariance_after_first_scan;
+  ambiguity_.beginInMotion(state_.filter.x, scan.compensation.angular_rate);
 }
 
 // From then on the offset is uncertain. The map becomes dense first: one that is still sparse could

@@ -158,7 +158,7 @@ class Estimator
   /** What was known of single planes goes with the map they were in. */
   void useMap(LocalMap map);
   void insertIntoMap(const Work& work, const ScanResult& result);
-  void widenAfterFirstScan(ScanStatus status);
+  void widenAfterFirstScan(ScanStatus status, const DeskewedScan& scan);
   void releaseTimeOffset(const ScanResult& result, const DeskewedScan& scan);
 
   const OdometryOptions options_;

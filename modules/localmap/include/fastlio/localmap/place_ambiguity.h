@@ -12,6 +12,9 @@
  *   carried away, a part of the recording is missing, or a sensor fails. What fits half as well
  *   later may be any place.
  *
+ * - Where the run begins in motion, its first pose is that of another instant, as the offset of the
+ *   clocks is not known yet.
+ *
  * No later scan shows the error: each of them matches the map from the same wrong place. So what
  * was searched, lost or contradicted belongs to the reported covariance from then on. */
 #pragma once
@@ -41,16 +44,25 @@ class PlaceAmbiguity
    * \param position covariance of the position that is reported [m^2] */
   void addOpenDirection(const Vec3& axis, const Mat3& position);
 
+  /** The run begins in motion. \param angular_rate of the body [rad/s] */
+  void beginInMotion(const NavState& x, const Vec3& angular_rate);
+
   /** Its part in the covariance of a state. \param P what the filter makes of it
    * \param systematic the rest, which it adds to */
   void addTo(const NavState& x, const StateMatrix& P, StateMatrix& systematic) const;
 
  private:
+  /** What it has shifted and turned by now. */
+  [[nodiscard]] Vector6 shiftOf(const NavState& x) const;
+
   // In the world frame [m^2].
   Mat3 position_ = Mat3::Zero();
   Mat3 lost_ = Mat3::Zero();  // at least so much is reported
   double heading_ = 0.0;      // [rad^2]
-  int contradictions_ = 0;    // scans, since the last one with a pose
+  Vec3 first_position_ = Vec3::Zero(), first_velocity_ = Vec3::Zero();  // [m], [m/s]
+  Vec3 first_rate_ = Vec3::Zero();                                      // [rad/s]
+  double first_offset_ = 0.0;  // of the clocks, as it was taken then [s]
+  int contradictions_ = 0;     // scans, since the last one with a pose
 };
 
 }  // namespace fastlio
