@@ -4,6 +4,7 @@
 // Sensors that fail for a while, and sensors that speak another language.
 
 #include "odometry_runs.h"
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 
