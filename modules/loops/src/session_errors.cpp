@@ -33,7 +33,9 @@ constexpr double kUsualBias = 0.02;         // of the accelerometer, over gravit
 // of lasers. With all of it as the same error, maps of rides on round ramps and among containers
 // were less accurate.
 constexpr double kSharedByBeams = 0.5;
-constexpr double kLeastInertial = 1e-6;  // a covariance has an inverse
+constexpr double kLostAttitude = 1.0;     // of a motion that may have been any [rad]
+constexpr double kLostPosition = 1000.0;  // likewise [m]
+constexpr double kLeastInertial = 1e-6;   // a covariance has an inverse
 
 using InertialMoment = Eigen::Matrix<double, kInertial, kInertial>;
 using MotionByInertial = Eigen::Matrix<double, 6, kInertial>;
@@ -70,6 +72,21 @@ Matrix6 usualDrift()
   return covariance;
 }
 
+bool isLost(const Matrix6& covariance)
+{
+  const Vector6 variances = covariance.diagonal();
+  return !(variances.head<3>().sum() < kLostAttitude * kLostAttitude) ||
+         !(variances.tail<3>().sum() < kLostPosition * kLostPosition);
+}
+
+Matrix6 ofLostMotion()
+{
+  Matrix6 covariance = Matrix6::Zero();
+  covariance.diagonal().head<3>().setConstant(kLostAttitude * kLostAttitude);
+  covariance.diagonal().tail<3>().setConstant(kLostPosition * kLostPosition);
+  return covariance;
+}
+
 Matrix6 byDrift(const Submap& earlier, const Submap& later)
 {
   return (later.travel - earlier.travel) * Matrix6::Identity();
@@ -86,14 +103,24 @@ Eigen::MatrixXd sessionErrorCovariance(const Submap& latest)
   return covariance;
 }
 
+Matrix6 boundedCovariance(const Matrix6& covariance)
+{
+  return isLost(covariance) ? ofLostMotion() : covariance;
+}
+
 GraphEdge odometryEdge(const Submap& earlier, const Submap& later, std::size_t a)
 {
   const TrackedPose &from = earlier.reference, &to = later.reference;
   const MotionByBeams by_beams = motionByBeams(from, to);
   GraphEdge edge{a, a + 1, relativePose(from, to), false, later.session, {}};
+  edge.by_sensor = Eigen::MatrixXd::Zero(6, kSessionErrors);
+  if (isLost(edge.measured.covariance))
+  {
+    edge.measured.covariance = ofLostMotion();
+    return edge;
+  }
   edge.measured.covariance -= kSharedByBeams * by_beams * by_beams.transpose();
   edge.measured.covariance += ofBeams(std::min(earlier.range, later.range));
-  edge.by_sensor = Eigen::MatrixXd::Zero(6, kSessionErrors);
   edge.by_sensor.middleCols<6>(kDriftAt) = byDrift(earlier, later);
   edge.by_sensor.middleCols<kBeamErrors>(kBeamsAt) = std::sqrt(kSharedByBeams) * by_beams;
   edge.by_sensor.middleCols<kInertial>(kInertialAt) = byInertial(earlier, later);

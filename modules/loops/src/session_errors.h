@@ -30,7 +30,13 @@ namespace fastlio
  * calibration */
 [[nodiscard]] Eigen::MatrixXd sessionErrorCovariance(const Submap& latest);
 
-/** The motion between the references of submaps that follow each other, numbers \a a and a + 1. */
+/** The covariance of a motion as the graph takes it. An odometry that is lost says so in ever
+ * larger numbers, which would only cost the graph its digits: any attitude and 1 km say the same.
+ */
+[[nodiscard]] Matrix6 boundedCovariance(const Matrix6& covariance);
+
+/** The motion between the references of submaps that follow each other, numbers \a a and a + 1.
+ * Where the odometry was lost between them, it depends on no errors: it is linear in none. */
 [[nodiscard]] GraphEdge odometryEdge(const Submap& earlier, const Submap& later, std::size_t a);
 
 /** Gravity in a submap that has a reading of it. */

@@ -84,6 +84,35 @@ TEST(SessionErrors, OfTheGyroAddUpWhereTheRoadTurns)
   EXPECT_LT(by_gyro(kStraight), 0.01 * kStd * kTurn);
 }
 
+/** An odometry that has lost its pose is sure of nothing, by numbers that have lost all meaning: so
+ * says the map, but it comes out. */
+TEST(SessionErrors, OfALostOdometryLeaveTheGraphSolvable)
+{
+  Mapper mapper;
+  for (std::size_t i = 0; i < kSteps; ++i)
+  {
+    Submap submap;
+    const auto at = static_cast<double>(i);
+    const double lost = i < kStraight ? 1.0 : std::pow(10.0, at - kStraight);
+    submap.reference.stamp_ns = static_cast<std::int64_t>(i + 1) * 1'000'000'000;
+    submap.reference.T_world_body.p = {kStepLength * at, 0.1 * std::min(lost, 1e3), 0.0};
+    submap.reference.covariance = 1e-10 * lost * lost * Matrix6::Identity();
+    submap.pose_by_calibration.setConstant(static_cast<float>(1e-3 * lost));
+    submap.calibration_moment.setIdentity();
+    submap.calibration_moment *= 1e-4F;
+    submap.travel = kStepLength * at;
+    submap.range = 20.0;
+    submap.gravity =
+        GravityReading{{0.1 * std::sin(at), 0.0, 9.81}, Mat3::Identity(), 1e-4 * Mat3::Identity()};
+    mapper.add(std::move(submap));
+  }
+  const MappingResult result = std::move(mapper).result();
+  ASSERT_EQ(result.estimate.covariances.size(), kSteps);
+  for (const Matrix6& covariance : result.estimate.covariances)
+    EXPECT_TRUE(covariance.allFinite());
+  EXPECT_GT(result.estimate.covariances.back()(4, 4), 1e6);
+}
+
 /** Readings of gravity tell the graph of a drift. As long as nothing corrects the map, its poses
  * and the motions between them are those of the odometry all the same. */
 TEST(SessionErrors, AreNotTakenOffWhereNothingIsCorrected)

@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/so3.h>
 #include <fastlio/math/time.h>
 #include <fastlio/run/pose_output.h>
@@ -19,7 +20,8 @@ constexpr double kMeasuredPosition = 0.002;  // surfaces that bend move scans by
 // Scale and mounting of the accelerometer are off by some tenths of a percent and of a degree: so
 // is what it feels of the motion, as a part of it.
 constexpr double kMotionError = 0.007;
-// Beyond it, a reading is not of gravity: the odometry lost its way, or units differ. A part of it.
+// Beyond it, a reading is not of gravity, or says nothing about it: the odometry lost its way, or
+// units differ. A part of it.
 constexpr double kMostExcess = 0.1;
 }  // namespace
 
@@ -110,7 +112,10 @@ std::optional<GravityReading> GravityMeter::between(const Stretch& former, const
   reading.covariance =
       back * of_velocities * back.transpose() + of_motion * of_motion * Mat3::Identity();
   const Vec3 expected = -(latter.from.T_world_body.R.transpose() * latter.from.gravity);
-  if (!((reading.force - expected).norm() < kMostExcess * expected.norm())) return std::nullopt;
+  const double most = kMostExcess * expected.norm();
+  const Vec3 variances = symmetricEigensystem(reading.covariance).values;
+  const bool is_known = variances.minCoeff() > 0.0 && variances.maxCoeff() < most * most;
+  if (!is_known || !((reading.force - expected).norm() < most)) return std::nullopt;
   return reading;
 }
 

@@ -149,4 +149,21 @@ TEST(GravityMeter, TellsNothingOfAShortTimeOrAnotherForce)
   }
 }
 
+/** Where the odometry is lost, its positions tell no velocity. */
+TEST(GravityMeter, TellsNothingOfUncertainPositions)
+{
+  GravityMeter meter;
+  for (int round = 0; round < 3; ++round)
+  {
+    for (int ms = 1000 * round; ms < 1000 * (round + 1); ms += 5)
+    {
+      meter.addImu(Platform::sample(1e-3 * ms));
+      ScanResult scan = Platform::scan(1e-3 * ms);
+      scan.filter.P.block<3, 3>(kPosition, kPosition) = 100.0 * Mat3::Identity();
+      if (ms % 100 == 0) meter.addScan(scan);
+    }
+    EXPECT_FALSE(meter.take()) << round;
+  }
+}
+
 }  // namespace fastlio
