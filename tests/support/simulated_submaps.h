@@ -23,11 +23,9 @@ inline std::vector<Submap> submapsOf(const Simulation& simulation, const SubmapR
   Odometry odometry(options);
   SubmapBuilder builder(0, rule);
   std::vector<Submap> submaps;
+  odometry.setSampleCallback([&builder](const ImuSample& sample) { builder.addImu(sample); });
   for (const ImuSample& sample : simulation.imu().samples)
-  {
     odometry.addImu(sample);
-    builder.addImu(sample);
-  }
   for (std::size_t i = 0; i < simulation.scanCount(); ++i)
   {
     odometry.addScan(simulation.scan(i));

@@ -29,6 +29,7 @@ SessionPass Session::run(
   SessionPass pass;
   DecodeAheadSource source(RawlogSource(files_), ObservationBridge(selection_, plan_.bridge));
   Odometry odometry(config_.odometry);
+  odometry.setSampleCallback(imu);
   const auto take = [&](const ScanResult& result)
   {
     ++pass.scans;
@@ -39,10 +40,7 @@ SessionPass Session::run(
     auto input = source.next();
     if (!input) break;
     if (auto* sample = std::get_if<ImuSample>(&input->data))
-    {
       odometry.addImu(*sample);
-      if (imu) imu(*sample);
-    }
     else
     {
       auto& scan = std::get<LidarScan>(input->data);

@@ -26,6 +26,10 @@ void Odometry::addImu(const ImuSample& sample)
 {
   impl_->addImu(sample);
 }
+void Odometry::setSampleCallback(std::function<void(const ImuSample&)> callback)
+{
+  impl_->sample_callback_ = std::move(callback);
+}
 void Odometry::addScan(LidarScan scan)
 {
   impl_->addScan(std::move(scan));

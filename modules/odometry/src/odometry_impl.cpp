@@ -101,6 +101,7 @@ void Odometry::Impl::take(const ConditionedSample& conditioned)
   {
     case ImuBuffer::Verdict::Accepted:
       diagnostics_.consider(sample);
+      if (sample_callback_) sample_callback_(sample);
       break;
     case ImuBuffer::Verdict::NotFinite:
       ++counted_.imu_not_finite;

@@ -17,6 +17,7 @@
 #include <fastlio/lidar/range_unit.h>
 #include <fastlio/odometry/odometry.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ class Odometry::Impl
   Estimator estimator_;
   Vec3 map_origin_ = Vec3::Zero();
   RunDiagnostics diagnostics_;
+  std::function<void(const ImuSample&)> sample_callback_;  // may be empty
 
  private:
   void take(const std::vector<ConditionedSample>& samples);

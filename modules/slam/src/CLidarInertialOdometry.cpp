@@ -37,10 +37,9 @@ class CLidarInertialOdometry::Impl
 {
  public:
   Impl(const Config& config, OptionFilter is_given)
-      : lidar_clock(config.odometry.lidar.time_offset),
-        odometry_(std::in_place, config.odometry),
-        sensors_(config, std::move(is_given))
+      : lidar_clock(config.odometry.lidar.time_offset), sensors_(config, std::move(is_given))
   {
+    makeOdometry(config.odometry);
   }
 
   /** A description of the observation for the log; empty when it was used or belongs to other
@@ -57,7 +56,7 @@ class CLidarInertialOdometry::Impl
     }
     for (BridgeOutput& output : outputs)
     {
-      if (auto* sample = std::get_if<ImuSample>(&output)) add(*sample);
+      if (auto* sample = std::get_if<ImuSample>(&output)) odometry_->addImu(*sample);
       if (auto* scan = std::get_if<LidarScan>(&output)) odometry_->addScan(std::move(*scan));
     }
     return sensors_.takeMessage();
@@ -107,10 +106,14 @@ class CLidarInertialOdometry::Impl
   std::function<void(const ImuSample&)> sample_callback;
 
  private:
-  void add(const ImuSample& sample)
+  void makeOdometry(const OdometryOptions& options)
   {
-    odometry_->addImu(sample);
-    if (sample_callback) sample_callback(sample);
+    odometry_.emplace(options);
+    odometry_->setSampleCallback(
+        [this](const ImuSample& sample)
+        {
+          if (sample_callback) sample_callback(sample);
+        });
   }
 
   void announce(const ScanResult& result)
@@ -151,10 +154,10 @@ class CLidarInertialOdometry::Impl
   {
     if (!start_)
     {
-      odometry_.emplace(sensors_.config().odometry);
+      makeOdometry(sensors_.config().odometry);
       return;
     }
-    odometry_.emplace(optionsFor(start_->guess));
+    makeOdometry(optionsFor(start_->guess));
     start_->map.T_map_imu = ofImu(start_->guess).T_world_imu;
     odometry_->startIn(start_->map);
   }

@@ -41,7 +41,7 @@ class Session
 
   /** Runs the odometry. \param use every result, with the odometry that made it; false: stop
    * \param share how much of the recording has been read, 0 to 1; may be empty
-   * \param imu every sample, before the scans that need it; may be empty */
+   * \param imu every sample, as Odometry::setSampleCallback() gives it; may be empty */
   SessionPass run(
       const std::function<bool(const ScanResult&, const Odometry&)>& use,
       const std::function<void(double share)>& progress = {},

@@ -14,6 +14,7 @@
 #include <fastlio/interface/scan_result.h>
 #include <fastlio/lidar/scan.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -77,6 +78,11 @@ class Odometry
    * jumps (in value or time) waits for the next one, the first 0.2 s for the unit of the
    * accelerometer (imu.accel_unit). */
   void addImu(const ImuSample& sample);
+
+  /** \param callback called for every sample that is not dropped, as the filter uses it: in m/s^2 and
+   * rad/s, with the signs and axes of the body and by the clock of the results; in the order of
+   * time, before next() gives a scan that needs it */
+  void setSampleCallback(std::function<void(const ImuSample&)> callback);
 
   /** A scan that inertial data do not reach within lidar.max_waiting is given up with a result that
    * says so: Initializing before the start, Diverged (without a state) after it. */

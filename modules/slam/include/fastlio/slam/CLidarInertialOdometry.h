@@ -104,7 +104,7 @@ class CLidarInertialOdometry : public mrpt::rtti::CObject, public mrpt::system::
   /** Called for every scan, from within onNewObservation() and finish(). */
   void setCallback(Callback callback);
 
-  /** Called for every inertial sample in use, before the scans that need it. */
+  /** Called for every inertial sample in use, as Odometry::setSampleCallback() gives it. */
   void setSampleCallback(std::function<void(const ImuSample&)> callback);
 
   /** The estimator within: in a callback, it has the registered points of this scan. */
