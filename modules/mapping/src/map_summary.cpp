@@ -7,6 +7,7 @@
 #include <fastlio/options/json_text.h>
 #include <fastlio/options/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,13 @@ std::optional<double> medianBefore(const std::vector<ClosureAgreement>& all)
 }
 
 Json anchorsJson(const MappingResult& result, std::size_t session);
+
+std::size_t gravityReadings(const MappingResult& result)
+{
+  return static_cast<std::size_t>(std::count_if(
+      result.submaps.begin(), result.submaps.end(),
+      [](const Submap& submap) { return submap.gravity.has_value(); }));
+}
 
 Json sessionsJson(const BuiltMap& map)
 {
@@ -67,6 +75,7 @@ Json submapsJson(const MappingResult& result)
          {"stamp_ns", submap.reference.stamp_ns},
          {"scans", submap.scans},
          {"planes", submap.surfaces.planes()},
+         {"gravity_read", submap.gravity.has_value()},
          {"odometry_xyz_m", vectorJson(submap.reference.T_world_body.p)},
          {"xyz_m", vectorJson(corrected.p)},
          {"xyz_std_m",
@@ -212,7 +221,8 @@ std::string mapSentence(const MapAccount& account)
   const MappingResult& result = account.map.result;
   const std::size_t lost = result.countOf(ClosureVerdict::Unpredicted);
   const std::string looked =
-      std::to_string(result.submaps.size()) + " submaps, " +
+      std::to_string(result.submaps.size()) + " submaps (" +
+      std::to_string(gravityReadings(result)) + " with a reading of gravity), " +
       std::to_string(result.closures.size()) + " possible closures" +
       (lost > 0 ? " (" + std::to_string(lost) + " refused, as the odometry was lost)" : "") + ": ";
   if (result.accepted() == 0 && result.corrected)
@@ -250,6 +260,7 @@ std::string mapSummaryJson(const MapAccount& account)
       {"map_points", account.points},
       {"moving_objects", removedJson(account.removed)},
       {"corrected", result.corrected},
+      {"gravity_readings", gravityReadings(result)},
       {"closures_accepted", result.accepted()},
       {"largest_correction_m", largestMove(result)},
       {"surfaces_apart_before_m", before ? Json(*before) : Json(nullptr)},

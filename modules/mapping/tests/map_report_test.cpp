@@ -136,6 +136,16 @@ TEST(MapReport, PlacesWhereTheOdometryWasLostAreToldInTheFirstSentence)
   EXPECT_TRUE(has(sentence, "closures (1 refused, as the odometry was lost): none")) << sentence;
 }
 
+/** Without them, nothing levels the map. */
+TEST(MapReport, ReadingsOfGravityAreCounted)
+{
+  BuiltMap map = twoSessions();
+  EXPECT_TRUE(has(mapSentence(accountOf(map)), "2 submaps (0 with a reading of gravity), "));
+  map.result.submaps[1].gravity.emplace();
+  EXPECT_TRUE(has(mapSentence(accountOf(map)), "2 submaps (1 with a reading of gravity), "));
+  EXPECT_TRUE(has(mapSummaryJson(accountOf(map)), "\"gravity_readings\": 1"));
+}
+
 TEST(MapReport, SessionsAreToldApart)
 {
   const std::string html = mapReportHtml(accountOf(twoSessions()));
