@@ -91,7 +91,7 @@ TEST_F(MapOfRigs, ASecondRigIsNotTooSure)
       others.position.mean, same.rotation.mean, same.position.mean);
   EXPECT_LT(others.rotation.mean, 9.0);
   EXPECT_LT(others.position.mean, 9.0);
-  EXPECT_GT(same.rotation.mean, 3.0 * others.rotation.mean);
+  EXPECT_GT(same.rotation.mean, 2.0 * others.rotation.mean);
 }
 
 TEST_F(MapOfRigs, SaysWhichSessionsAreOfOneRig)

@@ -60,7 +60,7 @@ void Mapper::acceptAgreeing(const Closure& latest)
   {
     closure->needs_agreement = false;
     accept(*closure, remark);
-    result_.graph.edges.push_back({closure->a, closure->b, closure->registration.motion, true});
+    addEdge(*closure);
   }
   settle();
 }

@@ -56,12 +56,23 @@ void Mapper::join(Submap submap)
   {
     result_.closures.push_back(compared(a, b));
     const Closure& closure = result_.closures.back();
-    if (closure.verdict == ClosureVerdict::Accepted)
-      result_.graph.edges.push_back({a, b, closure.registration.motion, true});
+    if (closure.verdict == ClosureVerdict::Accepted) addEdge(closure);
     if (closure.needs_agreement) acceptAgreeing(closure);
   }
   const auto grown = static_cast<double>(result_.submaps.size() - settled_submaps_);
   if (grown >= kGrowth * static_cast<double>(settled_submaps_)) settle();
+}
+
+/** The measurement of a closure between the references of its submaps: the registration tells where
+ * the surfaces of the one are in those of the other. */
+void Mapper::addEdge(const Closure& closure)
+{
+  const auto ofReference = [this](std::size_t submap)
+  { return boundedCovariance(result_.submaps[submap].reference_covariance); };
+  OdometryChain way(Pose{}, ofReference(closure.a));
+  way.advance(closure.registration.motion);
+  way.advance({Pose{}, ofReference(closure.b)});
+  result_.graph.edges.push_back({closure.a, closure.b, {way.pose(), way.covariance()}, true});
 }
 
 /** The new submap's node, its edge to the one before and its tilt. */

@@ -1,18 +1,14 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "closure_submaps.h"
 #include "mapper_parts.h"
-#include "simulated_submaps.h"
 #include <fastlio/loops/mapper.h>
-#include <fastlio/math/time.h>
-#include <fastlio/scenarios/settings_table.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,46 +17,17 @@ namespace fastlio
 {
 namespace
 {
+using testing::closureOf;
+using testing::closureOfSecondPass;
+using testing::submapAt;
+using testing::surroundings;
+
 constexpr double kFloor = 3.2;  // from one to the next that looks the same [m]
-
-/** What is seen in a few seconds. */
-Submap surroundings(const char* scenario)
-{
-  SimulationSettings settings = defaultSettings(scenario);
-  settings.duration = 5.0;
-  settings.lidar.stride = 4;
-  constexpr double kLong = 100.0;  // [m]: one submap holds all
-  return testing::submapsOf(Simulation(settings), {kLong}).at(0);
-}
-
-/** The same submap after so much travel.
- * \param height by the odometry [m] \param height_std how well it knows, by its map [m] */
-Submap submapAt(Submap submap, double height, double height_std, double travel)
-{
-  submap.reference.T_world_body.p.z() += height;
-  submap.reference.stamp_ns += toNanoseconds(travel);  // at 1 m/s
-  submap.reference.map_covariance.setZero();
-  submap.reference.map_covariance(5, 5) = height_std * height_std;
-  submap.reference.covariance = submap.reference.map_covariance + 1e-8 * Matrix6::Identity();
-  submap.travel += travel;
-  submap.gravity = std::nullopt;  // the accelerometer does not tell heights
-  return submap;
-}
 
 Submap roomsAt(double height, double height_std, double travel)
 {
   static const Submap rooms = surroundings("office");
   return submapAt(rooms, height, height_std, travel);
-}
-
-/** The one closure of these submaps. */
-Closure closureOf(std::initializer_list<Submap> submaps)
-{
-  Mapper mapper;
-  for (const Submap& submap : submaps)
-    mapper.add(submap);
-  EXPECT_EQ(mapper.closures().size(), 1U);
-  return mapper.closures().empty() ? Closure{} : mapper.closures().front();
 }
 
 /** The closure between a submap and one later on that looks the same. */
@@ -214,17 +181,6 @@ Submap streetWithoutCorners()
   }
   street.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(fronts));
   return street;
-}
-
-/** The closure of a place that an odometry passes again.
- * \param std how well it knows where it is [m] */
-Closure closureOfSecondPass(const Submap& place, double std)
-{
-  Submap later = submapAt(place, 0.0, 0.0, 60.0);
-  later.reference.T_world_body.p += Vec3(0.3, 0.2, 0.1);
-  later.reference.map_covariance.diagonal().tail<3>().setConstant(std * std);
-  later.reference.covariance = later.reference.map_covariance + 1e-8 * Matrix6::Identity();
-  return closureOf({submapAt(place, 0.0, 0.0, 0.0), later});
 }
 
 /** What lies along the street stays as the odometry has it. The rest is worth knowing. */

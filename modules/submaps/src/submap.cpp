@@ -27,6 +27,15 @@ double medianRange(const WorldPoints& points, const Vec3& sensor)
     ranges.push_back((pointAt(points, i) - sensor).norm());
   return median(std::move(ranges));
 }
+
+/** How far the reference is off as seen from the surfaces of one scan: both in its frame. */
+Matrix6 referenceCovariance(const TrackedPose& reference, TrackedPose pose)
+{
+  // The scans' own noise averages out over the surfaces.
+  pose.covariance = pose.map_covariance;
+  const RelativePose back = reversed(relativePose(reference, pose));
+  return withPositionTurned(back.T_a_b.R.transpose(), back.covariance);
+}
 }  // namespace
 
 TrackedPose mappingPoseOf(const ScanResult& result)
@@ -103,8 +112,19 @@ std::optional<Submap> SubmapBuilder::add(
     surfaces_->insert(local_, current_.reference.T_world_body.inverse() * pose.T_world_body.p);
   current_.last_ns = pose.stamp_ns;
   current_.calibration_moment = result.calibration_moment;
-  ++current_.scans;
+  addToReference(pose);
   return ended;
+}
+
+/** The mean of covariances is that of the mean of errors that all scans share, and a bound for
+ * others. */
+void SubmapBuilder::addToReference(const TrackedPose& pose)
+{
+  Matrix6& mean = current_.reference_covariance;
+  if (current_.scans > 0)
+    mean += (referenceCovariance(current_.reference, pose) - mean) /
+            static_cast<double>(current_.scans);
+  ++current_.scans;
 }
 
 std::optional<Submap> SubmapBuilder::finish()

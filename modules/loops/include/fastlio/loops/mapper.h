@@ -171,6 +171,7 @@ class Mapper
   void searchAnchor();
   [[nodiscard]] std::optional<Hypothesis> recognised(const Submap& query) const;
   void addOdometry();
+  void addEdge(const Closure& closure);
   void beginSession(const Submap& first, std::size_t b);
   [[nodiscard]] std::vector<std::size_t> candidatesOf(std::size_t b) const;
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;

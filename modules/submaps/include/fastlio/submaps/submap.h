@@ -27,6 +27,10 @@ struct Submap
   /** Of the IMU at the first scan, as the odometry has it; covariances without what a wrong
    * calibration makes of all poses alike. */
   TrackedPose reference;
+  /** How far the reference is off as seen from the surfaces: attitude and position in its frame.
+   * The first scan by itself is known less well than the surfaces of all scans, above all while a
+   * run begins. */
+  Matrix6 reference_covariance = Matrix6::Zero();
   std::optional<GravityReading> gravity;  //!< over the stretch, in the frame of the reference
   std::int64_t last_ns = 0;               //!< end of the last scan
   double travel = 0.0;                    //!< of the run, up to the reference [m]
@@ -73,6 +77,7 @@ class SubmapBuilder
 
  private:
   void begin(const TrackedPose& pose, const WorldPoints& registered, const Vec3& origin);
+  void addToReference(const TrackedPose& pose);
 
   std::size_t session_;
   SubmapRule rule_;
