@@ -120,12 +120,20 @@ std::optional<Shortcoming> shortcomingOf(
   return std::nullopt;
 }
 
-ClosureLimits Mapper::limitsFor(const RelativePose& predicted, bool is_narrow, double range) const
+ClosureLimits Mapper::limitsFor(const Closure& closure, bool is_narrow, double range) const
 {
   ClosureLimits limits = limits_;
-  const double std = largestPositionStd(predicted.covariance);
+  const double std = largestPositionStd(closure.predicted.covariance);
+  const bool is_leafy = closure.registration.evidence.upright_score < limits.min_upright;
   if (is_narrow) limits.max_deviation = limits.narrow_deviation;
-  if (!is_narrow && std <= limits.maxStd(range)) limits.open_directions = 1;
+  if (!is_narrow && std <= limits.maxStd(range))
+  {
+    // Not both: the ground and a wall fit anywhere along it, also on the next turn of a ramp.
+    if (is_leafy)
+      limits.min_upright = limits.known_place_overlap;
+    else
+      limits.open_directions = 1;
+  }
   if (std > limits.known_place_std) return limits;
   limits.min_overlap = limits.min_upright = limits.known_place_overlap;
   limits.open_directions = 1;
@@ -134,7 +142,7 @@ ClosureLimits Mapper::limitsFor(const RelativePose& predicted, bool is_narrow, d
 
 void Mapper::judge(Closure& closure, bool is_narrow, double range) const
 {
-  const ClosureLimits limits = limitsFor(closure.predicted, is_narrow, range);
+  const ClosureLimits limits = limitsFor(closure, is_narrow, range);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
   GraphEdge edge{0, 1, closure.registration.motion, true};

@@ -19,6 +19,7 @@ namespace
 {
 using testing::closureOf;
 using testing::closureOfSecondPass;
+using testing::streetWithoutCorners;
 using testing::submapAt;
 using testing::surroundings;
 
@@ -165,22 +166,6 @@ TEST(ClosureJudgement, OutdoorsALongRideMayComeBack)
   const Closure closure =
       closureOf({submapAt(street, 0.0, 0.0, 0.0), submapAt(street, 3.0, 5.0, 60.0)});
   EXPECT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
-}
-
-/** A street whose fronts tell the place across, not along. */
-Submap streetWithoutCorners()
-{
-  Submap street = surroundings("town");
-  const auto seen = street.surfaces.get();
-  SubmapSurfaces fronts;
-  for (std::size_t i = 0; i < seen->planes.size(); ++i)
-  {
-    if (std::abs(seen->planes[i].normal().x()) > 0.05) continue;
-    fronts.planes.push_back(seen->planes[i]);
-    fronts.spreads.push_back(seen->spreads[i]);
-  }
-  street.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(fronts));
-  return street;
 }
 
 /** What lies along the street stays as the odometry has it. The rest is worth knowing. */

@@ -11,8 +11,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <initializer_list>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace fastlio::testing
 {
@@ -24,6 +28,22 @@ inline Submap surroundings(const char* scenario)
   settings.lidar.stride = 4;
   constexpr double kLong = 100.0;  // [m]: one submap holds all
   return submapsOf(Simulation(settings), {kLong}).at(0);
+}
+
+/** A street whose fronts tell the place across, not along. */
+inline Submap streetWithoutCorners()
+{
+  Submap street = surroundings("town");
+  const auto seen = street.surfaces.get();
+  SubmapSurfaces fronts;
+  for (std::size_t i = 0; i < seen->planes.size(); ++i)
+  {
+    if (std::abs(seen->planes[i].normal().x()) > 0.05) continue;
+    fronts.planes.push_back(seen->planes[i]);
+    fronts.spreads.push_back(seen->spreads[i]);
+  }
+  street.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(fronts));
+  return street;
 }
 
 /** The same submap after so much travel.

@@ -80,9 +80,9 @@ struct ClosureLimits
   /** In narrow places, instead of max_deviation: what looks the same has to be beyond it. */
   double narrow_deviation = 4.0;
   /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
-   * fewer surfaces suffice, and the closure may leave one direction open. The latter also holds
-   * where the place is not narrow, and known to maxStd(): what looks the same along a street is one
-   * place then. */
+   * fewer surfaces suffice, and the closure may leave one direction open. Where the place is not
+   * narrow, it may be known to maxStd() only: what looks the same along a street is one place then,
+   * or fewer upright surfaces suffice, as leaves and trunks are other planes in each pass. */
   double known_place_std = 0.25;
   double known_place_overlap = 0.15;  //!< instead of min_overlap and min_upright
 
@@ -182,8 +182,7 @@ class Mapper
   [[nodiscard]] RelativePose motionBetween(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::optional<bool> closuresAgree(const Closure& one, const Closure& other) const;
   void acceptAgreeing(const Closure& latest);
-  [[nodiscard]] ClosureLimits limitsFor(
-      const RelativePose& predicted, bool is_narrow, double range) const;
+  [[nodiscard]] ClosureLimits limitsFor(const Closure& closure, bool is_narrow, double range) const;
   void settle();
 
   ClosureLimits limits_;
