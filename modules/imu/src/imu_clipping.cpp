@@ -67,8 +67,11 @@ double ClippingDetector::findRange(const Vec3& reading)
   {
     Axis& axis = axes_[static_cast<std::size_t>(i)];
     const std::optional<double> before = std::exchange(axis.latest, reading[i]);
-    if (before) follow(axis, *before);
-    if (before) tellWhereRunEnds(axis, i, *before);
+    if (before)
+    {
+      follow(axis, *before);
+      tellWhereRunEnds(axis, i, *before);
+    }
     const bool positive = isClipped(axis, 0, before);
     if (!isClipped(axis, 1, before) && !positive) continue;
     clipped = std::max(clipped, std::abs(reading[i]));

@@ -83,6 +83,12 @@ MapSearchResult notFound(
   latest.update.last = best;
   return {std::move(latest), false, std::nullopt};
 }
+
+/** Where the map has a plane, as many points fit it as usual. */
+bool fitsAsUsual(const MatchResult& match, const LocalMap& map)
+{
+  return inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
+}
 }  // namespace
 
 bool isContradicted(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
@@ -104,14 +110,14 @@ bool fitsAllThatIsMapped(const MatchResult& match, const DeskewedScan& scan, con
 {
   return normalizedInnovation(match.update) <= kMaxInnovation &&
          inlierRatio(match.update.last.count, scan.surfaces.size()) >= kLeastInView &&
-         inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
+         fitsAsUsual(match, map);
 }
 
 bool matchesAsFound(const MatchResult& match, const DeskewedScan& scan, const LocalMap& map)
 {
   return inlierRatio(match.update.last.count, scan.surfaces.size()) >=
              kUsualPart * map.usualInlierRatio() &&
-         inlierRatio(match.update.last.count, match.mapped) >= kUsualFit * map.usualFittingPart();
+         fitsAsUsual(match, map);
 }
 
 double MapSearch::ratioOf(const UpdateResult& update) const

@@ -155,5 +155,6 @@ TEST(PlaceAmbiguity, IsHowFarTheFirstPoseMovedByTheOffsetOfTheClocks)
   EXPECT_LT((P - error * error.transpose()).norm(), 1e-2 * error.squaredNorm());
   EXPECT_GT(error.norm(), 0.05);
 }
+
 }  // namespace
 }  // namespace fastlio

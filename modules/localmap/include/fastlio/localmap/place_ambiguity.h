@@ -11,7 +11,6 @@
  * - Where scans do not fit the map at all, though the prediction was certain, the platform was
  *   carried away, a part of the recording is missing, or a sensor fails. What fits half as well
  *   later may be any place.
- *
  * - Where the run begins in motion, its first pose is that of another instant, as the offset of the
  *   clocks is not known yet.
  *
