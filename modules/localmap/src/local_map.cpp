@@ -151,12 +151,11 @@ bool LocalMap::isSparse() const
 
 void LocalMap::insert(
     const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
-    const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
-    const Vec3& center)
+    const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& center)
 {
   error_.recordInsertion(++insertions_, error, T_world_scan, by_state);
   calibration_.recordInsertion(insertions_, T_world_scan, by_state);
-  surfaces_->insert(surfaces, sensor);
+  surfaces_->insertFrom(surfaces, T_world_scan * scan.T_imu_lidar);
   if (!given_) surfaces_->removeOutside(center, radius_);
   world_edges_.resize(scan.edges.size());
   transformToWorld(scan.edges, T_world_scan, 0, scan.edges.size(), world_edges_);

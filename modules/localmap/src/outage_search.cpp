@@ -140,8 +140,7 @@ void OutageSearch::insert(const DeskewedScan& scan, const NavState& x)
   points_.resize(points);
   transformToWorld(scan.surfaces, T_world_scan, 0, points, points_);
   scans_.insert(
-      scan, points_, InsertionError{}, T_world_scan, scanPoseJacobian(x, scan.compensation),
-      T_world_scan * scan.T_imu_lidar.p, x.p);
+      scan, points_, InsertionError{}, T_world_scan, scanPoseJacobian(x, scan.compensation), x.p);
 }
 
 }  // namespace fastlio

@@ -35,8 +35,7 @@ void addScan(LocalMap& map)
   point.resize(1);
   point.x[0] = point.y[0] = point.z[0] = 1.0F;
   map.insert(
-      scanOf(false), point, InsertionError{}, Pose{}, ScanPoseJacobian::Zero(), Vec3::Zero(),
-      Vec3::Zero());
+      scanOf(false), point, InsertionError{}, Pose{}, ScanPoseJacobian::Zero(), Vec3::Zero());
 }
 
 TEST(LocalMap, HasWideVoxelsWhereLinesAreSparse)

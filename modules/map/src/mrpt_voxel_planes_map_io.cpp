@@ -34,7 +34,7 @@ void readFloat(
 
 std::uint8_t CVoxelPlanesMap::serializeGetVersion() const
 {
-  return 0;
+  return 1;
 }
 
 void CVoxelPlanesMap::serializeTo(CArchive& out) const
@@ -48,8 +48,8 @@ void CVoxelPlanesMap::serializeTo(CArchive& out) const
 
 void CVoxelPlanesMap::serializeFrom(CArchive& in, std::uint8_t version)
 {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
-  planes_.readFrom(in);
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  planes_.readFrom(in, version >= 1);
   points_.reset();
   in >> genericMapParams >> insertionOptions.radius;
   auto& l = likelihoodOptions;

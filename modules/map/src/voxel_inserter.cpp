@@ -92,7 +92,7 @@ void VoxelInserter::addPoint(
   {
     const std::uint8_t slot = arrival.address.slots[s];
     PlaneVoxel& voxel = storage.voxel(arrival.voxels[s]);
-    voxel.add(point - (corner + context.grid.centerInBlock(slot)), beam);
+    voxel.add(point - (corner + context.grid.centerInBlock(slot)), beam, context.from_new_view);
     if (voxel.claimRefit()) refits.push_back({arrival.voxels[s], slot, key});
   }
 }

@@ -21,6 +21,7 @@ struct InsertionContext
   const PlaneRules& rules;
   Eigen::Vector3f origin;  //!< of the beams, world frame [m]
   std::uint32_t scan = 0;  //!< number of this insertion, from 1
+  bool from_new_view = true;
 };
 
 /** Holds what insertions reuse. The points of a shard are added in their order, by one thread. */

@@ -4,6 +4,7 @@
 #include "voxel_match.h"
 #include "voxel_plane_map_impl.h"
 #include <fastlio/map/voxel_plane_map.h>
+#include <fastlio/math/so3.h>
 
 #include <mrpt/maps/CSimplePointsMap.h>
 
@@ -17,6 +18,15 @@ namespace fastlio
 {
 namespace
 {
+// Less is the error of poses at rest. A turn moves points as far at 10 m as the step does.
+constexpr double kViewStep = 0.02, kViewTurn = 0.002;  // [m], [rad]
+
+bool isNewView(const Pose& before, const Pose& now)
+{
+  return (now.p - before.p).norm() > kViewStep ||
+         logSO3(before.R.transpose() * now.R).norm() > kViewTurn;
+}
+
 void requirePositive(double value, const char* name)
 {
   if (!(value > 0.0))
@@ -64,7 +74,7 @@ float spreadAcross(const PlaneVoxel& voxel)
 VoxelPlaneMap::VoxelPlaneMap(
     const VoxelPlaneOptions& options, std::shared_ptr<const Workers> workers)
     : impl_(std::make_unique<Impl>(
-          Impl{validated(options), std::move(workers), VoxelGrid(options.voxel_size), {}, {}}))
+          Impl{validated(options), std::move(workers), VoxelGrid(options.voxel_size)}))
 {
 }
 
@@ -99,6 +109,7 @@ void VoxelPlaneMap::clear()
   impl_->shards = VoxelShards();
   impl_->sweep.fill(0);
   impl_->scan = 0;
+  impl_->view.reset();
 }
 
 std::uint32_t VoxelPlaneMap::insertionCount() const
@@ -127,9 +138,23 @@ void VoxelPlaneMap::rematch(
 
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
 {
+  impl_->view.reset();
+  impl_->insert(points, sensor_origin, true);
+}
+
+void VoxelPlaneMap::insertFrom(const WorldPoints& points, const Pose& T_world_sensor)
+{
+  const bool is_new = !impl_->view || isNewView(*impl_->view, T_world_sensor);
+  if (is_new) impl_->view = T_world_sensor;
+  impl_->insert(points, T_world_sensor.p, is_new);
+}
+
+void VoxelPlaneMap::Impl::insert(
+    const WorldPoints& points, const Vec3& sensor_origin, bool from_new_view)
+{
   const InsertionContext context{
-      impl_->grid, impl_->options.rules, sensor_origin.cast<float>(), ++impl_->scan};
-  impl_->inserter.insert(points, context, *impl_->workers, impl_->shards);
+      grid, options.rules, sensor_origin.cast<float>(), ++scan, from_new_view};
+  inserter.insert(points, context, *workers, shards);
 }
 
 void VoxelPlaneMap::removeOutside(const Vec3& center, double radius)

@@ -49,17 +49,21 @@ void write(CArchive& out, const PlaneVoxel& voxel)
 {
   const PlaneVoxel::Contents c = voxel.contents();
   write(out, c.plane);
-  out << c.count << c.fitted_count;
+  out << c.count << c.new_count << c.fitted_count;
   write(out, c.sum);
   write(out, c.products);
   write(out, c.beams);
 }
 
-PlaneVoxel::Contents readVoxel(CArchive& in)
+/** \param counts_views archives of version 0.1 do not */
+PlaneVoxel::Contents readVoxel(CArchive& in, bool counts_views)
 {
   PlaneVoxel::Contents c;
   read(in, c.plane);
-  in >> c.count >> c.fitted_count;
+  in >> c.count;
+  c.new_count = c.count;
+  if (counts_views) in >> c.new_count;
+  in >> c.fitted_count;
   read(in, c.sum);
   read(in, c.products);
   read(in, c.beams);
@@ -95,7 +99,7 @@ void writeBlock(CArchive& out, const VoxelBlock& block, const VoxelStorage& stor
   }
 }
 
-void readBlock(CArchive& in, VoxelShards& shards)
+void readBlock(CArchive& in, bool counts_views, VoxelShards& shards)
 {
   std::uint64_t key = 0;
   std::uint8_t count = 0;
@@ -110,7 +114,7 @@ void readBlock(CArchive& in, VoxelShards& shards)
     in >> slot;
     if (slot >= kVoxelsPerBlock || storage.block(block).voxels[slot] != VoxelStorage::kNoVoxel)
       throw std::runtime_error("VoxelPlaneMap: a voxel of the archive has no place in its block");
-    storage.voxel(storage.addVoxel(block, slot)).setContents(readVoxel(in));
+    storage.voxel(storage.addVoxel(block, slot)).setContents(readVoxel(in, counts_views));
   }
 }
 }  // namespace
@@ -123,14 +127,14 @@ void VoxelPlaneMap::writeTo(CArchive& out) const
                              { writeBlock(out, block, storage); });
 }
 
-void VoxelPlaneMap::readFrom(CArchive& in)
+void VoxelPlaneMap::readFrom(CArchive& in, bool counts_views)
 {
   // Block by block, so that a corrupt count ends at the end of the file, not of the memory.
   VoxelPlaneMap map(readOptions(in), impl_->workers);
   std::uint32_t blocks = 0;
   in >> map.impl_->scan >> blocks;
   for (std::uint32_t i = 0; i < blocks; ++i)
-    readBlock(in, map.impl_->shards);
+    readBlock(in, counts_views, map.impl_->shards);
   impl_ = std::move(map.impl_);
 }
 

@@ -8,6 +8,9 @@
 #include <fastlio/map/surface_map.h>
 #include <fastlio/map/voxel_plane_map.h>
 
+#include <Eigen/Core>
+
+#include <random>
 #include <vector>
 
 namespace fastlio::testing
@@ -21,6 +24,24 @@ inline VoxelPlaneOptions halfMetre()
   o.voxel_size = kSize;
   o.rules.point_noise = 0.01F;
   return o;
+}
+
+/** Points on z = height, |x - x0|, |y - y0| < half, seen from 3 m above the middle with noise along
+ * the beams. */
+inline Cloud patch(float x0, float y0, float height, float half, std::size_t n, float noise = 0.01F)
+{
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<float> u(-half, half);
+  std::normal_distribution<float> e(0.0F, 1.0F);
+  const Eigen::Vector3f sensor(x0, y0, height + 3.0F);
+  Cloud cloud;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const Eigen::Vector3f p(x0 + u(rng), y0 + u(rng), height);
+    const Eigen::Vector3f measured = p + noise * e(rng) * (p - sensor).normalized();
+    cloud.add({measured.x(), measured.y(), measured.z()});
+  }
+  return cloud;
 }
 
 inline WorldPoints worldPoints(const Cloud& cloud)

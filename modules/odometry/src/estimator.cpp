@@ -252,7 +252,7 @@ void Estimator::insertIntoMap(const Work& work, const ScanResult& result)
   map_.prepareFor(work.deskewed, options_);
   map_.insert(
       work.deskewed, registered_.points, error, T_world_scan,
-      scanPoseJacobian(filter.x, compensation), T_world_scan * work.scan.T_imu_lidar.p, filter.x.p);
+      scanPoseJacobian(filter.x, compensation), filter.x.p);
   beams_.recordInsertion(map_.insertions(), T_world_scan * work.scan.T_imu_lidar);
   preparation_.fieldsOf(work.scan, registered_.fields);
   timings_.insert = watch.milliseconds();

@@ -101,12 +101,11 @@ class LocalMap
   /** The rule of insertion. */
   [[nodiscard]] bool accepts(const InsertionCandidate& candidate) const;
   /** The scan joins the map (eq. 21). \param surfaces its points in the world
-   * \param error of the scan pose \param sensor position of the LiDAR in the world [m]
+   * \param error of the scan pose
    * \param center position of the body: what is far from it is dropped [m] */
   void insert(
       const DeskewedScan& scan, const WorldPoints& surfaces, const InsertionError& error,
-      const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& sensor,
-      const Vec3& center);
+      const Pose& T_world_scan, const ScanPoseJacobian& by_state, const Vec3& center);
 
  private:
   bool update_given_ = true;  // map.update

@@ -5,6 +5,7 @@
  * 21) and bounded memory. */
 #pragma once
 
+#include <fastlio/math/pose.h>
 #include <fastlio/math/so3.h>
 
 #include <cstddef>
@@ -74,6 +75,13 @@ class SurfaceMap
 
   /** Adds the points of a scan (eq. 21), measured from \a sensor_origin (world frame). */
   virtual void insert(const WorldPoints& points, const Vec3& sensor_origin) = 0;
+
+  /** The same where the attitude of the sensor is known, too. A map may take less from scans of a
+   * sensor that does not move: each beam meets the surfaces where it met them before. */
+  virtual void insertFrom(const WorldPoints& points, const Pose& T_world_sensor)
+  {
+    insert(points, T_world_sensor.p);
+  }
 
   /** Drops what lies farther than \a radius [m] from \a center; may keep a margin beyond. */
   virtual void removeOutside(const Vec3& center, double radius) = 0;

@@ -61,6 +61,7 @@ class VoxelPlaneMap : public SurfaceMap
       const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
+  void insertFrom(const WorldPoints& points, const Pose& T_world_sensor) override;
   void removeOutside(const Vec3& center, double radius) override;
   [[nodiscard]] std::uint32_t insertionCount() const override;
   [[nodiscard]] bool knowsSharedErrors() const override { return true; }
@@ -86,9 +87,11 @@ class VoxelPlaneMap : public SurfaceMap
 
   /** Writes and reads all voxels: a map that is read goes on as the one that was written. The
    * options come from the archive too. \exception std::exception corrupt or truncated content; the
-   * map is then as it was */
+   * map is then as it was
+   * \param counts_views the archive knows which points are of new views; those of version 0.1 take
+   * all points for such */
   void writeTo(mrpt::serialization::CArchive& out) const;
-  void readFrom(mrpt::serialization::CArchive& in);
+  void readFrom(mrpt::serialization::CArchive& in, bool counts_views = true);
 
  private:
   class Impl;
