@@ -128,10 +128,14 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     tracking.searching = true;
     tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
   }
-  if (!tracking.searching && map_is_informative &&
-      deskewStd(scan, work.predicted) > kMostDistortion)
+  const auto withoutMatch = [&]() -> MapSearchResult
+  {
     return {
         MapSearch(options_, matcher_, scan, map_).postponed(predicted).match, true, std::nullopt};
+  };
+  if (!tracking.searching && map_is_informative &&
+      deskewStd(scan, work.predicted) > kMostDistortion)
+    return withoutMatch();
   if (!tracking.searching)
   {
     MatchResult match = matchPrediction(work);
@@ -148,6 +152,10 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     const bool good = match.update.updated
                           ? found && (turns_away || isConvincing(match, scan, map_))
                           : !isContradicted(match, scan, map_);
+    const bool trial = tracking.run.motion_window && tracking.run.motion_window->trial;
+    const bool wrong = options_.recovery.enabled && !trial &&
+                       normalizedInnovation(match.update) > kWrongPoseInnovation;
+    if (!map_is_informative && wrong) return withoutMatch();
     if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
     if (uncertain) deskew(work.scan, work.end_ns, predicted.x);
     if (seen_again && velocityStd(predicted) > kShearingVelocity)
