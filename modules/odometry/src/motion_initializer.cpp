@@ -30,6 +30,8 @@ constexpr double kLeastTiltStd = 0.05;      // [rad]
 constexpr double kNarrowing = 0.6;
 // Poses at rest drift by up to 0.02 m in a second, those at 0.4 m/s by 0.27 m in a pass at rest.
 constexpr double kMostRestSpeed = 0.05;  // [m/s]
+// A narrow view of a second leaves poses at rest free to drift by up to 0.3 m.
+constexpr double kSurelyMoves = 2.0;  // standard deviations of the velocity
 // A hand that turns slowly looks like rest with a bias, but the scans turn: by 0.7 at most at rest.
 constexpr double kMostRestRate = 1.0 / kDegPerRad;  // [rad/s]
 // Among leaves, a few percent of the points match planes by chance, and such scans may seem to
@@ -123,8 +125,10 @@ RestVerdict verdictOnRest(
   const bool turns = !pass.blind && pass.rate_error > kMostRestRate;
   const bool moves = pass.mean_speed >= kMostRestSpeed &&
                      !agree(at_rest.x, propagatedBack(pass.start, since_rest));
+  const bool drifts = !turns && pass.velocity_std < kMaxVelocityStd &&
+                      pass.mean_speed < kSurelyMoves * pass.velocity_std;
   if (turns || moves)
-    return pass.inlier_ratio < kFewMatches ? RestVerdict::Open : RestVerdict::Denied;
+    return drifts || pass.inlier_ratio < kFewMatches ? RestVerdict::Open : RestVerdict::Denied;
   return pass.blind ? RestVerdict::Open : RestVerdict::Confirmed;
 }
 

@@ -44,7 +44,7 @@ struct MotionStart
 enum class RestVerdict
 {
   Confirmed,
-  Open,   //!< they do not see motion along a direction, or too few points match to show any
+  Open,   //!< they do not see motion along a direction, too little of it, or too few points match
   Denied  //!< the platform was not at rest, or they do not match each other
 };
 
