@@ -109,14 +109,14 @@ std::array<float, 6> leverageOf(const Spread& s, const Eigen::Vector3d& n, doubl
 
 PlaneVoxel::Contents PlaneVoxel::contents() const
 {
-  return {plane_, count_, new_count_, fitted_count_, sum_, products_, beams_};
+  return {plane_, count_, telling_count_, fitted_count_, sum_, products_, beams_};
 }
 
 void PlaneVoxel::setContents(const Contents& c)
 {
   const VoxelPlane& p = c.plane;
   float all = p.nx + p.ny + p.nz + p.roughness + p.qx + p.qy + p.qz + p.variance + p.inverse_count;
-  all += c.count + c.new_count + c.fitted_count;
+  all += c.count + c.telling_count + c.fitted_count;
   for (const float number : p.leverage)
     all += number;
   for (const float number : c.products)
@@ -124,11 +124,11 @@ void PlaneVoxel::setContents(const Contents& c)
   for (std::size_t i = 0; i < c.sum.size(); ++i)
     all += c.sum[i] + c.beams[i];
   // One number that is not finite makes the sum so.
-  if (!std::isfinite(all) || c.count < 1 || c.new_count < 0 || c.fitted_count < 0)
+  if (!std::isfinite(all) || c.count < 1 || c.telling_count < 0 || c.fitted_count < 0)
     throw std::invalid_argument("PlaneVoxel: the sums of a voxel make no sense");
   plane_ = p;
   count_ = c.count;
-  new_count_ = c.new_count;
+  telling_count_ = c.telling_count;
   fitted_count_ = c.fitted_count;
   sum_ = c.sum;
   products_ = c.products;
@@ -147,7 +147,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   if (count_ > kMaxCount)
   {
     count_ *= 0.5F;
-    new_count_ *= 0.5F;
+    telling_count_ *= 0.5F;
     for (float* sums : {sum_.data(), beams_.data(), products_.data(), products_.data() + 3})
       for (int i = 0; i < 3; ++i)
         sums[i] *= 0.5F;
@@ -193,7 +193,7 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   plane_.roughness = static_cast<float>(across - noise_across);
   // A sensor that stands repeats the same beams. What lies between them, where others will meet the
   // surface later, it does not see.
-  const float telling = std::max(new_count_, 1.0F);
+  const float telling = std::max(telling_count_, 1.0F);
   plane_.inverse_count = 1.0F / telling;
   plane_.leverage = leverageOf(spread, direction, static_cast<double>(telling));
   // The points of the first plane are of the scans from the first one that met the voxel to this.

@@ -49,7 +49,7 @@ void write(CArchive& out, const PlaneVoxel& voxel)
 {
   const PlaneVoxel::Contents c = voxel.contents();
   write(out, c.plane);
-  out << c.count << c.new_count << c.fitted_count;
+  out << c.count << c.telling_count << c.fitted_count;
   write(out, c.sum);
   write(out, c.products);
   write(out, c.beams);
@@ -61,8 +61,8 @@ PlaneVoxel::Contents readVoxel(CArchive& in, bool counts_views)
   PlaneVoxel::Contents c;
   read(in, c.plane);
   in >> c.count;
-  c.new_count = c.count;
-  if (counts_views) in >> c.new_count;
+  c.telling_count = c.count;
+  if (counts_views) in >> c.telling_count;
   in >> c.fitted_count;
   read(in, c.sum);
   read(in, c.products);

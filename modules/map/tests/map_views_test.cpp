@@ -1,7 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A sensor that stands repeats its beams: what it says of a plane counts once.
+// A sensor that stands repeats its beams: what it says of a plane counts for less.
 
 #include "map_class_tools.h"
 #include "plane_patches.h"
@@ -44,10 +44,10 @@ Pose standing(int /*scan*/)
   return {Mat3::Identity(), Vec3(0.0, 0.0, 2.0)};
 }
 
-/** The archive as version 0.1 wrote it, without the counts of points from new views. */
+/** The archive as version 0.1 wrote it, without the counts that know views. */
 std::string asOfVersion0(const std::string& archive)
 {
-  constexpr std::size_t kHeader = 32, kBlock = 9, kVoxel = 125, kNewCount = 69;
+  constexpr std::size_t kHeader = 32, kBlock = 9, kVoxel = 125, kTellingCount = 69;
   std::uint32_t blocks = 0;
   std::memcpy(&blocks, archive.data() + kHeader - sizeof(blocks), sizeof(blocks));
   std::string old = archive.substr(0, kHeader);
@@ -58,15 +58,16 @@ std::string asOfVersion0(const std::string& archive)
     old += archive.substr(at, kBlock);
     at += kBlock;
     for (std::uint8_t voxel = 0; voxel < voxels; ++voxel, at += kVoxel)
-      old += archive.substr(at, kNewCount) +
-             archive.substr(at + kNewCount + sizeof(float), kVoxel - kNewCount - sizeof(float));
+      old += archive.substr(at, kTellingCount) +
+             archive.substr(
+                 at + kTellingCount + sizeof(float), kVoxel - kTellingCount - sizeof(float));
   }
   EXPECT_EQ(at, archive.size());
   return old;
 }
 }  // namespace
 
-TEST(MapViews, RepeatedPointsMakeNoPlaneSurer)
+TEST(MapViews, RepeatedPointsCountLess)
 {
   Random random(1);
   PlaneVoxel voxel;
@@ -79,10 +80,10 @@ TEST(MapViews, RepeatedPointsMakeNoPlaneSurer)
   }
   voxel.fit(Vector3f::Zero(), rulesWithNoise(0.01), 1);
   EXPECT_EQ(voxel.count(), 550.0F);
-  EXPECT_FLOAT_EQ(voxel.plane().inverse_count, 1.0F / 50.0F);
+  EXPECT_FLOAT_EQ(voxel.plane().inverse_count, 1.0F / (50.0F + 0.25F * 500.0F));
 }
 
-TEST(MapViews, AVoxelThatOnlyRepeatedViewsHaveSeenIsHardlyKnown)
+TEST(MapViews, AVoxelThatOnlyRepeatedViewsHaveSeenIsLessKnown)
 {
   Random random(2);
   PlaneVoxel voxel;
@@ -92,10 +93,10 @@ TEST(MapViews, AVoxelThatOnlyRepeatedViewsHaveSeenIsHardlyKnown)
         Vector3f::UnitZ(), false);
   voxel.fit(Vector3f::Zero(), rulesWithNoise(0.01), 1);
   ASSERT_TRUE(voxel.plane().valid());
-  EXPECT_EQ(voxel.plane().inverse_count, 1.0F);
+  EXPECT_FLOAT_EQ(voxel.plane().inverse_count, 1.0F / 25.0F);
 }
 
-TEST(MapViews, StandingAddsNothingMovingAndTurningDo)
+TEST(MapViews, StandingAddsLessThanMovingAndTurning)
 {
   const float stands = varianceAfterTen(standing);
   const auto trembles = [](int scan)
@@ -105,13 +106,13 @@ TEST(MapViews, StandingAddsNothingMovingAndTurningDo)
   };
   EXPECT_NEAR(varianceAfterTen(trembles) / stands, 1.0, 1e-3) << "as poses at rest do";
   const auto moves = [](int scan) { return Pose{Mat3::Identity(), Vec3(0.1 * scan, 0.0, 2.0)}; };
-  EXPECT_LT(varianceAfterTen(moves), 0.4F * stands);
+  EXPECT_LT(varianceAfterTen(moves), 0.6F * stands);
   const auto turns = [](int scan) {
     return Pose{expSO3(Vec3(0.0, 0.0, 0.05 * scan)), Vec3(0.0, 0.0, 2.0)};
   };
-  EXPECT_LT(varianceAfterTen(turns), 0.4F * stands);
+  EXPECT_LT(varianceAfterTen(turns), 0.6F * stands);
   const auto creeps = [](int scan) { return Pose{Mat3::Identity(), Vec3(0.008 * scan, 0.0, 2.0)}; };
-  EXPECT_LT(varianceAfterTen(creeps), 0.8F * stands) << "small steps add up";
+  EXPECT_LT(varianceAfterTen(creeps), 0.9F * stands) << "small steps add up";
 }
 
 TEST(MapViews, WhoSaysNothingOfItsAttitudeHasANewViewEachTime)
@@ -119,7 +120,7 @@ TEST(MapViews, WhoSaysNothingOfItsAttitudeHasANewViewEachTime)
   VoxelPlaneMap map(halfMetre());
   for (int scan = 0; scan < 10; ++scan)
     map.insert(floorSeenOnce(), Vec3(0.0, 0.0, 2.0));
-  EXPECT_LT(matchOne(map, kOnTheFloor).variance, 0.4F * varianceAfterTen(standing));
+  EXPECT_LT(matchOne(map, kOnTheFloor).variance, 0.6F * varianceAfterTen(standing));
 }
 
 TEST(MapViews, AnArchiveGoesOnAsTheMapThatWasWritten)

@@ -27,7 +27,7 @@ struct VoxelPlane
   float qx = 0, qy = 0, qz = 0;     //!< centroid q of the points [m]: n . (p - q) = 0
   float variance = -1;              //!< of a point across the plane [m^2]; negative: no plane
   float roughness = 0;              //!< part of it that the noise along the beams leaves over [m^2]
-  float inverse_count = 0;          //!< 1 / number of points from new views
+  float inverse_count = 0;          //!< 1 / number of points; those of repeated views count less
   std::array<float, 6> leverage{};  //!< (e1 e1^T/l1 + e2 e2^T/l2)/n: xx xy xz yy yz zz [1/m^2]
   std::uint32_t created_insertion = 0;  //!< scan in the middle of those that made the first plane
 
@@ -79,7 +79,7 @@ class PlaneVoxel
   {
     const float x = offset.x(), y = offset.y(), z = offset.z();
     count_ += 1;
-    if (from_new_view) new_count_ += 1;
+    telling_count_ += from_new_view ? 1.0F : kRepeated;
     sum_ = {sum_[0] + x, sum_[1] + y, sum_[2] + z};
     beams_ = {beams_[0] + beam.x(), beams_[1] + beam.y(), beams_[2] + beam.z()};
     products_ = {products_[0] + x * x, products_[1] + x * y, products_[2] + x * z,
@@ -104,7 +104,7 @@ class PlaneVoxel
   struct Contents
   {
     VoxelPlane plane;
-    float count = 0, new_count = 0, fitted_count = 0;
+    float count = 0, telling_count = 0, fitted_count = 0;
     std::array<float, 3> sum{};
     std::array<float, 6> products{};
     std::array<float, 3> beams{};
@@ -117,12 +117,14 @@ class PlaneVoxel
   [[nodiscard]] Eigen::Vector3f meanOffset() const;
 
  private:
+  // A beam that is repeated averages its noise. It does not say what lies between the beams.
+  static constexpr float kRepeated = 0.25F;
   // A plane is fitted anew when its points have grown by this factor.
   static constexpr float kRefitGrowth = 1.1F;
 
   VoxelPlane plane_;
   float count_ = 0;
-  float new_count_ = 0;  // of them, from new views
+  float telling_count_ = 0;  // the same, with points of repeated views for less
   float fitted_count_ = 0;
   std::array<float, 3> sum_{};
   std::array<float, 6> products_{};  //!< xx xy xz yy yz zz
