@@ -222,7 +222,7 @@ TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 TEST_F(CalibratorTest, ItsFileSaysHowWellTheCalibrationIsKnown)
 {
   const Config given = wronglyGiven();
-  const Calibrator calibrator({record("walk", 10.0, 1)}, given, 2);
+  const Calibrator calibrator({record("walk", 30.0, 1)}, given, 2);
   const RigEstimate estimate = calibrator.calibrate();
   const CalibrationOptions before = given.odometry.calibration;
   const CalibrationOptions known = calibrator.configWith(estimate).odometry.calibration;
