@@ -79,7 +79,8 @@ TEST(GapOfTheImu, IsNoMoreUncertainThanTheInertialDataMakeIt)
 // the end of the run.
 TEST(GapOfTheImu, IsLeftWithTheOffsetOfTheClocksThatWasFoundBefore)
 {
-  for (const auto& [scenario, begin_s] : {std::pair("campus", 10.0), std::pair("shake", 13.0)})
+  // After three seconds of shaking the map is found again by chance, half of the time.
+  for (const auto& [scenario, begin_s] : {std::pair("campus", 10.0), std::pair("shake", 13.5)})
   {
     SCOPED_TRACE(scenario);
     SimulationSettings settings = walk(scenario);
