@@ -177,8 +177,7 @@ void Estimator::noteSupport(const MatchResult& match, Work& work, ScanResult& re
   // Without matches there is no evidence: what the scans before have shown goes on.
   if (outcome.begins_map || outcome.updated)
   {
-    const bool trial = run.motion_window && run.motion_window->trial;
-    run.consistent = trial || map_.isConsistent(statistics, outcome.points);
+    run.consistent = run.isTrial() || map_.isConsistent(statistics, outcome.points);
     if (run.consistent) run.last_update_ns = state_.stamp_ns;
     if (run.consistent && !outcome.map_was_empty) map_.learnInlierRatio(statistics, outcome.points);
   }

@@ -114,8 +114,9 @@ MapSearchResult Estimator::searchOrWait(
   return result;
 }
 
-/** A map of few scans says little: there, ordinary matching has to do. A map that was grown from a
- * wrong pose would agree with it ever after, so a match that does not convince is no match. */
+/** A map of few scans says little: there, ordinary matching has to do, but for a scan that fits it
+ * nowhere. A map that was grown from a wrong pose would agree with it ever after, so a match that
+ * does not convince is no match. */
 MapSearchResult Estimator::trackOrSearch(const Work& work)
 {
   auto& tracking = std::get<Tracking>(mode_);
@@ -152,12 +153,11 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     const bool good = match.update.updated
                           ? found && (turns_away || isConvincing(match, scan, map_))
                           : !isContradicted(match, scan, map_);
-    const bool trial = tracking.run.motion_window && tracking.run.motion_window->trial;
-    const bool wrong = options_.recovery.enabled && !trial &&
-                       normalizedInnovation(match.update) > kWrongPoseInnovation;
-    if (!map_is_informative && wrong) return withoutMatch();
-    if (!map_is_informative || good) return {std::move(match), true, std::nullopt};
+    const bool fits_nowhere = options_.recovery.enabled && !tracking.run.isTrial() &&
+                              normalizedInnovation(match.update) > kWrongPoseInnovation;
+    if (map_is_informative ? good : !fits_nowhere) return {std::move(match), true, std::nullopt};
     if (uncertain) deskew(work.scan, work.end_ns, predicted.x);
+    if (!map_is_informative) return withoutMatch();
     if (seen_again && velocityStd(predicted) > kShearingVelocity)
       tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
   }
@@ -187,8 +187,7 @@ MatchResult Estimator::matchPrediction(const Work& work)
     how.measurement.min_signal_to_noise *= kStartSignalToNoise;
     how.at_start = true;
     // A pass begins far off, where a wider gate would take one post of a fence for the next.
-    if (!run.motion_window->trial)
-      how.map_attitude_variance = run.motion_window->mapAttitudeVariance();
+    if (!run.isTrial()) how.map_attitude_variance = run.motion_window->mapAttitudeVariance();
   }
   how.deskew_std = deskewStd(work.deskewed, work.predicted);
   how.gate_factor = settles ? 1.0 : calibration_.expectedInnovation();

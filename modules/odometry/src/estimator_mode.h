@@ -39,6 +39,9 @@ struct FilterRun
   std::optional<MotionWindow> motion_window;  //!< after a start in motion
   SearchPause search_pause;
 
+  /** Is this a pass that computes a start? */
+  [[nodiscard]] bool isTrial() const { return motion_window && motion_window->trial; }
+
   /** Is a scan that ends then one of those from which a start in motion was computed? */
   [[nodiscard]] bool startingAt(std::int64_t end_ns) const
   {
