@@ -122,10 +122,11 @@ std::optional<GravityReading> GravityMeter::between(const Stretch& former, const
 std::optional<GravityReading> GravityMeter::take()
 {
   if (!current_) return std::nullopt;
+  const Stretch ended = *current_;
   std::optional<GravityReading> reading;
-  if (former_) reading = between(*former_, *current_);
-  former_ = current_;
-  current_ = Stretch{former_->to, former_->to};
+  if (former_) reading = between(*former_, ended);
+  former_ = ended;
+  current_ = Stretch{ended.to, ended.to};
   return reading;
 }
 
