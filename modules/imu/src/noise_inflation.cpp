@@ -52,6 +52,15 @@ double rotationStdInGaps(
   return std;
 }
 
+double secondsInGaps(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
+{
+  std::int64_t sum_ns = 0;
+  for (const NoiseInflation& inflation : inflations)
+    if (inflation.fault == InertialFault::Gap) sum_ns += overlap(inflation, begin_ns, end_ns);
+  return toSeconds(sum_ns);
+}
+
 double inflatedRatio(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns)
 {

@@ -32,6 +32,17 @@ TEST(NoiseInflation, GrowsTheNoiseByItsShareOfTheInput)
   EXPECT_DOUBLE_EQ(rotationStdInGaps(one, kBegin, kBegin + 2 * kLength), 0.25 * dt);
 }
 
+TEST(NoiseInflation, CountsTheTimeWithoutSamples)
+{
+  const std::vector<NoiseInflation> two{
+      {kBegin, kBegin + kLength, 0.5, 2.0},
+      {kBegin + kLength, kBegin + 2 * kLength, 0.5, 2.0, InertialFault::Saturation}};
+  const double dt = 1e-9 * static_cast<double>(kLength);
+  EXPECT_DOUBLE_EQ(secondsInGaps(two, kBegin, kBegin + 2 * kLength), dt);
+  EXPECT_DOUBLE_EQ(secondsInGaps(two, kBegin + kLength / 2, kBegin + 2 * kLength), 0.5 * dt);
+  EXPECT_EQ(secondsInGaps(two, kBegin + kLength, kBegin + 2 * kLength), 0.0);
+}
+
 // Rates that are off to the same side turn the platform three times as far in three inputs.
 TEST(NoiseInflation, CountsErrorsOfOneSignTogether)
 {

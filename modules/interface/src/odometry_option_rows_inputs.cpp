@@ -98,8 +98,8 @@ OptionTable<ImuOptions> imuReadingRows()
        "input between two samples: midpoint is their interpolation in the middle of the period; "
        "left is the sample at its start, as in the paper"},
       {"imu.max_gap", "s", number(&ImuOptions::max_gap, 0.001, 60.0),
-       "a longer gap between inertial samples re-initialises the run, with the pose carried over; "
-       "shorter ones are bridged with more noise"},
+       "without inertial samples and without a scan that matches for longer, the run is "
+       "re-initialised with the pose carried over; shorter gaps are bridged with more noise"},
       {"imu.accel_unit", "", choice(&ImuOptions::accel_unit, {"auto", "m/s^2", "g", "mg"}),
        "unit of the specific force; auto: from the magnitude of the first 0.2 s"},
       {"imu.gyro_unit", "", choice(&ImuOptions::gyro_unit, {"auto", "rad/s", "deg/s"}),

@@ -75,7 +75,7 @@ ScanResult Estimator::process(const LidarScan& scan, const ScanSpan& span, const
   workers_->alongside(
       [&] { predicted = predict(span, imu); },  // eq. 4-8
       [&] { downsample(scan, span.end_ns); });
-  if (predicted.silent_ns > 0) explainSilence(scan, span.end_ns, imu, predicted);
+  explainSilence(scan, span.end_ns, imu, predicted);
   map_.propagateError(predicted.transition);
   const DeskewedScan& deskewed = deskew(scan, span.end_ns, predicted.state.x);  // eq. 9-10
   Work work{scan, span.end_ns, deskewed, predicted, state_.filter.x};

@@ -126,6 +126,10 @@ class Estimator
   [[nodiscard]] ScanPrediction predict(const ScanSpan& span, const ImuBuffer& imu);
   void explainSilence(
       const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted);
+  void admitClockStep(
+      const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted);
+  void followThroughGap(
+      const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted);
   void downsample(const LidarScan& scan, std::int64_t end_ns);
   const DeskewedScan& deskew(const LidarScan& scan, std::int64_t end_ns, const NavState& motion);
   [[nodiscard]] MapSearchResult matchWithMap(const Work& work);

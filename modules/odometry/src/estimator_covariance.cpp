@@ -93,6 +93,7 @@ void Estimator::adopt(const MatchResult& match, Work& work, ScanResult& result)
   FilterState& filter = state_.filter;
   filter = match.update.posterior;
   filter.x.R = normalizeRotation(filter.x.R);  // products of rotations drift off SO(3)
+  filter.P.diagonal().segment<3>(kAttitude).array() += std::pow(work.predicted.end_rotation_std, 2);
   const LinearizedUpdate update = linearized(work.deskewed.compensation, match, filter.x);
   // Residuals of a match that was refused, or of a search, may be those of a wrong pose.
   const bool refused = !match.update.updated && !map_.empty();

@@ -4,6 +4,7 @@
 // How the estimator matches a scan in each of its modes.
 
 #include "estimator.h"
+#include "gap_distortion.h"
 #include <fastlio/matching/match_evidence.h>
 #include <fastlio/math/stopwatch.h>
 #include <fastlio/math/time.h>
@@ -33,31 +34,12 @@ constexpr double kLeastLost = 0.1, kMostLost = 2.0;  // [m]
 // the next step of a staircase does.
 constexpr double kPlaneFoundAgain = 0.05;  // of all points
 
-// A scan that missing inertial samples have distorted more fits the map nowhere: matched where the
-// prediction puts it, it turns the state by degrees that are wrong.
-constexpr double kMostDistortion = 0.05;  // [m]
-
 // A velocity that is off by so much shears a scan of 0.1 s more than its planes are thick [m/s].
 constexpr double kShearingVelocity = 0.3;
 
 double velocityStd(const FilterState& predicted)
 {
   return std::sqrt(predicted.P.diagonal().segment<3>(kVelocity).maxCoeff());
-}
-
-/** How far missing inertial samples leave the points of a scan from where they belong, all of them
- * together [m]: the rotation in a gap grows towards the scan's begin, so its mean square is a
- * third. */
-double deskewStd(const DeskewedScan& scan, const ScanPrediction& predicted)
-{
-  const BodyPoints& points = scan.surfaces;
-  if (predicted.gap_rotation_std == 0.0 || points.size() == 0) return 0.0;
-  double squares = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    squares += static_cast<double>(
-        points.x[i] * points.x[i] + points.y[i] * points.y[i] + points.z[i] * points.z[i]);
-  const double lever = std::sqrt(squares / static_cast<double>(points.size()));
-  return predicted.gap_rotation_std / std::sqrt(3.0) * lever;
 }
 
 bool hasOpenDirection(const MatchResult& match)
@@ -147,7 +129,8 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     else if (open && !starting)
       match = alongOpenDirections(std::move(match), work);
     // A scan that a gap has distorted matches worse, and hardly moves the state.
-    const bool found = !uncertain || match.model.weight < 1.0 || matchesAsFound(match, scan, map_);
+    const bool found = !uncertain || (match.model.weight < 1.0 ? fitsAsDistorted(match, scan)
+                                                               : matchesAsFound(match, scan, map_));
     const bool turns_away = !uncertain && calibration_.expectedInnovation() == 1.0 &&
                             fitsAllThatIsMapped(match, scan, map_);
     const bool good = match.update.updated

@@ -1,14 +1,16 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the estimator does when a sensor was silent: both at once, or the LiDAR for long.
+// What the estimator does when a sensor was silent: the IMU, both at once, or the LiDAR for long.
 
 #include "estimator.h"
+#include "gap_distortion.h"
 #include <fastlio/matching/match_evidence.h>
 #include <fastlio/math/time.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace fastlio
@@ -24,6 +26,14 @@ constexpr double kBetter = 1.05;       // one explanation than another
 // second ever after [rad].
 constexpr double kKnownTilt = 0.03;
 
+constexpr int kGapPasses = 5;
+constexpr double kSettled = 1e-4;  // of the rotation between passes [rad]
+// A scan that was followed is distorted about as much as scans are that just can be matched [m].
+constexpr double kFollowedDistortion = 0.9 * kMostDistortion;
+// The rate from middle to middle is that at the scan's begin. When it changes by d in the time T of
+// a scan, it is 3/4 d more on average from the middle to the end, which takes T / 2.
+constexpr double kBeyondMiddle = 0.375;
+
 double tiltStd(const FilterState& state)
 {
   const Vec3 down = state.x.down();
@@ -32,14 +42,24 @@ double tiltStd(const FilterState& state)
 }
 }  // namespace
 
-/** A clock that was set ahead leaves the scan where it would be without the silence, to
- * centimetres. It is believed when that explains the scan better than the motion that bridges the
- * silence. */
+/** Where a sensor was silent, the scan says how the platform moved meanwhile. */
 void Estimator::explainSilence(
     const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted)
 {
   const auto* tracking = std::get_if<Tracking>(&mode_);
   if (tracking == nullptr || tracking->searching || map_.isSparse()) return;
+  if (predicted.silent_ns > 0)
+    admitClockStep(scan, end_ns, imu, predicted);
+  else if (options_.recovery.enabled && predicted.gap_rotation_std > 0.0)
+    followThroughGap(scan, end_ns, imu, predicted);
+}
+
+/** A clock that was set ahead leaves the scan where it would be without the silence, to
+ * centimetres. It is believed when that explains the scan better than the motion that bridges the
+ * silence. */
+void Estimator::admitClockStep(
+    const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted)
+{
   ScanPrediction stepped = predictor_.afterClockStep(state_, end_ns, imu, predicted);
   if (!stepped.finite) return;
   // The inlier ratio, as a part of the usual one.
@@ -55,6 +75,48 @@ void Estimator::explainSilence(
   // Where the bridged motion leads nowhere, nothing is compared.
   const bool compared = with_silence > kMatchesAtAll && without > kNearlyUsual;
   if (compared && without > kBetter * with_silence) predicted = std::move(stepped);
+}
+
+/** Without inertial samples the scans show how the platform turns, as in an odometry of the LiDAR
+ * alone: the rotation that a match finds deskews the scan for the next match. A wrong rate turns a
+ * scan about its middle, so its end is off by half of what the rate makes of it. The rate is that
+ * from the middle of the scan before to the middle of this one: taken from end to end, it would
+ * swing to and fro. */
+void Estimator::followThroughGap(
+    const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted)
+{
+  const double distortion = deskewStd(deskew(scan, end_ns, predicted.state.x), predicted);
+  if (distortion <= kMostDistortion) return;
+  const double missing_s = secondsInGaps(imu.inflations(), state_.stamp_ns, end_ns);
+  // How far the motion departs from that around the gap grows with the time.
+  const double grown = std::min(1.0, missing_s / options_.imu.max_gap);
+  const double expected_std =
+      grown * rotationStdInGaps(imu.inflations(), state_.stamp_ns, end_ns) / missing_s;
+  ScanPrediction followed = predicted;
+  followed.gap_rotation_std = 0.0;  // the scan is taken at its word
+  Vec3 change = Vec3::Zero();       // of the rate since the scan before
+  std::optional<Vec3> fitting;      // change of the last pass that fits
+  for (int pass = 0; pass < kGapPasses && followed.finite; ++pass)
+  {
+    const DeskewedScan& deskewed = deskew(scan, end_ns, followed.state.x);
+    const MatchResult match = pullIn({scan, end_ns, deskewed, followed, state_.filter.x});
+    if (!match.update.updated || !isConvincing(match, deskewed, map_)) break;
+    const bool fits = matchesAsFound(match, deskewed, map_);
+    const Vec3 turn = logSO3(followed.state.x.R.transpose() * match.update.posterior.x.R);
+    const Vec3 step = turn / missing_s - 0.5 * change;
+    change += step;
+    followed = predictor_.withRateInGap(state_, end_ns, imu, step, followed);
+    if (fits) fitting = change;
+    if (step.norm() * missing_s < kSettled) break;
+  }
+  const ScanPrediction last = predictor_.withRateInGap(
+      state_, end_ns, imu, fitting.value_or(Vec3::Zero()) - change, predicted);
+  if (!fitting || !last.finite) return;
+  predicted = last;
+  predicted.gap_rotation_std *= kFollowedDistortion / distortion;
+  RateInGap& rate = predictor_.rateInGap();
+  rate.add(*fitting);
+  predicted.end_rotation_std = kBeyondMiddle * rate.changeStd(expected_std) * missing_s;
 }
 
 /** The inertial data were well, so nothing is re-initialised: where the map does not show the

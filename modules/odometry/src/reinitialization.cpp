@@ -35,13 +35,27 @@ OdometryOptions Reinitialization::startingAnyHow(OdometryOptions options)
   return options;
 }
 
-std::optional<InertialBreak> Reinitialization::breakBefore(std::int64_t end_ns) const
+std::optional<InertialBreak> Reinitialization::breakBefore(std::int64_t end_ns)
 {
-  if (breaks_.empty()) return std::nullopt;
-  const InertialBreak& gap = breaks_.front();
-  const std::int64_t bridged_ns = gap.new_map ? 0 : toNanoseconds(options_.imu.max_gap);
-  if (end_ns <= gap.begin_ns + bridged_ns) return std::nullopt;
-  return gap;
+  while (!breaks_.empty())
+  {
+    const InertialBreak& gap = breaks_.front();
+    const std::int64_t bridged_ns = gap.new_map ? 0 : toNanoseconds(options_.imu.max_gap);
+    const std::int64_t known_ns = knownUntil(gap);
+    if (gap.new_map || gap.end_ns - known_ns > bridged_ns)
+    {
+      if (end_ns <= known_ns + bridged_ns) return std::nullopt;
+      return gap;
+    }
+    if (end_ns <= gap.end_ns) return std::nullopt;
+    breaks_.pop_front();
+  }
+  return std::nullopt;
+}
+
+std::int64_t Reinitialization::knownUntil(const InertialBreak& gap) const
+{
+  return gap.new_map ? gap.begin_ns : std::max(gap.begin_ns, last_good_ns_);
 }
 
 bool Reinitialization::isNeededAt(const InertialBreak& gap) const
@@ -51,8 +65,8 @@ bool Reinitialization::isNeededAt(const InertialBreak& gap) const
 
 std::string Reinitialization::decideAt(const InertialBreak& gap, const FilterState& state)
 {
-  if (gap.new_map && last_good_)
-    decide({*last_good_, last_good_ns_, true});
+  if (last_good_ && (gap.new_map || last_good_ns_ > gap.begin_ns))
+    decide({*last_good_, last_good_ns_, gap.new_map});
   else
     decide({state, gap.begin_ns, gap.new_map});
   if (gap.new_map) return "the unit of the gyro was wrong";

@@ -34,7 +34,7 @@ class Reinitialization
   void addBreak(const InertialBreak& gap) { breaks_.push_back(gap); }
   /** The oldest break, if the data of a scan that ends at \a end_ns reach too far beyond it to be
    * bridged. */
-  [[nodiscard]] std::optional<InertialBreak> breakBefore(std::int64_t end_ns) const;
+  [[nodiscard]] std::optional<InertialBreak> breakBefore(std::int64_t end_ns);
   void dropBreak() { breaks_.pop_front(); }
 
   /** A break is to be crossed by re-initialising a run that has started. */
@@ -80,6 +80,8 @@ class Reinitialization
   };
 
   void decide(const BelievedState& last);
+  /** The pose is, in spite of the gap. */
+  [[nodiscard]] std::int64_t knownUntil(const InertialBreak& gap) const;
 
   const OdometryOptions options_;
   std::deque<InertialBreak> breaks_;

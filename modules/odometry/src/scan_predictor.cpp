@@ -66,6 +66,31 @@ ScanPrediction ScanPredictor::afterClockStep(
   return stepped;
 }
 
+void ScanPredictor::addToRatesInGap(std::int64_t end_ns, const ImuBuffer& imu, const Vec3& rate)
+{
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+  {
+    const std::int64_t stop_ns = i + 1 < inputs_.size() ? inputs_[i + 1].stamp_ns : end_ns;
+    if (rotationStdInGaps(imu.inflations(), inputs_[i].stamp_ns, stop_ns) > 0.0)
+      inputs_[i].gyro += rate;
+  }
+}
+
+ScanPrediction ScanPredictor::withRateInGap(
+    const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu, const Vec3& rate_error,
+    const ScanPrediction& with_gap)
+{
+  ScanPrediction corrected = with_gap;
+  addToRatesInGap(end_ns, imu, rate_error);
+  rate_in_gap_.correct(rate_error);
+  const Prediction p = propagateThrough(
+      from.filter, inputs_, end_ns, noise_.atLeast(imu_.noise), imu.inflations(),
+      [](std::int64_t, const Prediction&) {});
+  corrected.state.x = p.state.x;
+  corrected.finite = with_gap.finite && isFinite(p.state.x);
+  return corrected;
+}
+
 ScanPrediction ScanPredictor::predict(
     const StampedState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu,
     const SystematicCovariance& systematic, bool trusted)
@@ -74,6 +99,8 @@ ScanPrediction ScanPredictor::predict(
   FilterState start = admitClockStep(from, silent_ns, imu);
   letClocksWander(start, clock_walk_, toSeconds(end_ns - from.stamp_ns));
   imu.inputsBetween(from.stamp_ns, end_ns, imu_.hold, inputs_);
+  if (rotationStdInGaps(imu.inflations(), from.stamp_ns, end_ns) == 0.0) rate_in_gap_ = {};
+  addToRatesInGap(end_ns, imu, rate_in_gap_.correction());
   imu.forEachSample(
       from.stamp_ns + 1, end_ns, [this](const ImuSample& sample) { noise_.add(sample); });
   imu_rate_.clear();

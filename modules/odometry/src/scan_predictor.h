@@ -5,6 +5,7 @@
 #pragma once
 
 #include "prediction.h"
+#include "rate_in_gap.h"
 #include <fastlio/imu/imu_buffer.h>
 #include <fastlio/imu/noise_measurement.h>
 #include <fastlio/interface/imu_rate.h>
@@ -31,6 +32,7 @@ struct ScanPrediction
   std::int64_t silent_ns = 0;
   bool clock_stepped = false;     //!< the state is that of a clock that was set ahead
   double gap_rotation_std = 0.0;  //!< of the rotation in the scan, by missing samples [rad]
+  double end_rotation_std = 0.0;  //!< of the scan's end by the scan's match, likewise [rad]
 };
 
 /** A state and its instant. */
@@ -66,6 +68,16 @@ class ScanPredictor
       const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu,
       const ScanPrediction& with_silence);
 
+  /** The same with other angular rates where samples are missing, in this prediction and in those
+   * after it until samples come again. \param rate_error is added to them [rad/s]
+   * \param with_gap what predict() gave; it goes on saying how uncertain the state is */
+  [[nodiscard]] ScanPrediction withRateInGap(
+      const StampedState& from, std::int64_t end_ns, const ImuBuffer& imu, const Vec3& rate_error,
+      const ScanPrediction& with_gap);
+
+  /** What the scans of a gap have shown; empty where no sample is missing. */
+  [[nodiscard]] RateInGap& rateInGap() { return rate_in_gap_; }
+
   /** To the newest inertial sample; nothing when the state is newer. */
   [[nodiscard]] std::optional<ImuRateState> predictNewest(
       const StampedState& from, const ImuBuffer& imu, const SystematicCovariance& systematic);
@@ -79,6 +91,7 @@ class ScanPredictor
  private:
   [[nodiscard]] Prediction fromTo(
       const FilterState& from, std::int64_t begin_ns, std::int64_t end_ns, const ImuBuffer& imu);
+  void addToRatesInGap(std::int64_t end_ns, const ImuBuffer& imu, const Vec3& rate);
   [[nodiscard]] FilterState admitClockStep(
       const StampedState& from, std::int64_t silent_ns, const ImuBuffer& imu);
 
@@ -87,6 +100,7 @@ class ScanPredictor
   bool imu_rate_wanted_;
   NoiseMeasurement noise_;
   std::vector<ImuSample> inputs_;
+  RateInGap rate_in_gap_;
   std::vector<ImuSample> aside_;  // of fromTo()
   std::vector<ImuRateState> imu_rate_;
 };

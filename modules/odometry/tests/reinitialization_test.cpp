@@ -43,6 +43,41 @@ ScanResult scanThat(bool matches, std::int64_t stamp_ns)
   return result;
 }
 
+// Gaps are as long as nobody knew the pose: neither the inertial data nor a scan.
+TEST(Reinitialization, AGapThatScansFollowThroughIsNoBreak)
+{
+  constexpr std::int64_t kTenth = kSecond / 10;
+  Reinitialization reinitialization{OdometryOptions{}};
+  reinitialization.addBreak({100 * kTenth, 112 * kTenth, false});
+  const auto breaks = [&](std::int64_t end_ns)
+  { return reinitialization.breakBefore(end_ns).has_value(); };
+  const auto match = [&](std::int64_t stamp_ns) {
+    EXPECT_FALSE(reinitialization.detectTrackingLoss(scanThat(true, stamp_ns), {}, false, false));
+  };
+  EXPECT_FALSE(breaks(105 * kTenth));
+  EXPECT_TRUE(breaks(106 * kTenth));
+  match(104 * kTenth);
+  EXPECT_FALSE(breaks(109 * kTenth));
+  EXPECT_TRUE(breaks(110 * kTenth));
+  match(108 * kTenth);
+  EXPECT_FALSE(breaks(112 * kTenth)) << "0.4 s are left, which are bridged";
+  EXPECT_FALSE(breaks(120 * kTenth)) << "the gap is over";
+}
+
+TEST(Reinitialization, AfterAGapTheRunGoesOnFromTheLastScanThatMatched)
+{
+  Reinitialization reinitialization{OdometryOptions{}};
+  FilterState followed;
+  followed.x.p = {1.0, 0.0, 0.0};
+  EXPECT_FALSE(
+      reinitialization.detectTrackingLoss(scanThat(true, 11 * kSecond), followed, false, false));
+  EXPECT_FALSE(
+      reinitialization.decideAt({10 * kSecond, 13 * kSecond, false}, FilterState{}).empty());
+  const CarriedPose carried = reinitialization.takeCarried(12 * kSecond);
+  EXPECT_EQ(carried.x.p, followed.x.p);
+  EXPECT_NEAR(std::sqrt(carried.P(kPosition, kPosition)), 0.5, 1e-6) << "unknown for a second";
+}
+
 /** Scans that do not match until the pose counts as lost. */
 void lose(Reinitialization& reinitialization, std::int64_t from_ns)
 {

@@ -41,6 +41,10 @@ struct NoiseInflation
 [[nodiscard]] double rotationStdInGaps(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
 
+/** Time from begin_ns to end_ns without samples [s]. */
+[[nodiscard]] double secondsInGaps(
+    const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
+
 /** Fraction of [begin_ns, end_ns] with inflated noise, 0 to 1. */
 [[nodiscard]] double inflatedRatio(
     const std::vector<NoiseInflation>& inflations, std::int64_t begin_ns, std::int64_t end_ns);
