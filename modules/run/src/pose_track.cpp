@@ -57,17 +57,52 @@ TwistCovariance unexplainedByBeams(const TrackedPose& pose)
 // An angle counts as what it moves at this distance.
 constexpr double kLeverArm = 10.0;  // [m]
 
-/** What grows and what shrinks are errors of the motion in between alike: covariance of the pose
- * \a at. They are told apart as seen from there. A twist turns about the origin of the world; far
- * from it, a little of the one and of the other are both large. */
-Matrix6 sizeOf(const TwistCovariance& change, const Pose& at)
+/** In metres. */
+Matrix6 asLengths(const Matrix6& pose_covariance)
 {
   Vector6 lengths = Vector6::Ones();
   lengths.head<3>().setConstant(kLeverArm);
-  const Matrix6 moved = lengths.asDiagonal() * poseCovariance(change, at) * lengths.asDiagonal();
+  return lengths.asDiagonal() * pose_covariance * lengths.asDiagonal();
+}
+
+/** What grows and what shrinks are errors of the motion in between alike. */
+Matrix6 sizeOf(const Matrix6& change_of_pose)
+{
+  const Matrix6 moved = asLengths(change_of_pose);
   const Matrix6 size = positivePart(moved) + positivePart(-moved);
-  const Vector6 angles = lengths.cwiseInverse();
+  Vector6 angles = Vector6::Ones();
+  angles.head<3>().setConstant(1.0 / kLeverArm);
   return angles.asDiagonal() * size * angles.asDiagonal();
+}
+
+/** The change as seen from the pose \a at. A twist turns about the origin of the world; far from
+ * it, a little of what grows and a little of what shrinks are both large. */
+Matrix6 sizeOf(const TwistCovariance& change, const Pose& at)
+{
+  return sizeOf(poseCovariance(change, at));
+}
+
+/** A pose covariance of \a from, as one of \a to that is turned and not moved. */
+Matrix6 turned(const Matrix6& covariance, const Pose& from, const Pose& to)
+{
+  Matrix6 J = Matrix6::Identity();
+  J.topLeftCorner<3, 3>() = to.R.transpose() * from.R;
+  return J * covariance * J.transpose();
+}
+
+/** What another place makes of the motion from \a a to \a b. It leaves the motion alone when it
+ * moves all poses as one body, and when the same place with another heading is as likely
+ * everywhere: then the covariance of heading and position stays, although the heading has a lever.
+ */
+Matrix6 sizeOfAmbiguity(const TrackedPose& a, const TrackedPose& b)
+{
+  const Matrix6 as_body = sizeOf(
+      twistCovariance(b.ambiguity_covariance, b.T_world_body) -
+          twistCovariance(a.ambiguity_covariance, a.T_world_body),
+      b.T_world_body);
+  const Matrix6 as_place = sizeOf(
+      b.ambiguity_covariance - turned(a.ambiguity_covariance, a.T_world_body, b.T_world_body));
+  return asLengths(as_place).trace() < asLengths(as_body).trace() ? as_place : as_body;
 }
 
 void setVelocity(TrackedPose& pose, const TrackedPose& from, const TrackedPose& to)
@@ -91,11 +126,9 @@ RelativePose relativePose(const TrackedPose& a, const TrackedPose& b)
   const Matrix6 own_b = positivePart(b.covariance - b.map_covariance);
   const TwistCovariance growth = unexplainedByBeams(b) - unexplainedByBeams(a);
   const MotionByBeams by_beams = motionByBeams(a, b);
-  // It shrinks where the odometry comes back to an older part of its map: the motion then corrects
-  // what had grown on the way.
-  const TwistCovariance ambiguity = twistCovariance(b.ambiguity_covariance, b.T_world_body) -
-                                    twistCovariance(a.ambiguity_covariance, a.T_world_body);
-  const Matrix6 of_b = own_b + sizeOf(growth, b.T_world_body) + sizeOf(ambiguity, b.T_world_body);
+  // The growth is negative where the odometry comes back to an older part of its map: the motion
+  // then corrects what had grown on the way.
+  const Matrix6 of_b = own_b + sizeOf(growth, b.T_world_body) + sizeOfAmbiguity(a, b);
   relative.covariance = by_a * own_a * by_a.transpose() + by_b * of_b * by_b.transpose() +
                         by_beams * by_beams.transpose();
   return relative;

@@ -97,6 +97,23 @@ TEST(RelativePose, AJumpToAnAmbiguousPlaceIsUncertain)
   EXPECT_NEAR(relativePose(found, found).covariance(3, 3), 0.0, 1e-9);
 }
 
+// After a pose that was found anywhere, each motion counted as uncertain by metres and tens of
+// degrees for the rest of the run, and a map of it came apart.
+TEST(RelativePose, OfPosesBehindAnAmbiguousPlaceIsAsCertainAsBefore)
+{
+  TrackedPose a, b;
+  a.T_world_body = {expSO3({0.0, 0.0, 0.4}), {20.0, -10.0, 1.0}};
+  b.T_world_body = a.T_world_body * Pose{expSO3({0.02, 0.1, 1.0}), {3.0, 0.5, 0.0}};
+  for (TrackedPose* pose : {&a, &b})
+  {
+    const Vec3 up = pose->T_world_body.R.transpose() * Vec3::UnitZ();
+    pose->ambiguity_covariance.topLeftCorner<3, 3>() = 2.5 * up * up.transpose();
+    pose->ambiguity_covariance.bottomRightCorner<3, 3>() = 100.0 * Mat3::Identity();
+    pose->map_covariance = pose->covariance = pose->ambiguity_covariance;
+  }
+  EXPECT_LT(relativePose(a, b).covariance.norm(), 1e-9);
+}
+
 /** Without a map's part: the two errors are independent, so numerical derivatives check the
  * analytical ones.
  */
