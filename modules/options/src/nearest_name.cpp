@@ -27,6 +27,9 @@ Row nextRow(
   }
   return row;
 }
+
+// Whoever shortens a word leaves letters out, and writes no others: they count less.
+constexpr std::size_t kOther = 3, kLeftOut = 1;
 }  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b)
@@ -51,7 +54,11 @@ bool isBeginningOf(std::string_view name, std::string_view candidate)
 std::string_view nearestName(std::string_view name, const std::vector<std::string_view>& candidates)
 {
   const auto order = [name](std::string_view candidate)
-  { return std::pair(!isBeginningOf(name, candidate), editDistance(name, candidate)); };
+  {
+    const std::size_t longer = candidate.size() - std::min(candidate.size(), name.size());
+    const std::size_t others = editDistance(name, candidate) - longer;
+    return std::pair(!isBeginningOf(name, candidate), kOther * others + kLeftOut * longer);
+  };
   const auto nearer = [&order](std::string_view a, std::string_view b)
   { return order(a) < order(b); };
   const auto best = std::min_element(candidates.begin(), candidates.end(), nearer);

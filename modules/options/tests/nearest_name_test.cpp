@@ -66,6 +66,15 @@ TEST(NearestName, TakesTheNearestAndTheFirstOfEqual)
   EXPECT_EQ(nearestName("anything", {}), "");
 }
 
+TEST(NearestName, PrefersANameOfWhichLettersWereLeftOut)
+{
+  EXPECT_EQ(nearestName("map.voxl", {"map.type", "map.voxel_size"}), "map.voxel_size");
+  EXPECT_EQ(
+      nearestName("imu.gyr_noise", {"imu.gyro_unit", "imu.gyro_noise_density"}),
+      "imu.gyro_noise_density");
+  EXPECT_EQ(nearestName("range", {"gain", "lidar.max_range", "ranges"}), "ranges");
+}
+
 TEST(NearestName, PrefersANameThatWasNotWrittenToItsEnd)
 {
   EXPECT_EQ(nearestName("map.voxel", {"map.type", "map.voxel_size"}), "map.voxel_size");

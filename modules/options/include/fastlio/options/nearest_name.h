@@ -19,8 +19,8 @@ namespace fastlio
 [[nodiscard]] bool isBeginningOf(std::string_view name, std::string_view candidate);
 
 /** The candidate that was meant by \a name: one that begins with it, else the one with the smallest
- * edit distance; of several the nearest, and the first of equal ones. Empty when there are no
- * candidates. */
+ * edit distance, in which letters that \a name lacks count a third; of several the nearest, and the
+ * first of equal ones. Empty when there are no candidates. */
 [[nodiscard]] std::string_view nearestName(
     std::string_view name, const std::vector<std::string_view>& candidates);
 
