@@ -1,7 +1,9 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "fast_lio_keys.h"
 #include "removed_keys.h"
+#include "unknown_key.h"
 #include "yaml_text.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_yaml.h>
@@ -82,13 +84,6 @@ struct Loading
   Problems problems;
 };
 
-std::string unknownKeyText(const std::string& key)
-{
-  std::string advice = adviceFor(key);
-  if (!advice.empty()) return advice;
-  return "is not a parameter; did you mean '" + nearestKey(configTable(), key) + "'?";
-}
-
 void loadValue(Loading& loading, const std::string& key, const yaml::node_t& node)
 {
   const auto* row = findOption(configTable(), key);
@@ -114,10 +109,26 @@ void loadGroup(Loading& loading, const std::string& group, const yaml::node_t& n
     loadValue(loading, group + "." + name.as<std::string>(), value);
 }
 
+/** Each of its parameters gets a message that says what takes its place. */
+void explainFastLioGroup(Loading& loading, const std::string& group, const yaml::node_t& node)
+{
+  for (const auto& [key, value] : node.asMap())
+  {
+    const auto name = key.as<std::string>();
+    if (value.isMap())
+      explainFastLioGroup(loading, name, value);
+    else
+      loadValue(loading, group + "." + name, value);
+  }
+}
+
 void loadTopLevel(Loading& loading, const std::string& name, const yaml::node_t& node)
 {
   if (isGroup(name))
     loadGroup(loading, name, node);
+  else if (
+      node.isMap() && (isFastLioGroup(name) || node.asMap().count(std::string(kRos2Group)) > 0))
+    explainFastLioGroup(loading, name, node);
   else if (findOption(configTable(), name) == nullptr && node.isMap())
   {
     const std::string nearest(nearestName(name, validTopLevelNames()));
@@ -272,8 +283,7 @@ std::string applySetting(const std::string& setting, Config& config)
   if (equals == std::string::npos)
     throw wrong("has no '='; write KEY=VALUE, for example map.voxel_size=0.3");
   const auto* row = findOption(configTable(), key);
-  if (row == nullptr)
-    throw wrong("unknown key; did you mean '" + nearestKey(configTable(), key) + "'?");
+  if (row == nullptr) throw wrong("'" + printable(key) + "' " + unknownKeyText(key));
   if (const auto problem = assign(
           row->value(config), row->unit,
           std::string(trimmed(std::string_view(setting).substr(equals + 1)))))
