@@ -51,11 +51,17 @@ CarriedPose carriedOver(const FilterState& last, double unknown_s)
   carried.x = last.x;
   carried.P = last.P;
   const double t = std::max(0.0, unknown_s);
-  carried.x.p += std::min(t, kLongestExtrapolation) * last.x.v;
+  const double extrapolated_s = std::min(t, kLongestExtrapolation);
+  carried.x.p += extrapolated_s * last.x.v;
   const double position_std = std::min(
       kLargestPositionStd, std::min(0.5 * kUnseenAccelStd * t * t, (1.0 + last.x.v.norm()) * t));
   const double heading_std = std::min(kLargestHeadingStd, kUnseenGyroStd * t);
   carried.P.diagonal().segment<3>(kPosition).array() += position_std * position_std;
+  // A platform that turns leaves the straight way to a side, by the mean of the angle.
+  const Vec3 aside = 0.5 * heading_std * extrapolated_s * last.x.v.cross(last.x.g.normalized());
+  carried.P.block<3, 3>(kPosition, kPosition) +=
+      aside * aside.transpose() +
+      extrapolated_s * extrapolated_s * last.P.block<3, 3>(kVelocity, kVelocity);
   carried.P.diagonal().segment<3>(kAttitude).array() += heading_std * heading_std;
   return carried;
 }

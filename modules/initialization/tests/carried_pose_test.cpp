@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace fastlio
 {
 namespace
@@ -23,6 +25,24 @@ TEST(CarriedPose, TheHeadingIsAsUncertainAsBeforeWhereTheBodyIsTilted)
   const Mat3 in_world = s.x.R * s.P.block<3, 3>(kAttitude, kAttitude) * s.x.R.transpose();
   EXPECT_NEAR(in_world(2, 2), kYaw, 1e-12);
   EXPECT_NEAR(in_world(0, 0), 0.0, 1e-12) << "tilt is known from gravity";
+}
+
+// A car that turned was metres beside the straight way, which counted as known to half a metre.
+TEST(CarriedPose, IsUncertainToTheSideAsFarAsATurnLeads)
+{
+  constexpr double kSpeed = 12.0, kRate = 20.0 / 57.29577951308232, kSeconds = 1.0;
+  FilterState last;
+  last.x.R = expSO3({0.3, 0.2, 0.0});
+  last.x.v = {kSpeed, 0.0, 0.0};
+  last.x.g = {0.0, 0.0, -9.81};
+  const CarriedPose carried = carriedOver(last, kSeconds);
+  const double aside = kSpeed / kRate * (1.0 - std::cos(kRate * kSeconds));  // [m], of the circle
+  EXPECT_GT(aside, 2.0);
+  EXPECT_NEAR(std::sqrt(carried.P(kPosition + 1, kPosition + 1)), aside, 0.1 * aside);
+  EXPECT_NEAR(std::sqrt(carried.P(kPosition, kPosition)), 0.5, 1e-9) << "along the way";
+  last.P(kVelocity, kVelocity) = 4.0;
+  EXPECT_NEAR(
+      carriedOver(last, kSeconds).P(kPosition, kPosition), 0.25 + 4.0 * kSeconds * kSeconds, 1e-9);
 }
 
 TEST(CarriedPose, TheCalibrationGoesOn)
