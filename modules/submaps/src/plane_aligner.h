@@ -118,14 +118,12 @@ class PlaneAligner
       const Patch& source, const Pose& T, double reach) const
   {
     constexpr std::size_t kLookAt = 6;
-    std::array<std::size_t, kLookAt> indices{};
-    std::array<double, kLookAt> distances{};
     const Vec3 at = T * source.centroid;
     const Vec3 normal = T.R * source.normal;
-    const std::size_t found = tree_.knnSearch(at.data(), kLookAt, indices.data(), distances.data());
-    for (std::size_t i = 0; i < found && distances.at(i) < reach * reach; ++i)
+    const auto nearest = nearestWithin<kLookAt>(tree_, at, reach);
+    for (std::size_t i = 0; i < nearest.size(); ++i)
     {
-      const Patch& target = cloud_.patches[indices.at(i)];
+      const Patch& target = cloud_.patches[nearest[i]];
       if (target.normal.dot(normal) < kLeastCosine) continue;
       return pairOf(source, target, at);
     }

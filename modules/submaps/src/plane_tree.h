@@ -9,6 +9,7 @@
 
 #include <nanoflann.hpp>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -50,5 +51,60 @@ struct CentroidCloud
 
 using PlaneTree = nanoflann::KDTreeSingleIndexAdaptor<
     nanoflann::L2_Simple_Adaptor<double, CentroidCloud>, CentroidCloud, 3, std::size_t>;
+
+/** A result set for the tree: the nearest \a Most within a reach, the nearest first. Without the
+ * reach the tree would visit most of its leaves where nothing is near. */
+template <std::size_t Most>
+class NearestWithin
+{
+ public:
+  // The names are those that nanoflann asks for.
+  using DistanceType = double;
+  using IndexType = std::size_t;
+  using CountType = std::size_t;
+
+  explicit NearestWithin(double squared_reach) : squared_reach_(squared_reach) {}
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+  [[nodiscard]] bool full() const { return count_ == Most; }
+  [[nodiscard]] double worstDist() const { return full() ? distances_.back() : squared_reach_; }
+  /** \return true: the search goes on */
+  bool addPoint(double distance, std::size_t index)
+  {
+    if (distance >= worstDist()) return true;
+    std::size_t i = full() ? Most - 1 : count_++;
+    for (; i > 0 && distances_[i - 1] > distance; --i)
+    {
+      distances_[i] = distances_[i - 1];
+      indices_[i] = indices_[i - 1];
+    }
+    distances_[i] = distance;
+    indices_[i] = index;
+    return true;
+  }
+  void sort() const {}  // they are
+
+  [[nodiscard]] std::size_t operator[](std::size_t i) const { return indices_[i]; }
+
+ private:
+  double squared_reach_;
+  std::size_t count_ = 0;
+  std::array<double, Most> distances_{};
+  std::array<std::size_t, Most> indices_{};
+};
+
+template <std::size_t Most>
+[[nodiscard]] NearestWithin<Most> nearestWithin(
+    const PlaneTree& tree, const Vec3& point, double reach)
+{
+  NearestWithin<Most> nearest(reach * reach);
+#if NANOFLANN_VERSION < 0x150
+  tree.findNeighbors(nearest, point.data(), nanoflann::SearchParams());
+#else
+  tree.findNeighbors(nearest, point.data());
+#endif
+  return nearest;
+}
 
 }  // namespace fastlio
