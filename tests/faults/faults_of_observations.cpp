@@ -88,7 +88,7 @@ Injection duplicated(double probability)
 }
 
 /** Observations come so many places later. */
-Injection late(Predicate of, double probability, std::size_t places)
+Injection late(const Predicate& of, double probability, std::size_t places)
 {
   return [=](Observations& all, Random& random)
   {
@@ -103,7 +103,7 @@ Injection late(Predicate of, double probability, std::size_t places)
   };
 }
 
-Injection eachImu(double probability, std::function<void(CObservationIMU&, Random&)> change)
+Injection eachImu(double probability, const std::function<void(CObservationIMU&, Random&)>& change)
 {
   return [=](Observations& all, Random& random)
   {
@@ -154,7 +154,7 @@ Injection imuClipped(double accel, double gyro)
 }
 
 /** Stamps of single observations are wrong by so many seconds, to one side or the other. */
-Injection wrongStamps(Predicate of, double probability, double seconds)
+Injection wrongStamps(const Predicate& of, double probability, double seconds)
 {
   return [=](Observations& all, Random& random)
   {
@@ -165,7 +165,7 @@ Injection wrongStamps(Predicate of, double probability, double seconds)
 }
 
 /** From a time on, all stamps of a sensor differ. */
-Injection clockSet(Predicate of, double from, double seconds)
+Injection clockSet(const Predicate& of, double from, double seconds)
 {
   return [=](Observations& all, Random& /*random*/)
   {
@@ -177,7 +177,7 @@ Injection clockSet(Predicate of, double from, double seconds)
   };
 }
 
-Injection relabelled(Predicate of, double from, std::string label)
+Injection relabelled(const Predicate& of, double from, const std::string& label)
 {
   return [=](Observations& all, Random& /*random*/)
   {

@@ -94,6 +94,7 @@ TEST(SameFile, LinksInCirclesAreNoPartsTwice)
 TEST(SameFile, ManyMissingPartsAreLookedUpOnceEach)
 {
   std::vector<std::string> missing;
+  missing.reserve(3001);
   for (int i = 0; i < 3000; ++i)
     missing.push_back("/no/such/folder/part_" + std::to_string(i));
   const auto look_up = [&missing](int count) {

@@ -48,6 +48,7 @@ TEST(NoiseInflation, CountsErrorsOfOneSignTogether)
 {
   const ImuNoise noise;
   std::vector<NoiseInflation> turn;
+  turn.reserve(3);
   for (int i = 0; i < 3; ++i)
     turn.push_back(
         {kBegin + i * kLength, kBegin + (i + 1) * kLength, 0.5, 2.0, InertialFault::Saturation,

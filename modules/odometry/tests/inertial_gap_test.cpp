@@ -5,6 +5,7 @@
 
 #include "odometry_runs.h"
 #include "rate_in_gap.h"
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 

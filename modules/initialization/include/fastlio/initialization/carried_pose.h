@@ -18,8 +18,8 @@ struct CarriedPose
 };
 
 /** The state \a unknown_s seconds later when nothing is known about the motion in between but
- * that it accelerates (1 m/s^2) and turns (20 deg/s): the velocity goes on for a second at most. What
- * it turns moves it off the straight way. */
+ * that it accelerates (1 m/s^2) and turns (20 deg/s): the velocity goes on for a second at most.
+ * What it turns moves it off the straight way. */
 [[nodiscard]] CarriedPose carriedOver(const FilterState& last, double unknown_s);
 
 /** A start in a world of its own (position zero, heading free) as a start in the world of the
