@@ -4,6 +4,7 @@
 /** \file narrow_view_test.cpp A narrow view lets poses at rest drift. That is no motion. */
 
 #include "simulated_run.h"
+#include <fastlio/scenarios/realistic.h>
 
 #include <gtest/gtest.h>
 

@@ -86,8 +86,9 @@ void Estimator::followThroughGap(
     const LidarScan& scan, std::int64_t end_ns, const ImuBuffer& imu, ScanPrediction& predicted)
 {
   const double distortion = deskewStd(deskew(scan, end_ns, predicted.state.x), predicted);
-  if (distortion <= kMostDistortion) return;
   const double missing_s = secondsInGaps(imu.inflations(), state_.stamp_ns, end_ns);
+  // A gap may lie in the part of the scan that the scan before has, too.
+  if (distortion <= kMostDistortion || missing_s == 0.0) return;
   // How far the motion departs from that around the gap grows with the time.
   const double grown = std::min(1.0, missing_s / options_.imu.max_gap);
   const double expected_std =
