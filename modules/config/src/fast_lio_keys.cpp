@@ -4,6 +4,8 @@
 #include "fast_lio_keys.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 
 namespace fastlio
 {
@@ -44,8 +46,9 @@ const std::vector<FastLioKey>& fastLioKeys()
        "input.T_vehicle_lidar: [x, y, z, yaw, pitch, roll], if the IMU is the vehicle"},
       {"extrinsic_R", "the angles of input.T_vehicle_lidar in degrees, if the IMU is the vehicle"},
       {"pcd_save_en", "output.exporters with pcd, or --export pcd"},
-      {"interval", "output.tile_size: tiles of the map instead of one file per so many scans"},
-      {"path_en", "nothing: trajectory.tum is always written"},
+      {"pcd_save.interval",
+       "output.tile_size: tiles of the map instead of one file per so many scans"},
+      {"path_en", "nothing: trajectory.tum is written by default"},
       {"scan_publish_en", "nothing: a replay publishes nothing"},
       {"dense_publish_en", "nothing: a replay publishes nothing"},
       {"scan_bodyframe_pub_en", "nothing: a replay publishes nothing"},
@@ -63,10 +66,13 @@ bool isFastLioGroup(std::string_view name)
 
 std::string adviceForFastLio(std::string_view key)
 {
-  const std::string_view name = key.substr(key.rfind('.') + 1);
+  const auto is_meant = [key](const FastLioKey& theirs)
+  {
+    const std::size_t group = key.size() - std::min(key.size(), theirs.name.size());
+    return key.substr(group) == theirs.name && (group == 0 || key[group - 1] == '.');
+  };
   const auto& keys = fastLioKeys();
-  const auto found = std::find_if(
-      keys.begin(), keys.end(), [name](const FastLioKey& theirs) { return theirs.name == name; });
+  const auto found = std::find_if(keys.begin(), keys.end(), is_meant);
   if (found == keys.end()) return {};
   return "is a parameter of FAST_LIO; here: " + std::string(found->instead);
 }

@@ -19,7 +19,7 @@ struct FastLioKey
   std::string_view instead;  //!< continues "here: "
 };
 
-/** Of its YAML files and launch files, without their groups. */
+/** Of its YAML files and launch files, without their groups where the name alone says enough. */
 [[nodiscard]] const std::vector<FastLioKey>& fastLioKeys();
 
 /** A group of its YAML files. */

@@ -1,10 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "config_problems.h"
 #include "removed_keys.h"
 #include "yaml_value.h"
 #include <fastlio/config/config_document.h>
-#include <fastlio/config/config_yaml.h>
 #include <fastlio/math/angles.h>
 
 #include <gtest/gtest.h>
@@ -15,41 +15,11 @@
 #include <limits>
 
 using namespace fastlio;
+using namespace fastlio::testing;
 using mrpt::containers::yaml;
 
 namespace
 {
-Config fromText(const std::string& text)
-{
-  return loadConfig(yaml::FromText(text));
-}
-
-/** The message of the error that \a action throws; fails the test when it throws none. */
-template <typename Error, typename Action>
-std::string messageOf(const Action& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  ADD_FAILURE() << "no exception of the expected type";
-  return {};
-}
-
-std::string problemOf(const std::string& text)
-{
-  return messageOf<std::invalid_argument>([&] { (void)fromText(text); });
-}
-
-void expectContains(const std::string& text, const std::string& part)
-{
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
-}
-
 /** A file that is removed with the object. */
 class TemporaryFile
 {

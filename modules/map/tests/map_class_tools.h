@@ -54,19 +54,4 @@ typename Map::Ptr mapFromDefinition(
   return maps.mapByClass<Map>();
 }
 
-/** The message of what it throws. */
-template <typename Action>
-std::string messageOf(const Action& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const std::exception& e)
-  {
-    return e.what();
-  }
-  return "";
-}
-
 }  // namespace fastlio::testing

@@ -3,6 +3,7 @@
 
 // The map as any MRPT map: archives, files, copies, factories, visualisation.
 
+#include "failure_message.h"
 #include "map_class_tools.h"
 #include "map_test_tools.h"
 #include <fastlio/map/register_classes.h>
@@ -250,7 +251,7 @@ TEST(MapIo, IsMadeFromAMapDefinition)
 
 TEST(MapIo, SenselessMapDefinitionSaysWhatIsWrong)
 {
-  const std::string message = messageOf(
+  const std::string message = failureOf(
       []
       {
         (void)mapFromDefinition<CIncrementalPointsMap>(

@@ -3,6 +3,7 @@
 
 // The map of planes in archives, files, copies and map definitions.
 
+#include "failure_message.h"
 #include "map_class_tools.h"
 #include "surface_map_test_tools.h"
 #include <fastlio/map/mrpt_voxel_planes_map.h>
@@ -215,13 +216,13 @@ TEST_F(VoxelPlanesMapFile, TroubleIsReportedWithTheNameOfTheFile)
 {
   const CVoxelPlanesMap map = unusualPlanes();
   EXPECT_NE(
-      messageOf([&] { map.saveToFile("/nowhere/map"); }).find("/nowhere/map"), std::string::npos);
+      failureOf([&] { map.saveToFile("/nowhere/map"); }).find("/nowhere/map"), std::string::npos);
   CVoxelPlanesMap loaded;
   EXPECT_NE(
-      messageOf([&] { loaded.loadFromFile("/nowhere/map"); }).find("/nowhere/map"),
+      failureOf([&] { loaded.loadFromFile("/nowhere/map"); }).find("/nowhere/map"),
       std::string::npos);
   std::ofstream(path_) << "this is no map";
-  EXPECT_NE(messageOf([&] { loaded.loadFromFile(path_); }).find(path_), std::string::npos);
+  EXPECT_NE(failureOf([&] { loaded.loadFromFile(path_); }).find(path_), std::string::npos);
 }
 
 TEST(VoxelPlanesMapIo, IsMadeFromAMapDefinition)
@@ -245,5 +246,5 @@ TEST(VoxelPlanesMapIo, SenselessMapDefinitionSaysWhatIsWrong)
 {
   CVoxelPlanesMap::TCreationOptions options;
   options.planes.voxel_size = -1.0;
-  EXPECT_NE(messageOf([&] { CVoxelPlanesMap map(options); }).find("voxel_size"), std::string::npos);
+  EXPECT_NE(failureOf([&] { CVoxelPlanesMap map(options); }).find("voxel_size"), std::string::npos);
 }
