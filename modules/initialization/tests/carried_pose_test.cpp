@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <fastlio/initialization/carried_pose.h>
+#include <fastlio/math/angles.h>
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ TEST(CarriedPose, TheHeadingIsAsUncertainAsBeforeWhereTheBodyIsTilted)
 // A car that turned was metres beside the straight way, which counted as known to half a metre.
 TEST(CarriedPose, IsUncertainToTheSideAsFarAsATurnLeads)
 {
-  constexpr double kSpeed = 12.0, kRate = 20.0 / 57.29577951308232, kSeconds = 1.0;
+  constexpr double kSpeed = 12.0, kRate = 20.0 / kDegPerRad, kSeconds = 1.0;
   FilterState last;
   last.x.R = expSO3({0.3, 0.2, 0.0});
   last.x.v = {kSpeed, 0.0, 0.0};

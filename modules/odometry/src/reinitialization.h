@@ -33,7 +33,7 @@ class Reinitialization
 
   void addBreak(const InertialBreak& gap) { breaks_.push_back(gap); }
   /** The oldest break, if the data of a scan that ends at \a end_ns reach too far beyond it to be
-   * bridged. */
+   * bridged. Forgets those that are over and were bridged, or that scans led through. */
   [[nodiscard]] std::optional<InertialBreak> breakBefore(std::int64_t end_ns);
   void dropBreak() { breaks_.pop_front(); }
 
