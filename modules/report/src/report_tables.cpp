@@ -66,8 +66,10 @@ std::string pointsText(const PointTotals& points)
 
 std::string imuText(const ImuReport& imu)
 {
+  const std::string longest =
+      imu.gaps > 0 ? " (longest " + fixedText(imu.longest_gap, 3) + " s)" : "";
   return fixedText(imu.rate, 1) + " Hz, " + toString(imu.accel_unit) + ", " +
-         toString(imu.gyro_unit) + "; gaps: " + countText(imu.gaps) +
+         toString(imu.gyro_unit) + "; gaps: " + countText(imu.gaps) + longest +
          ", samples missing: " + countText(imu.missing) + ", clipped: " + countText(imu.saturated) +
          ", spikes: " + countText(imu.spikes);
 }
