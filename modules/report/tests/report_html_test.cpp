@@ -48,15 +48,6 @@ TEST(ReportHtml, AStartThatTakesMostOfARunIsNamed)
   EXPECT_TRUE(has(html, "<header class=\"warn\">"));
 }
 
-TEST(ReportHtml, AGapOfTheInertialDataIsThereWithItsLength)
-{
-  RunSummary run;
-  EXPECT_TRUE(has(reportOf(walk(50), run), "gaps: 0, samples missing: 0"));
-  run.imu.gaps = 1;
-  run.imu.longest_gap = 1.0034;
-  EXPECT_TRUE(has(reportOf(walk(50), run), "gaps: 1 (longest 1.003 s), samples missing: 0"));
-}
-
 /** The map of these reports is 2.5 km long and 5 m high, the walk is 5 m long. */
 TEST(ReportHtml, ASmallPathHasAViewOfItsOwnAndLowHeightsAreStretched)
 {
