@@ -24,6 +24,9 @@ class Walker
   {
   }
 
+  /** The accelerometer sees shaking that is none of the motion. */
+  void shake(double speed) { shaking_ = speed; }
+
   void addTo(VelocityChanges& changes, int scans, double std = kKnown)
   {
     for (int i = 0; i < scans; ++i, time_ += kInterval)
@@ -35,6 +38,9 @@ class Walker
       predicted.v = velocity(end) + kWrongVelocity + kInterval * kWrongAcceleration;
       predicted.p = before.p + position(end) - position(time_) + kInterval * kWrongVelocity +
                     0.5 * kInterval * kInterval * kWrongAcceleration;
+      const Vec3 shaken = shaking_ * (std::sin(20.0 * end) - std::sin(20.0 * time_)) * Vec3::Ones();
+      predicted.v += shaken;
+      predicted.p += 0.5 * kInterval * shaken;
       const Vec3 noise(gauss_(random_), gauss_(random_), gauss_(random_));
       changes.add(
           before, kInterval, predicted, range_scale_ * position(end) + scan_noise_ * noise, std);
@@ -59,7 +65,7 @@ class Walker
         -0.214 * std::sin(10.7 * t)};
   }
 
-  double range_scale_, scan_noise_, time_ = 0.0;
+  double range_scale_, scan_noise_, shaking_ = 0.0, time_ = 0.0;
   std::mt19937_64 random_{5};
   std::normal_distribution<double> gauss_;
 };
@@ -86,6 +92,37 @@ TEST(VelocityChanges, FindTheScaleOfTheRanges)
     EXPECT_NEAR(scale->scale, factor, 4.0 * scale->std);
     EXPECT_GT(scale->leastError(), 0.04) << factor;
   }
+}
+
+// Sampled too slowly, vibration looks like fast changes of velocity. Those of the motion last.
+TEST(VelocityChanges, VibrationIsNoScale)
+{
+  for (const double factor : {1.0, 0.85})
+  {
+    VelocityChanges changes;
+    Walker walker(factor);
+    walker.shake(0.05);
+    walker.addTo(changes, 400);
+    const auto scale = changes.scale();
+    ASSERT_TRUE(scale.has_value());
+    EXPECT_NEAR(scale->scale, factor, 0.03);
+    EXPECT_EQ(scale->leastError() > 0.03, factor < 1.0);
+  }
+}
+
+TEST(VelocityChanges, AScanThatFindsAnotherPlaceDoesNotCount)
+{
+  VelocityChanges changes;
+  Walker walker(1.0), lost(1.0, 0.3);
+  for (int i = 0; i < 20; ++i)
+  {
+    walker.addTo(changes, 30);
+    lost.addTo(changes, 1);
+  }
+  const auto scale = changes.scale();
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->scale, 1.0, 0.02);
+  EXPECT_EQ(scale->leastError(), 0.0);
 }
 
 TEST(VelocityChanges, SayNothingBeforeTenSecondsAndInSteadyMotion)

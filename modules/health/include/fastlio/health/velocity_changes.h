@@ -10,11 +10,15 @@
 #include <fastlio/health/paired_vectors.h>
 #include <fastlio/interface/scan_result.h>
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace fastlio
 {
-/** Compares the mean velocities of neighbouring intervals between scans. */
+/** Compares the mean velocities of five intervals between scans with those of the five before: half
+ * a second of most LiDARs. From one interval to the next the velocity changes by less than what the
+ * vibration of a platform puts into the accelerometer. */
 class VelocityChanges
 {
  public:
@@ -32,17 +36,23 @@ class VelocityChanges
   [[nodiscard]] std::optional<RangeScale> scale() const;
 
  private:
-  /** Between two scans. */
+  static constexpr std::size_t kHalf = 5;  // intervals
+
+  /** Mean velocities between two scans [m/s]. */
   struct Interval
   {
-    Vec3 by_scans;  // mean velocity [m/s]
-    // By inertial data, over the velocity at the begin: of the mean one, and of the one at the end.
-    Vec3 mean_gain, gain;
+    Vec3 by_scans = Vec3::Zero();
+    Vec3 by_inertia = Vec3::Zero();  // but for a constant
   };
 
+  /** Of all intervals in the ring: of the second half over the first one. */
+  [[nodiscard]] Interval change() const;
+
   std::optional<Vec3> last_position_;
-  std::optional<Interval> last_;
-  PairedVectors changes_;  // [m/s]
+  std::array<Interval, 2 * kHalf> ring_;
+  std::size_t intervals_ = 0;   // since the restart
+  Vec3 gained_ = Vec3::Zero();  // velocity by inertial data, since the restart [m/s]
+  PairedVectors changes_;       // [m/s]
 };
 
 }  // namespace fastlio
