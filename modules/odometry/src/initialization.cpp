@@ -18,6 +18,8 @@ namespace
 constexpr double kWindowStep = 0.1;
 // After a refused start in motion the first of so many parts of its window is given up.
 constexpr std::size_t kRefusedParts = 2;
+// After so many in a row it is given up as a whole: each attempt takes the time of a hundred scans.
+constexpr std::size_t kHastyRefusals = 8;
 // Slower motion, which a pass at rest does not see, may be none.
 constexpr double kMotionForSure = 0.5;  // [m/s]
 // Somebody who stands turns by 0.3 to 0.7 deg/s, to and fro, and moves by millimetres: a start at
@@ -195,7 +197,8 @@ StartDecision StartFinder::refuse(
   // The search for rest looks back by its duration.
   imu.forgetBefore(
       scans.front().span.begin_ns - toNanoseconds(parameters_.initialization.duration));
-  refused_until_ns_ = scans[count / kRefusedParts].span.end_ns;
+  const std::size_t last = refusals_++ < kHastyRefusals ? count / kRefusedParts : count - 1;
+  refused_until_ns_ = scans[last].span.end_ns;
   refusal_ = start.message;
   return waitOrDrop(true, refusal_);
 }

@@ -51,6 +51,7 @@ class StartFinder
       const MotionStart& start, const ScanQueue& scans, std::size_t count, ImuBuffer& imu);
 
   OdometryOptions parameters_;
+  std::size_t refusals_ = 0;           // of starts in motion
   std::int64_t refused_until_ns_ = 0;  // scans that end by then are dropped for the reason below
   std::string refusal_;
   std::string not_at_rest_;  // why the last window was rejected; empty: none was

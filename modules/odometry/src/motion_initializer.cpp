@@ -20,6 +20,9 @@ namespace
 {
 constexpr std::size_t kMinScans = 4;
 constexpr int kPasses = 16;  // at most; a narrow view of a fast platform needs ten to fifteen
+// Passes that leave the velocity open by more after half of them will not settle [m/s].
+constexpr int kHopelessPass = 8;
+constexpr double kHopelessVelocityStd = 1.0;
 // A start in motion knows its velocity so well; else the next scans would not match [m/s].
 constexpr double kMaxVelocityStd = 0.3;
 // What the prior leaves open narrows with each pass: far-off planes are no match then.
@@ -160,7 +163,8 @@ MotionStart startInMotion(
     x0 = pass.start;
     pass = window.run(window.prior(x0, width), pass_parameters, false);
     agreed = agree(x0, pass.start);
-    over = agreed && (pass.blind || pass.velocity_std < kMaxVelocityStd);
+    over = (agreed && (pass.blind || pass.velocity_std < kMaxVelocityStd)) ||
+           (i >= kHopelessPass && pass.velocity_std > kHopelessVelocityStd);
     pass.start = damped(x0, pass.start, p);
     width.velocity = std::max(kLeastVelocityStd, kNarrowing * width.velocity);
     width.tilt = std::max(kLeastTiltStd, kNarrowing * width.tilt);
