@@ -74,7 +74,7 @@ class NearestWithin
   {
     if (distance >= worstDist()) return true;
     std::size_t i = full() ? Most - 1 : count_++;
-    for (; i > 0 && distances_[i - 1] > distance; --i)
+    for (; Most > 1 && i > 0 && distances_[i - 1] > distance; --i)
     {
       distances_[i] = distances_[i - 1];
       indices_[i] = indices_[i - 1];

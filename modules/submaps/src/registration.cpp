@@ -27,6 +27,7 @@ constexpr double kBesideDirection = 0.1;    // places along a direction are this
 constexpr std::size_t kCoarsePlanes = 200;  // for looking around
 constexpr std::size_t kFinePlanes = 1500;   // for comparing what was found
 constexpr std::size_t kMostRivals = 6;      // places that are compared
+constexpr std::size_t kMostCoarse = 300;    // places that the wide search leaves
 }  // namespace
 
 SubmapRegistration::SubmapRegistration(
@@ -45,6 +46,15 @@ struct Found
   Pose pose;
   double cost = 0.0;  //!< minus the logarithm of its probability
 };
+
+std::vector<Pose> posesOf(const std::vector<Found>& places)
+{
+  std::vector<Pose> poses;
+  poses.reserve(places.size());
+  for (const Found& place : places)
+    poses.push_back(place.pose);
+  return poses;
+}
 
 bool isSamePlace(const Pose& a, const Pose& b)
 {
@@ -135,9 +145,11 @@ Registration SubmapRegistration::search(
     return found;
   };
   const std::vector<Pose> starts = startsAround(predicted, up);
+  std::vector<Found> wide = follow(starts, coarse, kWide);
+  if (wide.size() > kMostCoarse) wide = distinct(std::move(wide), kMostCoarse);
   // A wide search that finds little in common may leave a place that is known well.
   std::vector<Pose> places{predicted.T_a_b};
-  for (const Found& found : distinct(follow(starts, coarse, kCoarse), kMostRivals))
+  for (const Found& found : distinct(follow(posesOf(wide), coarse, kCoarse), kMostRivals))
     places.push_back(found.pose);
   const std::vector<Found> refined = distinct(follow(places, fine, kFine), kMostRivals);
   if (refined.empty()) return none;
