@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -108,8 +107,9 @@ bool StretchBytes::beginsAnotherMember()
   const std::string_view& magic = *member_magic_;
   const std::size_t least = std::max<std::size_t>(magic.size(), 1);
   if (waiting() < least) load();
-  if (waiting() < least || std::memcmp(buffer_.data() + begin_, magic.data(), magic.size()) != 0)
-    return false;
+  if (waiting() < least) return false;
+  const std::string_view next(reinterpret_cast<const char*>(buffer_.data() + begin_), magic.size());
+  if (next != magic) return false;
   inflater_->reset();
   return true;
 }
