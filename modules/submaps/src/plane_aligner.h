@@ -41,16 +41,6 @@ inline constexpr double kLeastInformation = 1e-2;  // [1/m^2, 1/rad^2]
 inline constexpr double kUprightCosine = 0.5;      // cosine between normal and gravity
 inline constexpr double kInlier = 3.0;             // standard deviations
 
-/** Every so many-th, so that planes of all places are among them. */
-[[nodiscard]] inline std::vector<Patch> sampleOf(const std::vector<Patch>& all, std::size_t most)
-{
-  if (all.size() <= most) return all;
-  std::vector<Patch> sample;
-  for (std::size_t i = 0; i < most; ++i)
-    sample.push_back(all[i * all.size() / most]);
-  return sample;
-}
-
 /** How wide to look for partners, and what counts as far from a plane. */
 struct Stage
 {

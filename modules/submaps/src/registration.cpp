@@ -47,6 +47,16 @@ struct Found
   double cost = 0.0;  //!< minus the logarithm of its probability
 };
 
+/** Every so many-th, so that planes of all places are among them. */
+std::vector<Patch> sampleOf(const std::vector<Patch>& all, std::size_t most)
+{
+  if (all.size() <= most) return all;
+  std::vector<Patch> sample;
+  for (std::size_t i = 0; i < most; ++i)
+    sample.push_back(all[i * all.size() / most]);
+  return sample;
+}
+
 std::vector<Pose> posesOf(const std::vector<Found>& places)
 {
   std::vector<Pose> poses;
