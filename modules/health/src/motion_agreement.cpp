@@ -20,7 +20,6 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 // Turns of less than this, root mean square, are mostly noise [rad].
 constexpr double kLeastTurn = 0.004;
-constexpr double kLeastCorrelation = 0.95;
 // A second axis of rotation with less of the first one's singular value says nothing.
 constexpr double kLeastSecondAxis = 0.05;
 
@@ -166,7 +165,8 @@ std::optional<MotionAgreement::Turns> MotionAgreement::turns() const
   turns.axes = svd.matrixV();
   turns.from_scans = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
   const double common = turns.strengths.sum();
-  if (common < kLeastCorrelation * std::sqrt(inertial_squares * scan_squares)) return std::nullopt;
+  if (common < PairedVectors::kLeastCorrelation * std::sqrt(inertial_squares * scan_squares))
+    return std::nullopt;
   const double left_over = inertial_squares + scan_squares - 2.0 * common;
   turns.variance = std::max(left_over, 0.0) / (3.0 * turns_.count());
   return turns;

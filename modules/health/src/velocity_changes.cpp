@@ -16,8 +16,6 @@ constexpr double kKnownPositionStd = 0.01;
 constexpr double kLargestDeparture = 2.0 * kKnownPositionStd;
 // Smaller changes, root mean square per axis, are mostly bias and tilt [m/s].
 constexpr double kLeastChange = 0.02;
-// With less, one of the two sees mostly what is not motion.
-constexpr double kLeastVelocityCorrelation = 0.95;
 }  // namespace
 
 void VelocityChanges::add(
@@ -73,7 +71,8 @@ std::optional<RangeScale> VelocityChanges::scale() const
   const double product = changes_.products().trace();
   const double scans = changes_.scanSquares(), inertial = changes_.inertialSquares();
   if (!(inertial > 3.0 * changes_.count() * kLeastChange * kLeastChange)) return std::nullopt;
-  if (!(product > kLeastVelocityCorrelation * std::sqrt(scans * inertial))) return std::nullopt;
+  if (!(product > PairedVectors::kLeastCorrelation * std::sqrt(scans * inertial)))
+    return std::nullopt;
   RangeScale scale;
   scale.scale = product / inertial;
   const double left_over = scans - scale.scale * product;

@@ -13,6 +13,9 @@ namespace fastlio
 class PairedVectors
 {
  public:
+  /** With less correlation, one of the two sees mostly what is not motion. */
+  static constexpr double kLeastCorrelation = 0.95;
+
   void add(const Vec3& scans, const Vec3& inertial);
 
   /** Do the sums hold pairs enough to compare anything? */
