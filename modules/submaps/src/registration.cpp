@@ -141,27 +141,34 @@ Registration SubmapRegistration::search(
   const auto follow =
       [&](const std::vector<Pose>& starts, const std::vector<Patch>& sample, const auto& stages)
   {
-    std::vector<std::optional<Found>> ends(starts.size());
+    std::vector<std::optional<Pose>> ends(starts.size());
     aligner_->workers().forEach(
         starts.size(),
-        [&](std::size_t i)
-        {
-          if (const auto pose = aligner_->follow(sample, starts[i], stages))
-            ends[i] = Found{*pose, costOf(sample, *pose)};
-        });
-    std::vector<Found> found;
+        [&](std::size_t i) { ends[i] = aligner_->follow(sample, starts[i], stages); });
+    std::vector<Pose> poses;
     for (const auto& end : ends)
-      if (end) found.push_back(*end);
-    return found;
+      if (end) poses.push_back(*end);
+    return poses;
+  };
+  const auto likeliest =
+      [&](const std::vector<Pose>& poses, const std::vector<Patch>& sample, std::size_t most)
+  {
+    std::vector<Found> found(poses.size());
+    aligner_->workers().forEach(
+        poses.size(),
+        [&](std::size_t i) {
+          found[i] = {poses[i], costOf(sample, poses[i])};
+        });
+    return distinct(std::move(found), most);
   };
   const std::vector<Pose> starts = startsAround(predicted, up);
-  std::vector<Found> wide = follow(starts, coarse, kWide);
-  if (wide.size() > kMostCoarse) wide = distinct(std::move(wide), kMostCoarse);
+  std::vector<Pose> wide = follow(starts, coarse, kWide);
+  if (wide.size() > kMostCoarse) wide = posesOf(likeliest(wide, coarse, kMostCoarse));
   // A wide search that finds little in common may leave a place that is known well.
   std::vector<Pose> places{predicted.T_a_b};
-  for (const Found& found : distinct(follow(posesOf(wide), coarse, kCoarse), kMostRivals))
+  for (const Found& found : likeliest(follow(wide, coarse, kCoarse), coarse, kMostRivals))
     places.push_back(found.pose);
-  const std::vector<Found> refined = distinct(follow(places, fine, kFine), kMostRivals);
+  const std::vector<Found> refined = likeliest(follow(places, fine, kFine), fine, kMostRivals);
   if (refined.empty()) return none;
   Registration result = aligner_->finish(all, refined.front().pose);
   result.evidence.upright_score = aligner_->uprightScore(all, refined.front().pose, up);
