@@ -71,11 +71,12 @@ FilterState correctedByVelocity(const FilterState& predicted, const VelocityErro
 
 OutageSearch::OutageSearch(
     const OdometryOptions& options, std::shared_ptr<const Workers> workers,
-    const FilterState& predicted, std::int64_t begin_ns)
+    const FilterState& predicted, std::int64_t begin_ns, double unseen_s)
     : options_(options),
       scans_(options, std::move(workers)),
       begin_ns_(begin_ns),
-      needed_(positionStd(predicted).maxCoeff() > kUnambiguousStd)
+      needed_(positionStd(predicted).maxCoeff() > kUnambiguousStd),
+      unseen_(isOutage(unseen_s))
 {
 }
 

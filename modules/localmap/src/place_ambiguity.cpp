@@ -29,10 +29,10 @@ Mat3 missing(const Mat3& least, const Mat3& covariance)
 }
 }  // namespace
 
-void PlaceAmbiguity::add(const PoseSearchResult& search)
+void PlaceAmbiguity::add(const PoseSearchResult& search, bool expects_new_view)
 {
   const bool certain = search.searched_std <= kUnambiguousStd;
-  if (!search.accepted && certain) ++contradictions_;
+  if (!search.accepted && certain && !expects_new_view) ++contradictions_;
   if (!search.accepted || certain) return;
   position_ += search.searched_covariance;
   heading_ += search.searched_heading_variance;

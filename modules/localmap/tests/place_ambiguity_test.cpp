@@ -83,6 +83,17 @@ TEST(PlaceAmbiguity, IsNoneWhereSomethingWasInTheWay)
   EXPECT_EQ(added(ambiguity, NavState{}).norm(), 0.0);
 }
 
+// After a time without scans what is in view need not be mapped. The inertial data know the way:
+// without this a pose that was right to centimetres had a standard deviation of 10 m ever after.
+TEST(PlaceAmbiguity, IsNoneWhereTheViewIsNewAfterAnOutage)
+{
+  PlaceAmbiguity ambiguity;
+  for (int scan = 0; scan < 5; ++scan)
+    ambiguity.add(search(0.2, false), true);
+  ambiguity.addPose(0.0);
+  EXPECT_EQ(added(ambiguity, NavState{}).norm(), 0.0);
+}
+
 // Old and new walls are in view at once: the pose may end beside both.
 TEST(PlaceAmbiguity, IsACorrectionThatNothingExplains)
 {

@@ -151,7 +151,7 @@ void Estimator::noteOpenDirections(const MatchResult& match, const ScanResult& r
 /** Whether it may be another place than the map says. */
 void Estimator::notePlace(const MapSearchResult& matched, const DeskewedScan& scan)
 {
-  if (matched.poses) ambiguity_.add(*matched.poses);
+  if (matched.poses) ambiguity_.add(*matched.poses, matched.expects_new_view);
   const UpdateResult& update = matched.match.update;
   if (map_.empty() && hasEnoughPoints(scan))
     ambiguity_.addPose(0.0);

@@ -109,7 +109,8 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
   if (map_is_informative && seen_again && needsPoseSearch(predicted, work.predicted.unseen_s))
   {
     tracking.searching = true;
-    tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
+    tracking.outage = std::make_unique<OutageSearch>(
+        options_, workers_, predicted, work.end_ns, work.predicted.unseen_s);
   }
   const auto withoutMatch = [&]() -> MapSearchResult
   {
@@ -142,7 +143,8 @@ MapSearchResult Estimator::trackOrSearch(const Work& work)
     if (uncertain) deskew(work.scan, work.end_ns, predicted.x);
     if (!map_is_informative) return withoutMatch();
     if (seen_again && velocityStd(predicted) > kShearingVelocity)
-      tracking.outage = std::make_unique<OutageSearch>(options_, workers_, predicted, work.end_ns);
+      tracking.outage = std::make_unique<OutageSearch>(
+          options_, workers_, predicted, work.end_ns, work.predicted.unseen_s);
   }
   if (tracking.outage) return searchAfterOutage(work);
   MapSearchResult search = searchOrWait(scan, predicted, work.end_ns);

@@ -143,6 +143,7 @@ MapSearchResult Estimator::searchAfterOutage(const Work& work)
   tracking.lost = over && !result.found && tiltStd(state) >= kKnownTilt;
   tracking.searching = !result.found && !map_.empty();
   result.after_outage = true;
+  result.expects_new_view = outage.expectsNewView();
   if (over) tracking.outage.reset();
   return result;
 }

@@ -28,6 +28,7 @@ struct MapSearchResult
   bool found = false;                     //!< the scan matches the map well enough
   std::optional<PoseSearchResult> poses;  //!< evidence of a search within the prediction
   bool after_outage = false;  //!< of the LiDAR: the pose is searched, or a new map begun without it
+  bool expects_new_view = false;  //!< of OutageSearch
 };
 
 /** Most planes that the map has where the points lie do not fit them: it is another place. */

@@ -35,10 +35,14 @@ class OutageSearch
   /** Of each scan, if it has so many: few points in motion make no planes for the next scan. */
   static constexpr std::size_t kPoints = 10000;
 
-  /** \param predicted state at the first scan after the outage, which ends at \a begin_ns */
+  /** \param predicted state at the first scan after the outage, which ends at \a begin_ns
+   * \param unseen_s time without a scan until then [s] */
   OutageSearch(
       const OdometryOptions& options, std::shared_ptr<const Workers> workers,
-      const FilterState& predicted, std::int64_t begin_ns);
+      const FilterState& predicted, std::int64_t begin_ns, double unseen_s);
+
+  /** The LiDAR saw nothing for so long that what comes into view next may be missing in the map. */
+  [[nodiscard]] bool expectsNewView() const { return unseen_; }
 
   /** Matches the scan with the scans since the outage, in a map of their own.
    * \return the prediction, corrected by the velocity with the scan that completes it */
@@ -62,6 +66,7 @@ class OutageSearch
   WorldPoints points_;
   std::int64_t begin_ns_;
   bool needed_;  // before the map is searched
+  bool unseen_;  // there was no scan before
   bool known_ = false;
   int measured_ = 0;  // scans
   VelocityError error_;

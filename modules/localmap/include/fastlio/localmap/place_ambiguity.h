@@ -28,8 +28,10 @@ class PlaceAmbiguity
 {
  public:
   /** Takes in a search, unless the prediction was certain enough to exclude other places. When it
-   * found nothing there, the scan contradicts the prediction. */
-  void add(const PoseSearchResult& search);
+   * found nothing there, the scan contradicts the prediction.
+   * \param expects_new_view the LiDAR saw nothing for a while, so what is in view now may be missing
+   * in the map: such a scan contradicts nothing */
+  void add(const PoseSearchResult& search, bool expects_new_view = false);
 
   /** A scan has a pose. \param usual_part the part of its points that match, over that of scans
    * before; 0: it begins a new map */
