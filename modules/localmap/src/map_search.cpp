@@ -84,6 +84,13 @@ MapSearchResult notFound(
   return {std::move(latest), false, std::nullopt};
 }
 
+/** On the direction of a vector; zero if that is zero. */
+Mat3 projectorOn(const Vec3& v)
+{
+  const Vec3 axis = v.normalized();
+  return axis * axis.transpose();
+}
+
 /** Where the map has a plane, as many points fit it as usual. */
 bool fitsAsUsual(const MatchResult& match, const LocalMap& map)
 {
@@ -169,6 +176,21 @@ MatchResult MapSearch::approach(const FilterState& predicted, const Pose& candid
   return match;
 }
 
+/** Where the surroundings leave a motion open, the found pose determines neither it nor the
+ * velocity there. */
+MatchResult MapSearch::at(
+    const Pose& found, const FilterState& predicted, const Mat3& ambiguous) const
+{
+  const MatchOptions ordinary = ordinaryMatching(options_);
+  const auto matchFrom = [&](const FilterState& state)
+  { return matcher_.match(scan_, state, map_.matched(), ordinary); };
+  const FilterState from = withIndependentPosition(predicted, ambiguous);
+  MatchResult match = matchFrom(correctedByPose(from, found));
+  if (match.update.updated && match.constraints.unconstrained > 0)
+    match = matchFrom(correctedByPose(from, found, unconstrainedMotions(match.constraints)));
+  return match;
+}
+
 MapSearchResult MapSearch::aroundCarriedPose(const FilterState& predicted) const
 {
   return around(predicted, true);
@@ -210,15 +232,10 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
     // The velocity of a carried pose is known in the body, that of a prediction in the world.
     const FilterState turned =
         carried ? turnedBy(headingBetween(predicted.x, found.R), predicted) : predicted;
-    const MatchOptions ordinary = ordinaryMatching(options_);
-    MatchResult latest =
-        matcher_.match(scan_, correctedByPose(turned, found), map_.matched(), ordinary);
-    // Where the surroundings leave a motion open, the found pose determines neither it nor the
-    // velocity there.
-    if (latest.update.updated && latest.constraints.unconstrained > 0)
-      latest = matcher_.match(
-          scan_, correctedByPose(turned, found, unconstrainedMotions(latest.constraints)),
-          map_.matched(), ordinary);
+    const bool certain = poses.searched_std <= kUnambiguousStd;
+    if (certain) poses.rival_offset = farthestRival(predicted, found, scan_, match);
+    const Mat3 ambiguous = certain ? projectorOn(poses.rival_offset) : Mat3(Mat3::Identity());
+    MatchResult latest = at(found, turned, ambiguous);
     poses.accepted = latest.update.updated && isConvincing(latest, scan_, map_) &&
                      (latest.constraints.unconstrained > 0 || matchesAsFound(latest, scan_, map_));
     if (attitudes.size() > 1) poses.searched_heading_variance = std::pow(headingStd(predicted), 2);

@@ -94,6 +94,18 @@ TEST(PlaceAmbiguity, IsNoneWhereTheViewIsNewAfterAnOutage)
   EXPECT_EQ(added(ambiguity, NavState{}).norm(), 0.0);
 }
 
+TEST(PlaceAmbiguity, IsARivalBesideACertainPlace)
+{
+  PoseSearchResult found = search(0.2, true);
+  found.rival_offset = {0.0, 0.0, -0.34};
+  PlaceAmbiguity ambiguity;
+  ambiguity.add(found);
+  const StateMatrix P = added(ambiguity, NavState{});
+  EXPECT_NEAR(P(kPosition + 2, kPosition + 2), 0.34 * 0.34, 1e-12);
+  EXPECT_EQ(P(kPosition, kPosition), 0.0);
+  EXPECT_EQ(P(kAttitude + 2, kAttitude + 2), 0.0);
+}
+
 // Old and new walls are in view at once: the pose may end beside both.
 TEST(PlaceAmbiguity, IsACorrectionThatNothingExplains)
 {

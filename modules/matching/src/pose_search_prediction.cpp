@@ -92,6 +92,19 @@ bool needsPullIn(const FilterState& predicted, bool degenerate)
   return variance(kPosition) + turned > kPullInStd * kPullInStd;
 }
 
+FilterState withIndependentPosition(const FilterState& predicted, const Mat3& directions)
+{
+  const Mat3 others = Mat3::Identity() - directions;
+  const Mat3 position = predicted.P.block<3, 3>(kPosition, kPosition);
+  FilterState state = predicted;
+  StateMatrix& P = state.P;
+  P.middleRows<3>(kPosition) = others * predicted.P.middleRows<3>(kPosition);
+  P.middleCols<3>(kPosition) = P.middleRows<3>(kPosition).transpose();
+  P.block<3, 3>(kPosition, kPosition) =
+      others * position * others.transpose() + directions * position * directions.transpose();
+  return state;
+}
+
 FilterState correctedByPose(
     const FilterState& predicted, const Pose& T_world_imu,
     const std::vector<MotionDirection>& unknown)

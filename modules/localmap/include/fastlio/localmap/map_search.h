@@ -77,6 +77,9 @@ class MapSearch
  private:
   [[nodiscard]] MapSearchResult around(const FilterState& predicted, bool carried) const;
   [[nodiscard]] MatchResult approach(const FilterState& predicted, const Pose& candidate) const;
+  /** The match there. \param ambiguous directions of which another place may be the right one */
+  [[nodiscard]] MatchResult at(
+      const Pose& found, const FilterState& predicted, const Mat3& ambiguous) const;
   [[nodiscard]] double ratioOf(const UpdateResult& update) const;
 
   const OdometryOptions& options_;

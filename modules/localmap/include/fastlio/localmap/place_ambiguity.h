@@ -27,8 +27,9 @@ namespace fastlio
 class PlaceAmbiguity
 {
  public:
-  /** Takes in a search, unless the prediction was certain enough to exclude other places. When it
-   * found nothing there, the scan contradicts the prediction.
+  /** Takes in a search. Where the prediction was certain enough to exclude other places, only a
+   * rival beside the place counts. When it found nothing there, the scan contradicts the
+   * prediction.
    * \param expects_new_view the LiDAR saw nothing for a while, so what is in view now may be missing
    * in the map: such a scan contradicts nothing */
   void add(const PoseSearchResult& search, bool expects_new_view = false);

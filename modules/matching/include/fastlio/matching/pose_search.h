@@ -39,9 +39,9 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
 /** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
 [[nodiscard]] Vec3 positionStd(const FilterState& predicted);
 
-/** Places within this standard deviation are distinguished by any map: nothing that a sensor sees
- * repeats within a metre [m]. Farther off, a place that looks alike may be taken for the right one,
- * which the map may not even have. */
+/** Places within this standard deviation are distinguished by any map: but for
+ * PoseSearchResult::rival_offset, nothing that a sensor sees repeats within a metre [m]. Farther
+ * off, a place that looks alike may be taken for the right one, which the map may not even have. */
 inline constexpr double kUnambiguousStd = 0.3;
 
 /** How far a match looks from its start. */
@@ -113,6 +113,7 @@ struct PoseSearchResult
   double searched_std = 0.0;                //!< of the prediction, along its worst axis [m]
   Mat3 searched_covariance = Mat3::Zero();  //!< of the predicted position, world frame [m^2]
   double searched_heading_variance = 0.0;   //!< where several headings were tried [rad^2]
+  Vec3 rival_offset = Vec3::Zero();         //!< of farthestRival(), from an unambiguous place [m]
   bool accepted = false;                    //!< enough evidence, and more than any rival has
 };
 
@@ -122,6 +123,20 @@ struct PoseSearchResult
 [[nodiscard]] PoseSearchResult searchPose(
     const FilterState& predicted, const std::vector<Mat3>& attitudes, const DeskewedScan& scan,
     const PoseSearchLimits& limits, const MatchFromStarts& match);
+
+/** Stairs and shelves repeat within a metre, and walls, which fit beside all of them, are most of
+ * what is seen: only the information along one axis tells the places apart.
+ * \return offset of the farthest place that the prediction allows, along the translation that the
+ * scan shows least, and that fits there nearly as well; zero: there is none. World frame [m] */
+[[nodiscard]] Vec3 farthestRival(
+    const FilterState& predicted, const Pose& found, const DeskewedScan& scan,
+    const MatchFromStarts& match);
+
+/** A place that may be the wrong one tells nothing about the velocity, which would carry the
+ * platform away where the scans do not show it.
+ * \param directions of the position that becomes independent of the motion: a projector, world frame */
+[[nodiscard]] FilterState withIndependentPosition(
+    const FilterState& predicted, const Mat3& directions);
 
 /** Kalman update of a prediction with a found pose, known to centimetres: corrects velocity, tilt
  * and biases, too, as far as they made the error. The scan itself makes it exact afterwards.
