@@ -38,21 +38,15 @@ std::string kindText(SensorKind kind)
   return "not used";
 }
 
-/** "3 gaps", "1 gap". */
-std::string numberOf(std::size_t count, const char* what)
-{
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string rhythmText(const StampReport& stamps)
 {
   std::string text = format(
       "%zu observations in %.2f s, %.2f Hz, jitter %.2f ms, longest interval %.3f s", stamps.count,
       toSeconds(stamps.last_ns - stamps.first_ns), stamps.rate(), 1e3 * stamps.jitter,
       stamps.longest_gap);
-  if (stamps.gaps > 0) text += ", " + numberOf(stamps.gaps, "gap");
-  if (stamps.backwards > 0) text += ", " + numberOf(stamps.backwards, "stamp") + " out of order";
-  if (stamps.duplicates > 0) text += ", " + numberOf(stamps.duplicates, "stamp") + " twice";
+  if (stamps.gaps > 0) text += ", " + countedText(stamps.gaps, "gap");
+  if (stamps.backwards > 0) text += ", " + countedText(stamps.backwards, "stamp") + " out of order";
+  if (stamps.duplicates > 0) text += ", " + countedText(stamps.duplicates, "stamp") + " twice";
   return text;
 }
 

@@ -47,8 +47,7 @@ std::string speedText(const RunSummary& run)
 
 std::string degenerateText(const DegenerateDirections& open)
 {
-  return std::to_string(open.scans) + (open.scans == 1 ? " scan" : " scans") + " did not see a " +
-         directionText(open.weakest) +
+  return countedText(open.scans, "scan") + " did not see a " + directionText(open.weakest) +
          ": there the pose is inertial only, and its covariance grows";
 }
 
@@ -59,11 +58,11 @@ std::string imuText(const ImuReport& imu)
                      " %";
   if (imu.gaps > 0)
     text +=
-        ", " + std::to_string(imu.gaps) + " gaps (longest " + fixedText(imu.longest_gap, 3) + " s)";
-  if (imu.missing > 0) text += ", " + std::to_string(imu.missing) + " samples missing";
-  if (imu.saturated > 0) text += ", " + std::to_string(imu.saturated) + " clipped samples";
-  if (imu.spikes > 0) text += ", " + std::to_string(imu.spikes) + " spikes";
-  if (imu.clock_steps > 0) text += ", clock set back " + std::to_string(imu.clock_steps) + " times";
+        ", " + countedText(imu.gaps, "gap") + " (longest " + fixedText(imu.longest_gap, 3) + " s)";
+  if (imu.missing > 0) text += ", " + countedText(imu.missing, "sample") + " missing";
+  if (imu.saturated > 0) text += ", " + countedText(imu.saturated, "clipped sample");
+  if (imu.spikes > 0) text += ", " + countedText(imu.spikes, "spike");
+  if (imu.clock_steps > 0) text += ", clock set back " + countedText(imu.clock_steps, "time");
   return text;
 }
 
@@ -88,7 +87,7 @@ std::string healthText(const RunHealth& health)
 std::string stretchText(const UntrustedStretch& stretch)
 {
   return fixedText(stretch.begin_s, 1) + " to " + fixedText(stretch.end_s, 1) + " s (" +
-         std::to_string(stretch.scans) + " scans): " + toString(stretch.cause) + ": " +
+         countedText(stretch.scans, "scan") + "): " + toString(stretch.cause) + ": " +
          stretch.reason;
 }
 

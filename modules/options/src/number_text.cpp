@@ -39,6 +39,11 @@ std::string fixedText(double value, int decimals)
   return {text.data(), end.ptr};
 }
 
+std::string countedText(std::size_t count, std::string_view what)
+{
+  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
 std::string roundTripText(double value)
 {
   if (!std::isfinite(value)) return notFiniteText(value);

@@ -45,5 +45,12 @@ TEST(NumberText, FixedTextHasTheDecimalsAskedFor)
   EXPECT_EQ(fixedText(std::nan(""), 3), "nan");
 }
 
+TEST(NumberText, CountedTextAgreesWithTheNumber)
+{
+  EXPECT_EQ(countedText(0, "gap"), "0 gaps");
+  EXPECT_EQ(countedText(1, "clipped sample"), "1 clipped sample");
+  EXPECT_EQ(countedText(12, "scan"), "12 scans");
+}
+
 }  // namespace
 }  // namespace fastlio

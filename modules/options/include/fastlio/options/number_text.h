@@ -8,6 +8,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ std::optional<Number> parsed(std::string_view text)
 
 /** Fixed notation with \a decimals digits after the point ("nan", "inf" when not finite). */
 [[nodiscard]] std::string fixedText(double value, int decimals);
+
+/** "3 gaps", "1 gap". \param what in the singular, of a regular plural */
+[[nodiscard]] std::string countedText(std::size_t count, std::string_view what);
 
 /** The shortest text that reads back to the same double, as files of numbers hold it ("nan", "inf"
  * when not finite). */
