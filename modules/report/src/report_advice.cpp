@@ -57,8 +57,9 @@ const std::vector<AdviceRow>& adviceRows()
         "(fastlio-info). The pose in the gap comes from inertial data alone."}},
       {HealthCause::MotionDisagreement,
        {"Scans and inertial data see different motions.",
-        "Check the pose of the LiDAR (input.T_vehicle_lidar), the units, the point times and the "
-        "clocks; fastlio-info checks them by the motion."}},
+        "Check the pose of the LiDAR (input.T_vehicle_lidar), the units, the sign of the "
+        "accelerometer (imu.invert_acceleration), the point times and the clocks; fastlio-info "
+        "checks them by the motion."}},
   };
   return rows;
 }
