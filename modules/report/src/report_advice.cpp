@@ -3,6 +3,7 @@
 
 #include "report_advice.h"
 
+#include <string_view>
 #include <utility>
 
 namespace fastlio
@@ -82,8 +83,8 @@ std::vector<HealthCause> allHealthCauses()
 
 std::string causeLink(HealthCause cause)
 {
-  const std::string name = toString(cause);
-  if (cause == HealthCause::None) return name;
+  const std::string_view name = toString(cause);
+  if (cause == HealthCause::None) return std::string(name);
   return std::string("<a href=\"#").append(name).append("\">").append(name).append("</a>");
 }
 
