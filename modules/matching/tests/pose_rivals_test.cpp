@@ -16,8 +16,7 @@ namespace
 {
 constexpr double kRise = 0.17;  // of a step [m]
 
-/** Between two walls: what a match shows of the height, at most so many millimetres from its start,
- * depends on the height alone. */
+/** Between two walls: where a match ends, and what it shows, depends on its height alone. */
 struct Height
 {
   double z = 0.0;  // where the match ends [m]

@@ -39,8 +39,8 @@ void considerUnmodelledAcceleration(FilterState& predicted, double blind_s, doub
 /** Standard deviations of the position along the axes [m]; infinite if they are no numbers. */
 [[nodiscard]] Vec3 positionStd(const FilterState& predicted);
 
-/** Places within this standard deviation are distinguished by any map: but for
- * PoseSearchResult::rival_offset, nothing that a sensor sees repeats within a metre [m]. Farther
+/** Places within this standard deviation are distinguished by any map: nothing that a sensor sees
+ * repeats within a metre, but for steps and shelves (PoseSearchResult::rival_offset) [m]. Farther
  * off, a place that looks alike may be taken for the right one, which the map may not even have. */
 inline constexpr double kUnambiguousStd = 0.3;
 
