@@ -1,8 +1,10 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/evaluation/trajectory_io.h>
 #include <fastlio/exporters/standard_exporters.h>
 #include <fastlio/options/number_text.h>
+#include <fastlio/options/split_text.h>
 
 #include <Eigen/Geometry>
 

@@ -49,8 +49,8 @@ Vector6 solveSymmetric(const Matrix6& m, const Vector6& b)
 
 double squaredMahalanobis(const Vec3& offset, const Mat3& covariance)
 {
-  const Eigen::Matrix3d S = covariance;
-  const Vec3 weighted = S.llt().solve(Eigen::Vector3d(offset)).eval();
+  const Eigen::LLT<Eigen::Matrix3d> S(covariance);
+  const Vec3 weighted = S.solve(Eigen::Vector3d(offset)).eval();
   return offset.dot(weighted);
 }
 

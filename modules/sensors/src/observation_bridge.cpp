@@ -230,7 +230,7 @@ Pose ObservationBridge::extrinsicOf(
   if (lidar.T_imu_lidar) return *lidar.T_imu_lidar;
   mrpt::poses::CPose3D T_vehicle_lidar;
   observation.getSensorPose(T_vehicle_lidar);
-  const Pose T_imu_lidar = T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);
+  Pose T_imu_lidar = T_vehicle_imu_.inverse() * toPose(T_vehicle_lidar);
   if (!T_imu_lidar.R.allFinite() || !T_imu_lidar.p.allFinite())
     throw std::runtime_error(
         "the pose of the LiDAR or of the IMU holds numbers that are not finite");

@@ -216,6 +216,7 @@ std::vector<RecordingParts> partsOf(const std::vector<std::string>& files, Joini
     return {{files}};
   }
   std::vector<RecordingParts> recordings;
+  recordings.reserve(files.size());
   for (const std::string& file : files)
     recordings.push_back({{file}});
   return recordings;

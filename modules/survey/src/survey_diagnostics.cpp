@@ -93,7 +93,7 @@ void reportImu(
           "The platform is never at rest for a second: start in motion (initialization.mode: "
           "auto).");
     else
-      survey.notes.push_back(
+      survey.notes.emplace_back(
           "The platform is never at rest for a second: the odometry starts in motion.");
     return;
   }
