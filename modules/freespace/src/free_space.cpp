@@ -128,7 +128,7 @@ class FreeSpaceVotes::Impl
   void listPassed(const ScanRays& rays, std::size_t i, std::vector<VotedCell*>& passed)
   {
     const Vec3 end = pointAt(rays.ends, i);
-    const double fraction = static_cast<double>(rays.fraction[i]);
+    const auto fraction = static_cast<double>(rays.fraction[i]);
     const Vec3 origin = rays.first_origin + fraction * (rays.last_origin - rays.first_origin);
     const double range = (end - origin).norm();
     if (!(range > rule_.start)) return;

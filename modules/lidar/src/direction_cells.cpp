@@ -20,7 +20,8 @@ int indexOf(float ratio)
 std::size_t cellAt(int face, float u, float v)
 {
   const int row = face * DirectionCells::kPerEdge + indexOf(u);
-  return static_cast<std::size_t>(row * DirectionCells::kPerEdge + indexOf(v));
+  const int cell = row * DirectionCells::kPerEdge + indexOf(v);
+  return static_cast<std::size_t>(cell);
 }
 }  // namespace
 

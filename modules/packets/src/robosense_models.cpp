@@ -34,9 +34,9 @@ bool beginsWith(const UdpPacket& packet, std::string_view id)
 /** Blocks begin with FF EE; their distance determines the model. */
 bool blocksAreApart(const UdpPacket& packet, std::size_t bytes)
 {
-  for (const std::size_t at : {kRoboSenseHead, kRoboSenseHead + bytes})
-    if (packet.data[at] != 0xFF || packet.data[at + 1] != 0xEE) return false;
-  return true;
+  const auto begins = [&](std::size_t at)
+  { return packet.data[at] == 0xFF && packet.data[at + 1] == 0xEE; };
+  return begins(kRoboSenseHead) && begins(kRoboSenseHead + bytes);
 }
 
 std::optional<RoboSensePacket> turningPacketOf(const UdpPacket& packet)

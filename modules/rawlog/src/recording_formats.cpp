@@ -32,7 +32,7 @@ const RecordingFormat* recordingFormatOf(const std::string& path)
 
 std::optional<std::string> recordingProblem(const std::string& path)
 {
-  const auto problem = inputFileProblem(path);
+  auto problem = inputFileProblem(path);
   if (!problem || recordingFormatOf(path) != nullptr) return std::nullopt;
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return problem;

@@ -19,7 +19,7 @@ constexpr std::int64_t kStepBackNs = 5'000'000'000;
 
 std::size_t pointsIn(const mrpt::obs::CObservation& observation)
 {
-  constexpr std::size_t kPerPacket = 12 * 32;
+  constexpr std::size_t kPerPacket = std::size_t{12} * 32;
   if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation))
     return cloud->pointcloud ? cloud->pointcloud->size() : 0;
   if (const auto* scan = dynamic_cast<const mrpt::obs::CObservationVelodyneScan*>(&observation))

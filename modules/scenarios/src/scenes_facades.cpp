@@ -99,8 +99,9 @@ Route thereAndBack()
 Scene facadesScene()
 {
   Scene scene;
+  constexpr int kMiddle = (kPeriods - 1) / 2;
   for (int i = 0; i < kPeriods; ++i)
-    appendPeriod(scene, kPeriod * (i - (kPeriods - 1) / 2));
+    appendPeriod(scene, kPeriod * (i - kMiddle));
   appendOtherStreets(scene);
   constexpr double kHalfX = kCross + 130.0, kSouthEdge = -120.0, kCell = 2.5;
   scene.world.ground = HeightField(

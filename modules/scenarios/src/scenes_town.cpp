@@ -51,8 +51,8 @@ void goTo(std::vector<Crossing>& tour, int column, int row)
   Crossing at = tour.back();
   while (at != Crossing{column, row})
   {
-    at.first += (column > at.first) - (column < at.first);
-    at.second += (row > at.second) - (row < at.second);
+    at.first += std::clamp(column - at.first, -1, 1);
+    at.second += std::clamp(row - at.second, -1, 1);
     tour.push_back(at);
   }
 }
