@@ -12,7 +12,6 @@
 
 namespace fastlio
 {
-using testing::EarthErrors;
 using testing::errorsOf;
 using testing::kNoise;
 using testing::Road;

@@ -34,6 +34,7 @@ TEST(LaserWidths, AreTheSolidAnglesBetweenTheNeighbours)
   const LaserWidths widths = learned(turnOf(elevations, 900, rangeInStreet));
   ASSERT_EQ(widths.relative().size(), elevations.size());
   std::vector<double> sines;
+  sines.reserve(elevations.size());
   for (const double elevation : elevations)
     sines.push_back(std::sin(elevation / kDegPerRad));
   std::sort(sines.begin(), sines.end());

@@ -14,6 +14,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -81,7 +82,7 @@ void expectSameMap(CVoxelPlanesMap a, CVoxelPlanesMap b)
 
 class VoxelPlanesMapFile : public ::testing::Test
 {
- protected:
+ public:
   VoxelPlanesMapFile()
       : path_(
             ::testing::TempDir() + "fastlio_" + std::to_string(::getpid()) + "_" +
@@ -93,12 +94,15 @@ class VoxelPlanesMapFile : public ::testing::Test
     for (const char* ending : {"", ".ply", ".metricmap"})
       std::filesystem::remove(path_ + ending);
   }
+
+ protected:
   std::string path_;
 };
 
 // Header: flag, class name, version; then the options: a double and four floats; then the scan.
 constexpr std::size_t kOptions = 1 + 24 + 1;
-constexpr std::size_t kBlockCount = kOptions + 8 + 4 * 4 + 4;
+constexpr std::size_t kBlockCount =
+    kOptions + sizeof(double) + 4 * sizeof(float) + sizeof(std::uint32_t);
 }  // namespace
 
 TEST(VoxelPlanesMapIo, ArchivesMakeABoolOfAByteThatIsNone)

@@ -21,7 +21,6 @@ namespace fastlio
 {
 namespace
 {
-using testing::kStart;
 using testing::TopicMessage;
 using testing::Wire;
 

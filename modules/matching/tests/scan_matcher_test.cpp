@@ -106,6 +106,7 @@ std::vector<PoseStart> startsAround(const FilterState& predicted, int starts)
 {
   Random random(7);
   std::vector<PoseStart> all;
+  all.reserve(static_cast<std::size_t>(starts));
   for (int i = 0; i < starts; ++i)
     all.push_back(poseStartAt(
         predicted, {expSO3(random.vector(0.05)), predicted.x.p + random.vector(0.3)}, {0.3, 0.1}));

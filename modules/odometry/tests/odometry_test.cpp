@@ -159,7 +159,7 @@ TEST(Odometry, ThreadsChangeNoBit)
 TEST(Odometry, WhereTheStackBeginsChangesNoBit)
 {
   const Results results = runBelow(16);
-  for (const std::size_t bytes : {32, 48, 64, 80})
+  for (const std::size_t bytes : {32U, 48U, 64U, 80U})
     EXPECT_TRUE(sameBits(runBelow(bytes), results)) << bytes;
 }
 

@@ -3,6 +3,7 @@
 
 #include "short_simulation.h"
 #include <fastlio/math/angles.h>
+#include <fastlio/math/time.h>
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
 
 Vec3 rateAt(double t)
 {
-  return Vec3(0.8 * std::sin(2.1 * t), 0.6 * std::cos(3.3 * t), 0.9 * std::sin(1.3 * t + 1.0));
+  return {0.8 * std::sin(2.1 * t), 0.6 * std::cos(3.3 * t), 0.9 * std::sin(1.3 * t + 1.0)};
 }
 
 /** 20 s of an IMU; from the fifth second on it turns as rateAt(). */
@@ -62,6 +62,7 @@ std::vector<ScanTurn> turnsOf(const Mat3& R_imu_lidar, double ahead)
 TEST(StampReport, CountsWhatDisturbsTheRhythm)
 {
   std::vector<std::int64_t> stamps;
+  stamps.reserve(172);
   for (int i = 0; i < 100; ++i)
     stamps.push_back(kStart + i * 10'000'000LL + (i % 2) * 1'000'000LL);
   for (int i = 130; i < 200; ++i)  // 0.3 s are missing
