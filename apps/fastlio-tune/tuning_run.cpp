@@ -7,6 +7,7 @@
 #include "tuning_report.h"
 #include <fastlio/files/atomic_file.h>
 #include <fastlio/files/own_file.h>
+#include <fastlio/options/number_text.h>
 #include <fastlio/plot/report_figure.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ std::vector<std::string> failuresOf(
   std::vector<std::string> texts;
   texts.reserve(reasons.size());
   for (const auto& [reason, count] : reasons)
-    texts.push_back(std::to_string(count) + (count == 1 ? " run: " : " runs: ") + reason);
+    texts.push_back(countedText(count, "run") + ": " + reason);
   return texts;
 }
 

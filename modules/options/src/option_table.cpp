@@ -1,6 +1,7 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/options/number_text.h>
 #include <fastlio/options/option_table.h>
 
 #include <stdexcept>
@@ -22,8 +23,7 @@ std::string_view nameOf(std::string_view key)
 void requireNone(const std::vector<std::string>& problems, const std::string& source)
 {
   if (problems.empty()) return;
-  std::string text = source + ": " + std::to_string(problems.size()) +
-                     (problems.size() == 1 ? " problem:" : " problems:");
+  std::string text = source + ": " + countedText(problems.size(), "problem") + ":";
   for (const std::string& problem : problems)
     text += "\n  " + problem;
   throw std::invalid_argument(text + "\nSee docs/parameters.md for every key with its range.");
