@@ -232,7 +232,7 @@ MapSearchResult MapSearch::around(const FilterState& predicted, bool carried) co
     // The velocity of a carried pose is known in the body, that of a prediction in the world.
     const FilterState turned =
         carried ? turnedBy(headingBetween(predicted.x, found.R), predicted) : predicted;
-    const bool certain = poses.searched_std <= kUnambiguousStd;
+    const bool certain = poses.predictionIsCertain();
     if (certain) poses.rival_offset = farthestRival(predicted, found, scan_, match);
     const Mat3 ambiguous = certain ? projectorOn(poses.rival_offset) : Mat3(Mat3::Identity());
     MatchResult latest = at(found, turned, ambiguous);

@@ -31,12 +31,19 @@ Mat3 missing(const Mat3& least, const Mat3& covariance)
 
 void PlaceAmbiguity::add(const PoseSearchResult& search, bool expects_new_view)
 {
-  const bool certain = search.searched_std <= kUnambiguousStd;
-  if (!search.accepted && certain && !expects_new_view) ++contradictions_;
-  if (!search.accepted) return;
-  position_ += certain ? Mat3(search.rival_offset * search.rival_offset.transpose())
-                       : search.searched_covariance;
-  if (!certain) heading_ += search.searched_heading_variance;
+  const bool certain = search.predictionIsCertain();
+  if (!search.accepted)
+  {
+    if (certain && !expects_new_view) ++contradictions_;
+    return;
+  }
+  if (certain)
+  {
+    position_ += search.rival_offset * search.rival_offset.transpose();
+    return;
+  }
+  position_ += search.searched_covariance;
+  heading_ += search.searched_heading_variance;
 }
 
 void PlaceAmbiguity::addPose(double usual_part)

@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -16,13 +15,15 @@ namespace
 {
 constexpr double kRise = 0.17;  // of a step [m]
 
-/** Between two walls: where a match ends, and what it shows, depends on its height alone. */
+/** Where a match ends, and what it shows there. */
 struct Height
 {
-  double z = 0.0;  // where the match ends [m]
+  double z = 0.0;  // [m]
   double information = 0.0;
   double innovation = 1.0;  // mean z^2/r
 };
+
+/** Walls fit everywhere: \a at says what a match makes of the height where it starts. */
 MatchFromStarts betweenWalls(const std::function<Height(double)>& at)
 {
   return [at](const std::vector<PoseStart>& starts, const DeskewedScan&, int)
@@ -65,8 +66,7 @@ Vec3 rivalAt(double z, double std, const std::function<Height(double)>& at)
   return farthestRival(predictionAt(z, std), Pose(), DeskewedScan(), betweenWalls(at));
 }
 
-// A scan in a stairwell fitted as well two steps lower: 0.3 m off, at a standard deviation of 0.03
-// m.
+// A scan in a stairwell fitted as well two steps lower: 0.3 m off, at a deviation of 0.03 m.
 TEST(FarthestRival, IsTheFarthestStepThatThePredictionAllows)
 {
   EXPECT_NEAR(rivalAt(0.1, 0.1, onSteps).z(), 2.0 * kRise, 1e-9) << "0.4 m are three sigma";

@@ -161,10 +161,7 @@ FilterState Estimator::beginNewMap(const DeskewedScan& scan, const FilterState& 
                                            calibration.innovation_scale;
   // The error of this pose is that of the new map. What scans will say about the way from here on
   // contains nothing about it, and it contains nothing about the motion.
-  const Mat3 position = state.P.block<3, 3>(kPosition, kPosition);
-  state.P.middleRows<3>(kPosition).setZero();
-  state.P.middleCols<3>(kPosition).setZero();
-  state.P.block<3, 3>(kPosition, kPosition) = position;
+  state = withIndependentPosition(state, Mat3::Identity());
   useMap(LocalMap(options_, workers_));
   map_.beginAt(scanPoseCovariance(state, scan.compensation).diagonal().tail<3>());
   return state;

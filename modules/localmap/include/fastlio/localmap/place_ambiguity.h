@@ -5,6 +5,7 @@
  *
  * - After a search the map alone has determined the pose. Floors, rooms and facades repeat, and the
  *   true place may be missing in the map.
+ * - Steps and shelves repeat so near that even a certain prediction allows several of them.
  * - Where a direction was open for long, what shows it again may be the next one of a row of doors.
  * - Where a scan contradicts its prediction, old and new walls may be in view at once, and the pose
  *   may end beside both.

@@ -115,6 +115,9 @@ struct PoseSearchResult
   double searched_heading_variance = 0.0;   //!< where several headings were tried [rad^2]
   Vec3 rival_offset = Vec3::Zero();         //!< of farthestRival(), from an unambiguous place [m]
   bool accepted = false;                    //!< enough evidence, and more than any rival has
+
+  /** The prediction excluded other places, but for the rival beside the one found. */
+  [[nodiscard]] bool predictionIsCertain() const { return searched_std <= kUnambiguousStd; }
 };
 
 /** Matches a sample of the scan from every candidate, and the whole scan from the best of them. A
