@@ -43,7 +43,7 @@ void match(benchmark::State& state)
   std::size_t first = 0;
   for (auto _ : state)
   {
-    map.match(all, first, first + kScan, matches);
+    map.match(all, kSensor, first, first + kScan, matches);
     first = first + 2 * kScan <= size ? first + kScan : 0;
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(kScan));

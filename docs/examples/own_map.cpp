@@ -29,8 +29,8 @@ class CubeMap : public fastlio::SurfaceMap
   explicit CubeMap(double edge) : edge_(edge) {}
 
   void match(
-      const fastlio::WorldPoints& points, std::size_t first, std::size_t last,
-      std::vector<fastlio::PlaneMatch>& matches) const override
+      const fastlio::WorldPoints& points, const Vec3& /*sensor_origin*/, std::size_t first,
+      std::size_t last, std::vector<fastlio::PlaneMatch>& matches) const override
   {
     for (std::size_t i = first; i < last; ++i)
       matches[i] = matchOf(Vec3(points.x[i], points.y[i], points.z[i]));
@@ -150,7 +150,7 @@ bool run()
 
   const fastlio::WorldPoints points = inWorld(simulation, kMapScans);
   std::vector<fastlio::PlaneMatch> matches(points.size());
-  map.match(points, 0, points.size(), matches);
+  map.match(points, Vec3::Zero(), 0, points.size(), matches);
 
   std::size_t inliers = 0;
   double sum_of_squares = 0.0;

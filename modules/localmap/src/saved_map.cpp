@@ -99,7 +99,12 @@ void insertSavedPoints(const WorldPoints& points, SurfaceMap& map)
     groups[nearestDirection(directions, normal)].add(pointOf(index, i));
   }
   for (std::size_t i = 0; i < groups.size(); ++i)
-    if (groups[i].size() > 0) map.insert(groups[i], kFar * directions[i]);
+  {
+    if (groups[i].size() == 0) continue;
+    // Points do not tell from which side they were seen: each surface has both.
+    map.insert(groups[i], kFar * directions[i]);
+    map.insert(groups[i], -kFar * directions[i]);
+  }
 }
 
 }  // namespace fastlio

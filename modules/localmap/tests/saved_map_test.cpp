@@ -31,13 +31,16 @@ WorldPoints floorPoints()
   return points;
 }
 
+const Vec3 kAbove(0.7, 0.9, 2.0), kBelow(0.7, 0.9, -2.0);
+
 /** The plane that a map gives for a point; invalid: none. */
-PlaneMatch planeAt(const VoxelPlaneMap& map, double x, double y, double z)
+PlaneMatch planeAt(
+    const VoxelPlaneMap& map, double x, double y, double z, const Vec3& sensor_origin = kAbove)
 {
   WorldPoints point;
   add(point, x, y, z);
   std::vector<PlaneMatch> matches(1);
-  map.match(point, 0, 1, matches);
+  map.match(point, sensor_origin, 0, 1, matches);
   return matches[0];
 }
 
@@ -47,7 +50,17 @@ TEST(InsertSavedPoints, MakesThePlaneOfAFloor)
   insertSavedPoints(floorPoints(), map);
   const PlaneMatch floor = planeAt(map, 0.7, 0.9, 0.06);
   ASSERT_TRUE(floor.valid());
-  EXPECT_NEAR(std::abs(floor.nz), 1.0, 1e-6);
+  EXPECT_NEAR(floor.nz, 1.0, 1e-6);
+}
+
+// Points do not tell that they are a floor, and not a ceiling.
+TEST(InsertSavedPoints, MakesBothSidesOfASurface)
+{
+  VoxelPlaneMap map{VoxelPlaneOptions{}};
+  insertSavedPoints(floorPoints(), map);
+  const PlaneMatch ceiling = planeAt(map, 0.7, 0.9, 0.06, kBelow);
+  ASSERT_TRUE(ceiling.valid());
+  EXPECT_NEAR(ceiling.nz, -1.0, 1e-6);
 }
 
 // The bush begins above the voxels of 0.8 m that hold the floor.

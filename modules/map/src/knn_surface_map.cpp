@@ -54,7 +54,7 @@ PlaneMatch KnnSurfaceMap::matchPoint(float x, float y, float z) const
 }
 
 void KnnSurfaceMap::match(
-    const WorldPoints& points, std::size_t first, std::size_t last,
+    const WorldPoints& points, const Vec3& /*sensor_origin*/, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches) const
 {
   requireMatchRange(kKnnMapName, first, last, points.size(), matches.size());

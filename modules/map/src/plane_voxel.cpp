@@ -94,6 +94,12 @@ Eigen::Vector3d normalOf(const Spread& s)
   return length > 0.0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d(0.0, 0.0, 1.0);
 }
 
+/** A normal, or its opposite, on the side that the beams come from. */
+Eigen::Vector3d facing(const Eigen::Vector3f& beams, const Eigen::Vector3d& normal)
+{
+  return normal.dot(beams.cast<double>()) > 0.0 ? Eigen::Vector3d(-normal) : normal;
+}
+
 /** (e1 e1^T / l1 + e2 e2^T / l2) / count: the inverse of the scatter within the plane, which by
  * Cayley and Hamilton is (sum - scatter) / product there. */
 std::array<float, 6> leverageOf(const Spread& s, const Eigen::Vector3d& n, double count)
@@ -134,6 +140,11 @@ void PlaneVoxel::setContents(const Contents& c)
   products_ = c.products;
   beams_ = c.beams;
   refit_pending_ = false;
+  // In archives of version 0.1 a normal points anywhere.
+  const Eigen::Vector3d normal = facing({c.beams[0], c.beams[1], c.beams[2]}, p.normal());
+  plane_.nx = static_cast<float>(normal.x());
+  plane_.ny = static_cast<float>(normal.y());
+  plane_.nz = static_cast<float>(normal.z());
 }
 
 Eigen::Vector3f PlaneVoxel::meanOffset() const
@@ -171,10 +182,10 @@ void PlaneVoxel::fit(const Eigen::Vector3f& center, const PlaneRules& rules, std
   const double measured = spread.least * n / (n - 3.0);
   if (!(measured <= thickest)) return;
   if (middleOf(spread) < kMinSpreadOverNoise * std::max(measured, noise)) return;
-  const Eigen::Vector3d direction = normalOf(spread);
-  const Eigen::Vector3f normal = direction.cast<float>();
   const Eigen::Vector3f beams(beams_[0], beams_[1], beams_[2]);
-  const auto incidence = static_cast<double>(std::abs(normal.dot(beams)) / count_);
+  const Eigen::Vector3d direction = facing(beams, normalOf(spread));
+  const Eigen::Vector3f normal = direction.cast<float>();
+  const auto incidence = static_cast<double>(-normal.dot(beams) / count_);
   // One laser line on a bent surface spans a plane of its own, which contains the beams.
   if (incidence < static_cast<double>(rules.min_incidence)) return;
   // Noise lies along the beams: little of it is left across a plane seen at a grazing angle.

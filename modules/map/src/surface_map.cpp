@@ -13,10 +13,10 @@ void WorldPoints::resize(std::size_t n)
 }
 
 void SurfaceMap::rematch(
-    const WorldPoints& /*before*/, const WorldPoints& points, std::size_t first, std::size_t last,
-    std::vector<PlaneMatch>& matches) const
+    const WorldPoints& /*before*/, const WorldPoints& points, const Vec3& sensor_origin,
+    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches) const
 {
-  match(points, first, last, matches);
+  match(points, sensor_origin, first, last, matches);
 }
 
 }  // namespace fastlio

@@ -18,6 +18,11 @@ constexpr std::uint8_t kMiddleSlot = 64, kCoarseSlot = 72;
 constexpr std::size_t kVoxelsPerBlock = 73;
 constexpr std::size_t kVoxelScales = 3;
 
+/** A surface that is seen from both sides is two surfaces, as far apart as the wall is thick. In a
+ * voxel, the points of the one that came later are in a block of their own, at the same place. This
+ * bit of its key says so. */
+constexpr std::uint64_t kOtherSide = std::uint64_t{1} << 63U;
+
 /** Where a point is: its block and its voxel of each scale in it. */
 struct VoxelAddress
 {

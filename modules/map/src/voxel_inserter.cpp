@@ -79,6 +79,16 @@ void VoxelInserter::findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& sto
   }
 }
 
+/** The voxel at the same place for those who see its plane from behind; added where it lacks. */
+std::uint32_t VoxelInserter::otherSideOf(
+    const Arrival& arrival, std::size_t scale, VoxelStorage& storage)
+{
+  const std::uint32_t block = storage.findOrAdd(arrival.address.block_key | kOtherSide);
+  const std::uint8_t slot = arrival.address.slots[scale];
+  const std::uint32_t voxel = storage.block(block).voxels[slot];
+  return voxel == VoxelStorage::kNoVoxel ? storage.addVoxel(block, slot) : voxel;
+}
+
 void VoxelInserter::addPoint(
     const Arrival& arrival, const WorldPoints& points, const InsertionContext& context,
     VoxelStorage& storage, std::vector<Refit>& refits)
@@ -91,9 +101,16 @@ void VoxelInserter::addPoint(
   for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
     const std::uint8_t slot = arrival.address.slots[s];
-    PlaneVoxel& voxel = storage.voxel(arrival.voxels[s]);
+    std::uint32_t number = arrival.voxels[s];
+    if (storage.voxel(number).plane().isSeenFromBehind(beam))
+    {
+      number = otherSideOf(arrival, s, storage);
+      // Neither side: a third surface would spoil both.
+      if (storage.voxel(number).plane().isSeenFromBehind(beam)) continue;
+    }
+    PlaneVoxel& voxel = storage.voxel(number);
     voxel.add(point - (corner + context.grid.centerInBlock(slot)), beam, context.from_new_view);
-    if (voxel.claimRefit()) refits.push_back({arrival.voxels[s], slot, key});
+    if (voxel.claimRefit()) refits.push_back({number, slot, key});
   }
 }
 

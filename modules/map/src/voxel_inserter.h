@@ -65,6 +65,8 @@ class VoxelInserter
 
   void sortByShard(const WorldPoints& points, const VoxelGrid& grid, const Workers& workers);
   static void findVoxels(std::vector<Arrival>& arrivals, VoxelStorage& storage);
+  static std::uint32_t otherSideOf(
+      const Arrival& arrival, std::size_t scale, VoxelStorage& storage);
   static void addPoint(
       const Arrival& arrival, const WorldPoints& points, const InsertionContext& context,
       VoxelStorage& storage, std::vector<Refit>& refits);

@@ -86,35 +86,70 @@ void findPlanes(std::size_t count, Batch& batch)
   }
 }
 
-/** The plane whose offset at the point is known best, and how well. */
-PlaneMatch bestPlane(const Query& query, float x, float y, float z)
+/** Looks for the plane whose offset at a point is known best. */
+class BestPlane
 {
-  std::size_t best = kVoxelScales;
-  float least = std::numeric_limits<float>::infinity();
+ public:
+  explicit BestPlane(const Eigen::Vector3f& point) : point_(point) {}
+
+  void consider(const VoxelPlane& plane, std::uint32_t voxel)
+  {
+    // The surface's deviation from the plane stays where it is: like the plane's offset it is one
+    // error for all points that meet it, in this scan and in the next.
+    const float variance =
+        plane.offsetVariance(point_.x(), point_.y(), point_.z()) + plane.roughness;
+    if (variance >= least_) return;
+    least_ = variance;
+    best_ = &plane;
+    voxel_ = voxel;
+  }
+
+  [[nodiscard]] PlaneMatch match(std::uint64_t block_key) const
+  {
+    if (best_ == nullptr) return {};
+    return {
+        best_->nx,
+        best_->ny,
+        best_->nz,
+        best_->offset(),
+        least_,
+        least_,
+        VoxelShards::numberOf(voxel_, VoxelShards::shardOf(block_key)),
+        best_->created_insertion,
+        best_->normalVariance()};
+  }
+
+ private:
+  Eigen::Vector3f point_;
+  float least_ = std::numeric_limits<float>::infinity();
+  const VoxelPlane* best_ = nullptr;
+  std::uint32_t voxel_ = VoxelStorage::kNoVoxel;
+};
+
+/** Of the planes that face a beam (unit vector) at a point. */
+PlaneMatch bestPlane(const Query& query, const Eigen::Vector3f& point, const Eigen::Vector3f& beam)
+{
+  BestPlane best(point);
+  std::array<bool, kVoxelScales> from_behind{};
   for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
     const VoxelPlane& plane = *query.planes[s];
-    if (!plane.valid()) continue;
-    // The surface's deviation from the plane stays where it is: like the plane's offset it is one
-    // error for all points that meet it, in this scan and in the next.
-    const float variance = plane.offsetVariance(x, y, z) + plane.roughness;
-    if (variance >= least) continue;
-    least = variance;
-    best = s;
+    from_behind[s] = plane.isSeenFromBehind(beam);
+    if (plane.valid() && !from_behind[s])
+      best.consider(plane, query.block->voxels[query.address.slots[s]]);
   }
-  if (best == kVoxelScales) return {};
-  const VoxelPlane& plane = *query.planes[best];
-  const std::uint32_t voxel = query.block->voxels[query.address.slots[best]];
-  return {
-      plane.nx,
-      plane.ny,
-      plane.nz,
-      plane.offset(),
-      least,
-      least,
-      VoxelShards::numberOf(voxel, VoxelShards::shardOf(query.address.block_key)),
-      plane.created_insertion,
-      plane.normalVariance()};
+  const std::uint64_t key = query.address.block_key;
+  if (!(from_behind[0] || from_behind[1] || from_behind[2])) return best.match(key);
+  const std::uint32_t other = query.storage->find(key | kOtherSide);
+  if (other == VoxelStorage::kNoBlock) return best.match(key);
+  for (std::size_t s = 0; s < kVoxelScales; ++s)
+  {
+    if (!from_behind[s]) continue;
+    const std::uint32_t voxel = query.storage->block(other).voxels[query.address.slots[s]];
+    const VoxelPlane& plane = query.storage->voxel(voxel).plane();
+    if (plane.valid() && !plane.isSeenFromBehind(beam)) best.consider(plane, voxel);
+  }
+  return best.match(key);
 }
 
 /** Which of the points [first, first + kBatch) or fewer are no longer in the voxels where they
@@ -131,25 +166,39 @@ void findMoved(
 
 /** Finds the planes of the first \a count points of a batch. */
 void matchBatch(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t count,
-    Batch& batch, std::vector<PlaneMatch>& matches)
+    const VoxelView& view, const WorldPoints& points, std::size_t count, Batch& batch,
+    std::vector<PlaneMatch>& matches)
 {
-  findAddresses(grid, points, count, batch);
-  findBlocks(shards, count, batch);
+  findAddresses(view.grid, points, count, batch);
+  findBlocks(view.shards, count, batch);
   findPlanes(count, batch);
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::size_t k = batch[i].point;
+    const Eigen::Vector3f point(points.x[k], points.y[k], points.z[k]);
     matches[k] = batch[i].block == nullptr
                      ? PlaneMatch{}
-                     : bestPlane(batch[i], points.x[k], points.y[k], points.z[k]);
+                     : bestPlane(batch[i], point, (point - view.origin).normalized());
   }
 }
 }  // namespace
 
+PlaneMatch matchPlane(
+    const VoxelShards& shards, const VoxelGrid& grid, const Eigen::Vector3f& point,
+    const Eigen::Vector3f& beam)
+{
+  Batch batch;
+  WorldPoints points;
+  points.add(point.x(), point.y(), point.z());
+  findAddresses(grid, points, 1, batch);
+  findBlocks(shards, 1, batch);
+  findPlanes(1, batch);
+  return batch[0].block == nullptr ? PlaneMatch{} : bestPlane(batch[0], point, beam);
+}
+
 void matchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& points, std::size_t first,
-    std::size_t last, std::vector<PlaneMatch>& matches)
+    const VoxelView& view, const WorldPoints& points, std::size_t first, std::size_t last,
+    std::vector<PlaneMatch>& matches)
 {
   Batch batch;
   for (std::size_t begin = first; begin < last; begin += kBatch)
@@ -157,14 +206,13 @@ void matchPlanes(
     const std::size_t count = std::min(kBatch, last - begin);
     for (std::size_t i = 0; i < count; ++i)
       batch[i].point = begin + i;
-    matchBatch(shards, grid, points, count, batch, matches);
+    matchBatch(view, points, count, batch, matches);
   }
 }
 
 void rematchPlanes(
-    const VoxelShards& shards, const VoxelGrid& grid, const WorldPoints& before,
-    const WorldPoints& points, std::size_t first, std::size_t last,
-    std::vector<PlaneMatch>& matches)
+    const VoxelView& view, const WorldPoints& before, const WorldPoints& points, std::size_t first,
+    std::size_t last, std::vector<PlaneMatch>& matches)
 {
   Batch batch;
   std::array<bool, kBatch> moved{};
@@ -172,17 +220,17 @@ void rematchPlanes(
   for (std::size_t begin = first; begin < last; begin += kBatch)
   {
     const std::size_t count = std::min(kBatch, last - begin);
-    findMoved(grid, before, points, begin, count, moved);
+    findMoved(view.grid, before, points, begin, count, moved);
     for (std::size_t i = 0; i < count; ++i)
     {
       if (!moved[i]) continue;
       batch[waiting++].point = begin + i;
       if (waiting < kBatch) continue;
-      matchBatch(shards, grid, points, waiting, batch, matches);
+      matchBatch(view, points, waiting, batch, matches);
       waiting = 0;
     }
   }
-  matchBatch(shards, grid, points, waiting, batch, matches);
+  matchBatch(view, points, waiting, batch, matches);
 }
 
 }  // namespace fastlio

@@ -42,21 +42,6 @@ const VoxelPlaneOptions& validated(const VoxelPlaneOptions& options)
   return options;
 }
 
-/** The plane of a voxel with its normal on the side that it was seen from. */
-VoxelPlane facingSensor(const PlaneVoxel& voxel)
-{
-  const PlaneVoxel::Contents c = voxel.contents();
-  VoxelPlane plane = c.plane;
-  const float along = plane.nx * c.beams[0] + plane.ny * c.beams[1] + plane.nz * c.beams[2];
-  if (along > 0.0F)
-  {
-    plane.nx = -plane.nx;
-    plane.ny = -plane.ny;
-    plane.nz = -plane.nz;
-  }
-  return plane;
-}
-
 /** rms distance of a voxel's points from their mean along the plane's normal [m]. */
 float spreadAcross(const PlaneVoxel& voxel)
 {
@@ -123,17 +108,17 @@ std::size_t VoxelPlaneMap::pointCount() const
 }
 
 void VoxelPlaneMap::match(
-    const WorldPoints& points, std::size_t first, std::size_t last,
+    const WorldPoints& points, const Vec3& sensor_origin, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches) const
 {
-  matchPlanes(impl_->shards, impl_->grid, points, first, last, matches);
+  matchPlanes(impl_->seenFrom(sensor_origin), points, first, last, matches);
 }
 
 void VoxelPlaneMap::rematch(
-    const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
-    std::vector<PlaneMatch>& matches) const
+    const WorldPoints& before, const WorldPoints& points, const Vec3& sensor_origin,
+    std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches) const
 {
-  rematchPlanes(impl_->shards, impl_->grid, before, points, first, last, matches);
+  rematchPlanes(impl_->seenFrom(sensor_origin), before, points, first, last, matches);
 }
 
 void VoxelPlaneMap::insert(const WorldPoints& points, const Vec3& sensor_origin)
@@ -185,10 +170,8 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes() const
 
 std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) const
 {
-  std::vector<VoxelPlane> planes;
-  std::vector<float> measured;
-  std::vector<std::uint32_t> numbers;
-  WorldPoints centroids;
+  std::vector<VoxelPlane> best;
+  spreads.clear();
   impl_->shards.forEachBlock(
       [&](const VoxelStorage& storage, std::size_t shard, const VoxelBlock& block)
       {
@@ -196,22 +179,14 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) c
         {
           const VoxelPlane& plane = storage.voxel(voxel).plane();
           if (!plane.valid()) continue;
-          planes.push_back(facingSensor(storage.voxel(voxel)));
-          measured.push_back(spreadAcross(storage.voxel(voxel)));
-          numbers.push_back(VoxelShards::numberOf(voxel, shard));
-          centroids.add(plane.qx, plane.qy, plane.qz);
+          const Eigen::Vector3f beam(-plane.nx, -plane.ny, -plane.nz);
+          const PlaneMatch match =
+              matchPlane(impl_->shards, impl_->grid, {plane.qx, plane.qy, plane.qz}, beam);
+          if (match.plane != VoxelShards::numberOf(voxel, shard)) continue;
+          best.push_back(plane);
+          spreads.push_back(spreadAcross(storage.voxel(voxel)));
         }
       });
-  std::vector<PlaneMatch> matches(numbers.size());
-  match(centroids, 0, numbers.size(), matches);
-  std::vector<VoxelPlane> best;
-  spreads.clear();
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (matches[i].plane != numbers[i]) continue;
-    best.push_back(planes[i]);
-    spreads.push_back(measured[i]);
-  }
   return best;
 }
 

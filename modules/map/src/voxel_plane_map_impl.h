@@ -5,6 +5,7 @@
 #pragma once
 
 #include "voxel_inserter.h"
+#include "voxel_match.h"
 #include "voxel_shards.h"
 #include <fastlio/map/voxel_plane_map.h>
 #include <fastlio/math/pose.h>
@@ -30,6 +31,10 @@ class VoxelPlaneMap::Impl
   std::array<std::uint32_t, VoxelShards::kCount> sweep{};
 
   void insert(const WorldPoints& points, const Vec3& sensor_origin, bool from_new_view);
+  [[nodiscard]] VoxelView seenFrom(const Vec3& sensor_origin) const
+  {
+    return {shards, grid, sensor_origin.cast<float>()};
+  }
 };
 
 }  // namespace fastlio

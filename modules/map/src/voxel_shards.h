@@ -44,7 +44,8 @@ class VoxelShards
 
   [[nodiscard]] static std::uint8_t shardOf(std::uint64_t block_key)
   {
-    return static_cast<std::uint8_t>((block_key * 0xBF58476D1CE4E5B9ULL) >> 60U);
+    // Both sides of a place are in the same one.
+    return static_cast<std::uint8_t>(((block_key & ~kOtherSide) * 0xBF58476D1CE4E5B9ULL) >> 60U);
   }
 
   /** A number of a voxel that is unique in the whole map. */

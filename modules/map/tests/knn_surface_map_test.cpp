@@ -154,7 +154,8 @@ TEST(KnnSurfaceMap, RangesAreMatchedInParallel)
   std::vector<PlaneMatch> matches(queries.size());
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < 4; ++t)
-    threads.emplace_back([&, t] { map.match(queries, 1000 * t, 1000 * (t + 1), matches); });
+    threads.emplace_back([&, t]
+                         { map.match(queries, kHighAbove, 1000 * t, 1000 * (t + 1), matches); });
   for (std::thread& thread : threads)
     thread.join();
   for (std::size_t i = 0; i < queries.size(); ++i)
@@ -204,7 +205,7 @@ TEST(KnnSurfaceMap, RefusesSenselessOptionsAndRanges)
   const KnnSurfaceMap map;
   std::vector<PlaneMatch> matches(2);
   const WorldPoints points = worldPoints(Cloud{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  EXPECT_THROW(map.match(points, 0, 3, matches), std::invalid_argument);
-  EXPECT_THROW(map.match(points, 2, 1, matches), std::invalid_argument);
-  EXPECT_NO_THROW(map.match(points, 1, 1, matches));
+  EXPECT_THROW(map.match(points, kHighAbove, 0, 3, matches), std::invalid_argument);
+  EXPECT_THROW(map.match(points, kHighAbove, 2, 1, matches), std::invalid_argument);
+  EXPECT_NO_THROW(map.match(points, kHighAbove, 1, 1, matches));
 }

@@ -26,7 +26,7 @@ void expectMatchAllocatesNothing(SurfaceMap& map)
   ASSERT_GT(allocationCount(), before) << "the counter does not count";
   std::vector<PlaneMatch> matches(points.size());
   before = allocationCount();
-  map.match(points, 0, points.size(), matches);
+  map.match(points, Vec3::Zero(), 0, points.size(), matches);
   EXPECT_EQ(allocationCount(), before);
 }
 

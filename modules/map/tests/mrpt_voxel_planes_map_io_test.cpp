@@ -47,8 +47,8 @@ void expectSameMatches(const CVoxelPlanesMap& a, const CVoxelPlanesMap& b)
 {
   const WorldPoints queries = worldPoints(roomCloud(9, 2000));
   std::vector<PlaneMatch> of_a(queries.size()), of_b(queries.size());
-  a.planes().match(queries, 0, queries.size(), of_a);
-  b.planes().match(queries, 0, queries.size(), of_b);
+  a.planes().match(queries, Vec3::Zero(), 0, queries.size(), of_a);
+  b.planes().match(queries, Vec3::Zero(), 0, queries.size(), of_b);
   std::size_t valid = 0;
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
@@ -120,6 +120,22 @@ TEST(VoxelPlanesMapIo, ArchivesMakeABoolOfAByteThatIsNone)
   unsigned char as_stored = 0;
   std::memcpy(&as_stored, &map.renderOptions.points, 1);
   EXPECT_EQ(as_stored, 1);
+}
+
+TEST(VoxelPlanesMapIo, ArchivesKeepBothSidesOfASurface)
+{
+  CVoxelPlanesMap map;
+  const Vec3 above(0.0, 0.0, 3.0), below(0.0, 0.0, -3.0);
+  for (const Vec3& sensor : {above, below})
+    map.insertPoints(worldPoints(patch(0.0F, 0.0F, 0.2F, 3.0F, 4000)), sensor);
+  CVoxelPlanesMap loaded;
+  load(archived(map), loaded);
+  for (const Vec3& sensor : {above, below})
+  {
+    const PlaneMatch match = matchOne(loaded.planes(), {0.3F, 0.2F, 0.2F}, sensor);
+    ASSERT_TRUE(match.valid());
+    EXPECT_GT(double(match.nz) * sensor.z(), 0.0);
+  }
 }
 
 TEST(VoxelPlanesMapIo, ArchivesGoOnAsTheOriginal)

@@ -57,16 +57,21 @@ inline WorldPoints worldPoints(const Cloud& cloud)
   return points;
 }
 
-inline std::vector<PlaneMatch> matchAll(const SurfaceMap& map, const WorldPoints& points)
+/** Of a sensor that sees all that lies flat from above [m]. */
+inline const Vec3 kHighAbove(0.0, 0.0, 1e4);
+
+inline std::vector<PlaneMatch> matchAll(
+    const SurfaceMap& map, const WorldPoints& points, const Vec3& sensor_origin = kHighAbove)
 {
   std::vector<PlaneMatch> matches(points.size());
-  map.match(points, 0, points.size(), matches);
+  map.match(points, sensor_origin, 0, points.size(), matches);
   return matches;
 }
 
-inline PlaneMatch matchOne(const SurfaceMap& map, const Xyz& p)
+inline PlaneMatch matchOne(
+    const SurfaceMap& map, const Xyz& p, const Vec3& sensor_origin = kHighAbove)
 {
-  return matchAll(map, worldPoints({p})).front();
+  return matchAll(map, worldPoints({p}), sensor_origin).front();
 }
 
 /** Signed distance of a point from the plane of a match [m]. */

@@ -93,7 +93,7 @@ TEST(VoxelPlaneMap, EqualsThreeVoxelGridsAndTakesTheBestScale)
   EXPECT_EQ(map.pointCount(), scales.front().count());
 
   const Cloud queries = roomCloud(2, 5000);
-  const auto matches = matchAll(map, worldPoints(queries));
+  const auto matches = matchAll(map, worldPoints(queries), Vec3::Zero());
   std::size_t valid = 0;
   for (std::size_t i = 0; i < queries.size(); ++i)
   {

@@ -115,7 +115,7 @@ TEST(VoxelPlaneMap, WritesOnlyTheRangeThatIsAskedFor)
   const WorldPoints points = worldPoints(patch(0.0F, 0.0F, 0.2F, 3.0F, 4000));
   map.insert(points, {0.0, 0.0, 3.0});
   std::vector<PlaneMatch> matches(points.size(), PlaneMatch{0, 0, 0, 99.0F, -1, 0, 0, 0});
-  map.match(points, 1000, 3000, matches);
+  map.match(points, {0.0, 0.0, 3.0}, 1000, 3000, matches);
   for (std::size_t i = 0; i < matches.size(); ++i)
     EXPECT_EQ(matches[i].d == 99.0F, i < 1000 || i >= 3000) << i;
 }
@@ -125,10 +125,10 @@ TEST(VoxelPlaneMap, SeveralThreadsFindWhatOneFinds)
   VoxelPlaneMap map(halfMetre());
   const WorldPoints points = worldPoints(roomCloud(4, 40000));
   map.insert(points, Vec3::Zero());
-  const auto expected = matchAll(map, points);
+  const auto expected = matchAll(map, points, Vec3::Zero());
   std::vector<PlaneMatch> found(points.size());
-  std::thread first([&] { map.match(points, 0, 17001, found); });
-  map.match(points, 17001, points.size(), found);
+  std::thread first([&] { map.match(points, Vec3::Zero(), 0, 17001, found); });
+  map.match(points, Vec3::Zero(), 17001, points.size(), found);
   first.join();
   for (std::size_t i = 0; i < found.size(); ++i)
     ASSERT_TRUE(found[i].plane == expected[i].plane && found[i].variance == expected[i].variance);
@@ -229,10 +229,10 @@ TEST(VoxelPlaneMap, LooksUpAgainWhatHasLeftItsVoxel)
   before.x[7] = after.y[8] = std::numeric_limits<float>::quiet_NaN();
   after.z[9] = 1e30F;
   std::vector<PlaneMatch> old(kPoints), anew(kPoints);
-  map.match(before, 0, kPoints, old);
-  map.match(after, 0, kPoints, anew);
+  map.match(before, kHighAbove, 0, kPoints, old);
+  map.match(after, kHighAbove, 0, kPoints, anew);
   std::vector<PlaneMatch> again = old;
-  map.rematch(before, after, 0, kPoints, again);
+  map.rematch(before, after, kHighAbove, 0, kPoints, again);
 
   const auto cell = [](float x) { return std::floor(x / 0.5F); };
   std::size_t kept = 0, changed = 0;

@@ -29,7 +29,7 @@ void walk(VoxelPlaneMap& map)
 std::vector<PlaneMatch> matchesOf(const VoxelPlaneMap& map, const WorldPoints& points)
 {
   std::vector<PlaneMatch> matches(points.size());
-  map.match(points, 0, points.size(), matches);
+  map.match(points, Vec3::Zero(), 0, points.size(), matches);
   return matches;
 }
 

@@ -55,6 +55,7 @@ DeskewedScan sampleOf(const DeskewedScan& scan)
   const std::size_t stride = std::max<std::size_t>(1, all.size() / kSamplePoints);
   DeskewedScan sample;
   sample.compensation = scan.compensation;
+  sample.T_imu_lidar = scan.T_imu_lidar;
   sample.surfaces.resize((all.size() + stride - 1) / stride);
   for (std::size_t i = 0, k = 0; i < all.size(); i += stride, ++k)
   {

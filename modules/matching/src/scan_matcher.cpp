@@ -91,15 +91,16 @@ void ScanMatcher::associate(const Pose& T_world_scan, int iteration, const Call&
   associated_at_ = T_world_scan;
   std::swap(world_, world_before_);
   const BodyPoints& points = call.scan.surfaces;
+  const Vec3 origin = T_world_scan * call.scan.T_imu_lidar.p;
   workers_->forEachChunk(
       points.size(),
       [&](std::size_t, std::size_t first, std::size_t last)
       {
         transformToWorld(points, T_world_scan, first, last, world_);
         if (stays_near)
-          call.maps.surfaces.rematch(world_before_, world_, first, last, matches_);
+          call.maps.surfaces.rematch(world_before_, world_, origin, first, last, matches_);
         else
-          call.maps.surfaces.match(world_, first, last, matches_);
+          call.maps.surfaces.match(world_, origin, first, last, matches_);
       });
   const BodyPoints& edges = call.scan.edges;
   transformToWorld(edges, T_world_scan, 0, edges.size(), world_edges_);

@@ -22,7 +22,7 @@ class FlatWorld : public SurfaceMap
 {
  public:
   void match(
-      const WorldPoints& points, std::size_t first, std::size_t last,
+      const WorldPoints& points, const Vec3& /*sensor_origin*/, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override
   {
     for (std::size_t i = first; i < last; ++i)

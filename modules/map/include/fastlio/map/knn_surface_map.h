@@ -45,7 +45,7 @@ class KnnSurfaceMap : public SurfaceMap
 
   /** \exception std::invalid_argument the range exceeds the points or the matches */
   void match(
-      const WorldPoints& points, std::size_t first, std::size_t last,
+      const WorldPoints& points, const Vec3& sensor_origin, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
   /** The origin is not needed: neighbours, not sides, make the planes. */
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;

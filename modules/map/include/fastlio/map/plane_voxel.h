@@ -20,10 +20,15 @@ struct PlaneRules
   float min_points = 6.0F;     //!< fewer points give no plane
 };
 
+/** Least cosine between a normal and a beam that tells the side of a plane: it is 3 degrees, as
+ * normals are not exact, and beams begin where the sensor is at the scan's end. */
+inline constexpr float kAlongThePlane = 0.05F;
+
 /** A plane with what is needed to predict where a point of it lies: one cache line. */
 struct VoxelPlane
 {
-  float nx = 0, ny = 0, nz = 0;     //!< unit normal n, world frame
+  /** Unit normal n, world frame, on the side that the surface was seen from. */
+  float nx = 0, ny = 0, nz = 0;
   float qx = 0, qy = 0, qz = 0;     //!< centroid q of the points [m]: n . (p - q) = 0
   float variance = -1;              //!< of a point across the plane [m^2]; negative: no plane
   float roughness = 0;              //!< part of it that the noise along the beams leaves over [m^2]
@@ -32,6 +37,12 @@ struct VoxelPlane
   std::uint32_t created_insertion = 0;  //!< scan in the middle of those that made the first plane
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
+  /** A beam (unit vector) that meets this surface would come through it. What it meets is another
+   * one: the other side of a wall or a door. Beams along the plane may come from either side. */
+  [[nodiscard]] bool isSeenFromBehind(const Eigen::Vector3f& beam) const
+  {
+    return valid() && nx * beam.x() + ny * beam.y() + nz * beam.z() > kAlongThePlane;
+  }
   /** -n . q [m] */
   [[nodiscard]] float offset() const { return -(nx * qx + ny * qy + nz * qz); }
 
@@ -118,7 +129,7 @@ class PlaneVoxel
 
  private:
   // A beam that is repeated averages its noise. It does not say what lies between the beams.
-  static constexpr float kRepeated = 0.25F;
+  static constexpr float kRepeated = 0.3F;
   // A plane is fitted anew when its points have grown by this factor.
   static constexpr float kRefitGrowth = 1.1F;
 

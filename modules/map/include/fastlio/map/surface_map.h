@@ -62,16 +62,18 @@ class SurfaceMap
  public:
   virtual ~SurfaceMap() = default;
 
-  /** Finds the plane for each of the points [first, last); writes matches[first..last). */
+  /** Finds the plane for each of the points [first, last); writes matches[first..last). The beams
+   * come from \a sensor_origin (world frame): planes that were seen from the other side only are
+   * other surfaces, where the map knows it. */
   virtual void match(
-      const WorldPoints& points, std::size_t first, std::size_t last,
+      const WorldPoints& points, const Vec3& sensor_origin, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const = 0;
 
   /** The same for points that have moved a little since their matches were found. Where the map
    * would look at the same planes again, the match may stay. \param before where they were */
   virtual void rematch(
-      const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
-      std::vector<PlaneMatch>& matches) const;
+      const WorldPoints& before, const WorldPoints& points, const Vec3& sensor_origin,
+      std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches) const;
 
   /** Adds the points of a scan (eq. 21), measured from \a sensor_origin (world frame). */
   virtual void insert(const WorldPoints& points, const Vec3& sensor_origin) = 0;

@@ -55,11 +55,11 @@ class VoxelPlaneMap : public SurfaceMap
   VoxelPlaneMap& operator=(const VoxelPlaneMap& other);
 
   void match(
-      const WorldPoints& points, std::size_t first, std::size_t last,
+      const WorldPoints& points, const Vec3& sensor_origin, std::size_t first, std::size_t last,
       std::vector<PlaneMatch>& matches) const override;
   void rematch(
-      const WorldPoints& before, const WorldPoints& points, std::size_t first, std::size_t last,
-      std::vector<PlaneMatch>& matches) const override;
+      const WorldPoints& before, const WorldPoints& points, const Vec3& sensor_origin,
+      std::size_t first, std::size_t last, std::vector<PlaneMatch>& matches) const override;
   void insert(const WorldPoints& points, const Vec3& sensor_origin) override;
   void insertFrom(const WorldPoints& points, const Pose& T_world_sensor) override;
   void removeOutside(const Vec3& center, double radius) override;
