@@ -102,15 +102,16 @@ void VoxelInserter::addPoint(
   {
     const std::uint8_t slot = arrival.address.slots[s];
     std::uint32_t number = arrival.voxels[s];
-    if (storage.voxel(number).plane().isSeenFromBehind(beam))
+    PlaneVoxel* voxel = &storage.voxel(number);
+    if (voxel->plane().isSeenFromBehind(beam))
     {
       number = otherSideOf(arrival, s, storage);
+      voxel = &storage.voxel(number);
       // Neither side: a third surface would spoil both.
-      if (storage.voxel(number).plane().isSeenFromBehind(beam)) continue;
+      if (voxel->plane().isSeenFromBehind(beam)) continue;
     }
-    PlaneVoxel& voxel = storage.voxel(number);
-    voxel.add(point - (corner + context.grid.centerInBlock(slot)), beam, context.from_new_view);
-    if (voxel.claimRefit()) refits.push_back({number, slot, key});
+    voxel->add(point - (corner + context.grid.centerInBlock(slot)), beam, context.from_new_view);
+    if (voxel->claimRefit()) refits.push_back({number, slot, key});
   }
 }
 

@@ -86,70 +86,68 @@ void findPlanes(std::size_t count, Batch& batch)
   }
 }
 
-/** Looks for the plane whose offset at a point is known best. */
-class BestPlane
+/** The plane whose offset at a point is known best, of those that were considered. */
+struct BestPlane
 {
- public:
-  explicit BestPlane(const Eigen::Vector3f& point) : point_(point) {}
+  const VoxelPlane* plane = nullptr;
+  float variance = std::numeric_limits<float>::infinity();
+  std::uint32_t voxel = VoxelStorage::kNoVoxel;
 
-  void consider(const VoxelPlane& plane, std::uint32_t voxel)
+  void consider(const VoxelPlane& other, std::uint32_t its_voxel, const Eigen::Vector3f& point)
   {
     // The surface's deviation from the plane stays where it is: like the plane's offset it is one
     // error for all points that meet it, in this scan and in the next.
-    const float variance =
-        plane.offsetVariance(point_.x(), point_.y(), point_.z()) + plane.roughness;
-    if (variance >= least_) return;
-    least_ = variance;
-    best_ = &plane;
-    voxel_ = voxel;
+    const float its_variance =
+        other.offsetVariance(point.x(), point.y(), point.z()) + other.roughness;
+    if (its_variance >= variance) return;
+    plane = &other;
+    variance = its_variance;
+    voxel = its_voxel;
   }
-
-  [[nodiscard]] PlaneMatch match(std::uint64_t block_key) const
-  {
-    if (best_ == nullptr) return {};
-    return {
-        best_->nx,
-        best_->ny,
-        best_->nz,
-        best_->offset(),
-        least_,
-        least_,
-        VoxelShards::numberOf(voxel_, VoxelShards::shardOf(block_key)),
-        best_->created_insertion,
-        best_->normalVariance()};
-  }
-
- private:
-  Eigen::Vector3f point_;
-  float least_ = std::numeric_limits<float>::infinity();
-  const VoxelPlane* best_ = nullptr;
-  std::uint32_t voxel_ = VoxelStorage::kNoVoxel;
 };
 
-/** Of the planes that face a beam (unit vector) at a point. */
+/** Considers the other sides of the planes that a beam meets from behind. */
+void considerOtherSides(
+    const Query& query, const Eigen::Vector3f& point, const Eigen::Vector3f& beam, BestPlane& best)
+{
+  const std::uint32_t other = query.storage->find(query.address.block_key | kOtherSide);
+  if (other == VoxelStorage::kNoBlock) return;
+  for (std::size_t s = 0; s < kVoxelScales; ++s)
+  {
+    if (!query.planes[s]->isSeenFromBehind(beam)) continue;
+    const std::uint32_t voxel = query.storage->block(other).voxels[query.address.slots[s]];
+    const VoxelPlane& plane = query.storage->voxel(voxel).plane();
+    if (plane.valid() && !plane.isSeenFromBehind(beam)) best.consider(plane, voxel, point);
+  }
+}
+
+/** Of the planes that face a beam at a point. */
 PlaneMatch bestPlane(const Query& query, const Eigen::Vector3f& point, const Eigen::Vector3f& beam)
 {
-  BestPlane best(point);
-  std::array<bool, kVoxelScales> from_behind{};
+  BestPlane best;
+  bool any_from_behind = false;
   for (std::size_t s = 0; s < kVoxelScales; ++s)
   {
     const VoxelPlane& plane = *query.planes[s];
-    from_behind[s] = plane.isSeenFromBehind(beam);
-    if (plane.valid() && !from_behind[s])
-      best.consider(plane, query.block->voxels[query.address.slots[s]]);
+    if (!plane.valid()) continue;
+    if (plane.isSeenFromBehind(beam))
+      any_from_behind = true;
+    else
+      best.consider(plane, query.block->voxels[query.address.slots[s]], point);
   }
-  const std::uint64_t key = query.address.block_key;
-  if (!(from_behind[0] || from_behind[1] || from_behind[2])) return best.match(key);
-  const std::uint32_t other = query.storage->find(key | kOtherSide);
-  if (other == VoxelStorage::kNoBlock) return best.match(key);
-  for (std::size_t s = 0; s < kVoxelScales; ++s)
-  {
-    if (!from_behind[s]) continue;
-    const std::uint32_t voxel = query.storage->block(other).voxels[query.address.slots[s]];
-    const VoxelPlane& plane = query.storage->voxel(voxel).plane();
-    if (plane.valid() && !plane.isSeenFromBehind(beam)) best.consider(plane, voxel);
-  }
-  return best.match(key);
+  if (any_from_behind) considerOtherSides(query, point, beam, best);
+  if (best.plane == nullptr) return {};
+  const VoxelPlane& plane = *best.plane;
+  return {
+      plane.nx,
+      plane.ny,
+      plane.nz,
+      plane.offset(),
+      best.variance,
+      best.variance,
+      VoxelShards::numberOf(best.voxel, VoxelShards::shardOf(query.address.block_key)),
+      plane.created_insertion,
+      plane.normalVariance()};
 }
 
 /** Which of the points [first, first + kBatch) or fewer are no longer in the voxels where they
@@ -176,9 +174,8 @@ void matchBatch(
   {
     const std::size_t k = batch[i].point;
     const Eigen::Vector3f point(points.x[k], points.y[k], points.z[k]);
-    matches[k] = batch[i].block == nullptr
-                     ? PlaneMatch{}
-                     : bestPlane(batch[i], point, (point - view.origin).normalized());
+    matches[k] =
+        batch[i].block == nullptr ? PlaneMatch{} : bestPlane(batch[i], point, point - view.origin);
   }
 }
 }  // namespace
@@ -190,10 +187,9 @@ PlaneMatch matchPlane(
   Batch batch;
   WorldPoints points;
   points.add(point.x(), point.y(), point.z());
-  findAddresses(grid, points, 1, batch);
-  findBlocks(shards, 1, batch);
-  findPlanes(1, batch);
-  return batch[0].block == nullptr ? PlaneMatch{} : bestPlane(batch[0], point, beam);
+  std::vector<PlaneMatch> matches(1);
+  matchBatch({shards, grid, point - beam}, points, 1, batch, matches);
+  return matches[0];
 }
 
 void matchPlanes(

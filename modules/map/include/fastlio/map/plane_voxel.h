@@ -37,11 +37,15 @@ struct VoxelPlane
   std::uint32_t created_insertion = 0;  //!< scan in the middle of those that made the first plane
 
   [[nodiscard]] bool valid() const { return variance >= 0; }
-  /** A beam (unit vector) that meets this surface would come through it. What it meets is another
-   * one: the other side of a wall or a door. Beams along the plane may come from either side. */
+  /** A beam of this direction (of any length) that meets this surface would come through it. What
+   * it meets is another one: the other side of a wall or a door. Beams along the plane may come
+   * from either side. */
   [[nodiscard]] bool isSeenFromBehind(const Eigen::Vector3f& beam) const
   {
-    return valid() && nx * beam.x() + ny * beam.y() + nz * beam.z() > kAlongThePlane;
+    const float across = nx * beam.x() + ny * beam.y() + nz * beam.z();
+    // Of few planes, so that the length is seldom needed.
+    return across > 0.0F && valid() &&
+           across * across > kAlongThePlane * kAlongThePlane * beam.squaredNorm();
   }
   /** -n . q [m] */
   [[nodiscard]] float offset() const { return -(nx * qx + ny * qy + nz * qz); }
