@@ -43,7 +43,7 @@ struct VoxelPlane
   [[nodiscard]] bool isSeenFromBehind(const Eigen::Vector3f& beam) const
   {
     const float across = nx * beam.x() + ny * beam.y() + nz * beam.z();
-    // Of few planes, so that the length is seldom needed.
+    // Most planes face the beam: its length is seldom needed.
     return across > 0.0F && valid() &&
            across * across > kAlongThePlane * kAlongThePlane * beam.squaredNorm();
   }
