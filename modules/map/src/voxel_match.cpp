@@ -180,18 +180,6 @@ void matchBatch(
 }
 }  // namespace
 
-PlaneMatch matchPlane(
-    const VoxelShards& shards, const VoxelGrid& grid, const Eigen::Vector3f& point,
-    const Eigen::Vector3f& beam)
-{
-  Batch batch;
-  WorldPoints points;
-  points.add(point.x(), point.y(), point.z());
-  std::vector<PlaneMatch> matches(1);
-  matchBatch({shards, grid, point - beam}, points, 1, batch, matches);
-  return matches[0];
-}
-
 void matchPlanes(
     const VoxelView& view, const WorldPoints& points, std::size_t first, std::size_t last,
     std::vector<PlaneMatch>& matches)

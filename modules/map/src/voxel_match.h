@@ -31,9 +31,4 @@ void rematchPlanes(
     const VoxelView& view, const WorldPoints& before, const WorldPoints& points, std::size_t first,
     std::size_t last, std::vector<PlaneMatch>& matches);
 
-/** The match of one point that a beam of this direction meets. */
-[[nodiscard]] PlaneMatch matchPlane(
-    const VoxelShards& shards, const VoxelGrid& grid, const Eigen::Vector3f& point,
-    const Eigen::Vector3f& beam);
-
 }  // namespace fastlio

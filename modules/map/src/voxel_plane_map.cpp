@@ -172,6 +172,9 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) c
 {
   std::vector<VoxelPlane> best;
   spreads.clear();
+  WorldPoints centroid;
+  centroid.resize(1);
+  std::vector<PlaneMatch> best_there(1);  // as seen from the plane's own side
   impl_->shards.forEachBlock(
       [&](const VoxelStorage& storage, std::size_t shard, const VoxelBlock& block)
       {
@@ -179,10 +182,9 @@ std::vector<VoxelPlane> VoxelPlaneMap::bestPlanes(std::vector<float>& spreads) c
         {
           const VoxelPlane& plane = storage.voxel(voxel).plane();
           if (!plane.valid()) continue;
-          const Eigen::Vector3f beam(-plane.nx, -plane.ny, -plane.nz);
-          const PlaneMatch match =
-              matchPlane(impl_->shards, impl_->grid, {plane.qx, plane.qy, plane.qz}, beam);
-          if (match.plane != VoxelShards::numberOf(voxel, shard)) continue;
+          centroid.x[0] = plane.qx, centroid.y[0] = plane.qy, centroid.z[0] = plane.qz;
+          match(centroid, plane.centroid() + plane.normal(), 0, 1, best_there);
+          if (best_there[0].plane != VoxelShards::numberOf(voxel, shard)) continue;
           best.push_back(plane);
           spreads.push_back(spreadAcross(storage.voxel(voxel)));
         }
