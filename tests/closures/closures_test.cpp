@@ -49,7 +49,7 @@ constexpr Ride kRides[] = {
     {"facades", 0.8},
     // What is in sight through a door or along a corridor need not have surfaces in common.
     {"corridors", 0.7},
-    // A trap only: few surfaces tell the height.
+    // A trap only: few surfaces tell the height, and which floor it is may be uncertain.
     {kStairs, 0.0}};
 
 /** An unsigned number in the environment. */

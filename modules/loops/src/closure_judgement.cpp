@@ -14,23 +14,35 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kOpen = 10.0;   // as of directions that nothing constrains [m]
-constexpr double kNarrow = 5.0;  // median range of stairwells and rooms, not of streets [m]
+constexpr double kOpen = 10.0;      // as of directions that nothing constrains [m]
+constexpr double kVertical = 0.95;  // cosine between the vertical and a height that stays open
 
-/** A direction of the position that is known weakly, or along which another place is nearly as
- * likely, counts as not known. \return whether there is one */
-bool openWeakDirection(Registration& registration, const ClosureLimits& limits)
+/** The direction of the position that is known weakly, or along which another place is nearly as
+ * likely, in the frame of the target. */
+std::optional<Vec3> weakDirection(const Registration& registration, const ClosureLimits& limits)
 {
-  RelativePose& motion = registration.motion;
-  const Mat3 position = motion.covariance.bottomRightCorner<3, 3>();
+  const Mat3 position = registration.motion.covariance.bottomRightCorner<3, 3>();
   const auto system = symmetricEigensystem(position);
   const bool is_known = system.values.z() <= std::pow(limits.max_position_std, 2) &&
                         registration.evidence.planes_across[0] >= limits.min_planes_across &&
                         registration.evidence.margin >= limits.min_margin;
-  if (is_known) return false;
-  const Vec3 direction = system.vectors.col(2);
-  motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * direction * direction.transpose();
-  return true;
+  if (is_known) return std::nullopt;
+  return Vec3(system.vectors.col(2));
+}
+
+/** How uncertain the height is [m]. */
+double heightStd(const RelativePose& predicted, const Vec3& up)
+{
+  const Mat3 position = predicted.covariance.bottomRightCorner<3, 3>();
+  return std::sqrt(up.dot(position * up));
+}
+
+/** Without what is known along a direction. */
+Matrix6 across(const Vec3& direction, const Matrix6& covariance)
+{
+  Matrix6 P = Matrix6::Identity();
+  P.bottomRightCorner<3, 3>() -= direction * direction.transpose();
+  return P * covariance * P.transpose();
 }
 
 /** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
@@ -120,13 +132,21 @@ std::optional<Shortcoming> shortcomingOf(
   return std::nullopt;
 }
 
-ClosureLimits Mapper::limitsFor(const Closure& closure, bool is_narrow, double range) const
+/** Whether the odometry knows which floor this is, and the place on it. Between the walls of a
+ * stairwell, the height may stay open then. */
+bool Mapper::isFloorKnown(const RelativePose& predicted, const Vec3& up) const
+{
+  return limits_.narrow_deviation * heightStd(predicted, up) <= limits_.least_storey &&
+         largestPositionStd(across(up, predicted.covariance)) <= limits_.known_place_std;
+}
+
+ClosureLimits Mapper::limitsFor(const Closure& closure, const Surroundings& around) const
 {
   ClosureLimits limits = limits_;
   const double std = largestPositionStd(closure.predicted.covariance);
   const bool is_leafy = closure.registration.evidence.upright_score < limits.min_upright;
-  if (is_narrow) limits.max_deviation = limits.narrow_deviation;
-  if (!is_narrow && std <= limits.maxStd(range))
+  if (around.isNarrow()) limits.max_deviation = limits.narrow_deviation;
+  if (!around.isNarrow() && std <= limits.maxStd(around.range))
   {
     // Not both: the ground and a wall fit anywhere along it, also on the next turn of a ramp.
     if (is_leafy)
@@ -134,25 +154,32 @@ ClosureLimits Mapper::limitsFor(const Closure& closure, bool is_narrow, double r
     else
       limits.open_directions = 1;
   }
+  const auto weak = weakDirection(closure.registration, limits);
+  const bool is_height = weak && std::abs(weak->dot(around.up)) > kVertical;
+  if (around.isNarrow() && is_height && isFloorKnown(closure.predicted, around.up))
+    limits.open_directions = 1;
   if (std > limits.known_place_std) return limits;
   limits.min_overlap = limits.min_upright = limits.known_place_overlap;
   limits.open_directions = 1;
   return limits;
 }
 
-void Mapper::judge(Closure& closure, bool is_narrow, double range) const
+void Mapper::judge(
+    Closure& closure, const ClosureLimits& limits, const std::optional<Vec3>& open) const
 {
-  const ClosureLimits limits = limitsFor(closure, is_narrow, range);
   if (auto shortcoming = shortcomingOf(closure.registration, limits))
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
-  GraphEdge edge{0, 1, closure.registration.motion, true};
+  RelativePose& motion = closure.registration.motion;
+  GraphEdge edge{0, 1, motion, true};
   // Along an open direction the odometry decides alone.
-  const bool is_open =
-      limits.open_directions > 0 && openWeakDirection(closure.registration, limits);
-  if (is_open) edge.measured.covariance.setZero();
+  if (open)
+  {
+    edge.measured.covariance = across(*open, motion.covariance);
+    motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * *open * open->transpose();
+  }
   edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
   const double deviation = std::sqrt(squaredError(edge, Pose{}, closure.predicted.T_a_b));
-  const double moved = (closure.registration.motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
+  const double moved = (motion.T_a_b.p - closure.predicted.T_a_b.p).norm();
   if (deviation > limits.max_deviation)
     return decide(
         closure, ClosureVerdict::OutOfReach,
@@ -160,7 +187,7 @@ void Mapper::judge(Closure& closure, bool is_narrow, double range) const
             "%.2f m from where the odometry has it: %.1f standard deviations, at most %.1f are "
             "allowed",
             moved, deviation, limits.max_deviation));
-  accept(closure, is_open ? "; one direction stays open" : "");
+  accept(closure, open ? "; one direction stays open" : "");
 }
 
 Closure Mapper::compared(std::size_t a, std::size_t b) const
@@ -177,41 +204,44 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
         limits_.min_planes);
     return closure;
   }
-  const Vec3 up = poses_[a].R.transpose() * Vec3::UnitZ();
-  const double range = std::min(result_.submaps[a].range, result_.submaps[b].range);
-  const bool below_ceiling =
-      isBelowCeiling(target->planes, up) ||
-      isBelowCeiling(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
-  closure.registration =
-      SubmapRegistration(target->planes, workers_).search(source->planes, closure.predicted, up);
-  const bool is_narrow = below_ceiling || range < kNarrow;
-  judge(closure, is_narrow, range);
-  if (is_narrow && closure.verdict == ClosureVerdict::Accepted)
-    judgePrediction(closure, up, below_ceiling, range);
+  Surroundings around;
+  around.up = poses_[a].R.transpose() * Vec3::UnitZ();
+  around.range = std::min(result_.submaps[a].range, result_.submaps[b].range);
+  around.below_ceiling = isBelowCeiling(target->planes, around.up) ||
+                         isBelowCeiling(source->planes, poses_[b].R.transpose() * Vec3::UnitZ());
+  const SubmapRegistration surfaces(target->planes, workers_);
+  Registration& found = closure.registration;
+  found = surfaces.search(source->planes, closure.predicted, around.up);
+  const ClosureLimits limits = limitsFor(closure, around);
+  std::optional<Vec3> open;
+  if (limits.open_directions > 0) open = weakDirection(found, limits);
+  if (open)
+    found = surfaces.alignedAcross(*open, source->planes, found, closure.predicted, around.up);
+  judge(closure, limits, open);
+  if (around.isNarrow() && closure.verdict == ClosureVerdict::Accepted)
+    judgePrediction(closure, around);
   return closure;
 }
 
 /** What has been found in a narrow place may be the next floor or room, which looks the same. */
-void Mapper::judgePrediction(
-    Closure& closure, const Vec3& up, bool below_ceiling, double range) const
+void Mapper::judgePrediction(Closure& closure, const Surroundings& around) const
 {
-  const Mat3 position = closure.predicted.covariance.bottomRightCorner<3, 3>();
-  const double height_std = std::sqrt(up.dot(position * up));
-  if (below_ceiling && limits_.narrow_deviation * height_std > limits_.least_storey)
+  const double height_std = heightStd(closure.predicted, around.up);
+  if (around.below_ceiling && limits_.narrow_deviation * height_std > limits_.least_storey)
     return decide(
         closure, ClosureVerdict::Unpredicted,
         mrpt::format(
             "the odometry is %.1f m uncertain in height: the next floor may look the same",
             height_std));
   const double std = largestPositionStd(closure.predicted.covariance);
-  closure.needs_agreement = std > limits_.maxStd(range);
+  closure.needs_agreement = std > limits_.maxStd(around.range);
   if (closure.needs_agreement)
     decide(
         closure, ClosureVerdict::Unpredicted,
         mrpt::format(
             "the odometry is %.1f m uncertain, more than %.1f m, with %.1f m in view: a place that "
             "looks the same may be another one, and no other closure agrees",
-            std, limits_.maxStd(range), range));
+            std, limits_.maxStd(around.range), around.range));
 }
 
 }  // namespace fastlio

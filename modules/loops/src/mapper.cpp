@@ -19,6 +19,7 @@ namespace
 constexpr double kReachDeviations = 2.0;
 constexpr double kWidestReach = 8.0;  // [m]
 constexpr std::size_t kApart = 3;     // candidates of one pass are so many submaps apart
+constexpr double kHeight = 3.0;       // heights count so many times: ceilings lie between places
 // The graph is optimised anew when it has grown by this part.
 constexpr double kGrowth = 0.02;
 constexpr double kAnchorAttitude = 0.02;  // of a session that was found, to begin with [rad]
@@ -135,7 +136,9 @@ std::vector<std::size_t> Mapper::candidatesOf(std::size_t b) const
     if (squared >= widest * widest) continue;
     const double std = largestPositionStd(covariances_[b] + covariances_[a]);
     const double reach = limits_.distance + std::min(kWidestReach, kReachDeviations * std);
-    if (squared < reach * reach) near.emplace_back(squared, a);
+    if (squared >= reach * reach) continue;
+    const double height = poses_[a].p.z() - poses_[b].p.z();
+    near.emplace_back(squared + (kHeight * kHeight - 1.0) * height * height, a);
   }
   std::sort(near.begin(), near.end());
   std::vector<std::size_t> chosen;

@@ -4,6 +4,7 @@
 #include "closure_submaps.h"
 #include "mapper_parts.h"
 #include <fastlio/loops/mapper.h>
+#include <fastlio/math/linear_algebra.h>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,7 @@ namespace
 {
 using testing::closureOf;
 using testing::closureOfSecondPass;
+using testing::planesAlong;
 using testing::streetWithoutCorners;
 using testing::submapAt;
 using testing::surroundings;
@@ -188,6 +190,39 @@ TEST(ClosureJudgement, NoDirectionStaysOpenWhereAnotherPlaceMayBeMeant)
   ASSERT_LT(ClosureLimits{}.maxStd(street.range), 8.0);
   EXPECT_NE(closureOfSecondPass(street, 8.0).verdict, ClosureVerdict::Accepted);
   EXPECT_NE(closureOfSecondPass(surroundings("tunnel"), 1.0).verdict, ClosureVerdict::Accepted);
+}
+
+/** Between the walls of a stairwell. \param height_std how well the odometry knows the height [m]
+ */
+Closure closureBetweenWalls(double height_std)
+{
+  const Submap walls = planesAlong(Vec3::UnitZ(), surroundings("office"));
+  return closureOf({submapAt(walls, 0.0, 0.0, 0.0), submapAt(walls, 0.4, height_std, 60.0)});
+}
+
+/** Walls tell the place on a floor, whatever the height is: along it, the registration stays where
+ * the odometry has it, and not where the noise of the walls has pulled it. */
+TEST(ClosureJudgement, AStairwellClosesWithItsHeightOpen)
+{
+  const Closure closure = closureBetweenWalls(0.5);
+  ASSERT_EQ(closure.verdict, ClosureVerdict::Accepted) << closure.reason;
+  EXPECT_NE(closure.reason.find("one direction stays open"), std::string::npos) << closure.reason;
+  const RelativePose& motion = closure.registration.motion;
+  EXPECT_NEAR(motion.T_a_b.p.z(), 0.4, 0.02);
+  const Mat3 position = motion.covariance.bottomRightCorner<3, 3>();
+  const auto system = symmetricEigensystem(position);
+  EXPECT_GT(system.values[2], 1.0);
+  EXPECT_LT(system.values[1], 0.01);
+  // It leans a little, by the noise of the walls.
+  const Vec3 open = system.vectors.col(2);
+  EXPECT_GT(std::abs(open.z()), 0.98);
+  EXPECT_LT((motion.T_a_b.p - open * open.dot(motion.T_a_b.p)).norm(), 0.02);
+}
+
+/** Where the next floor may be meant, its walls may be others. */
+TEST(ClosureJudgement, AStairwellDoesNotCloseWhereTheFloorIsUncertain)
+{
+  EXPECT_NE(closureBetweenWalls(0.8).verdict, ClosureVerdict::Accepted);
 }
 
 /** Fronts with the same window every few metres: no closure tells them apart along the street. */

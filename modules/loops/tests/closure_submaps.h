@@ -30,20 +30,25 @@ inline Submap surroundings(const char* scenario)
   return submapsOf(Simulation(settings), {kLong}).at(0);
 }
 
+/** A submap with those planes only that are parallel to a direction. */
+inline Submap planesAlong(const Vec3& direction, Submap submap)
+{
+  const auto seen = submap.surfaces.get();
+  SubmapSurfaces parallel;
+  for (std::size_t i = 0; i < seen->planes.size(); ++i)
+  {
+    if (std::abs(seen->planes[i].normal().dot(direction)) > 0.1) continue;
+    parallel.planes.push_back(seen->planes[i]);
+    parallel.spreads.push_back(seen->spreads[i]);
+  }
+  submap.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(parallel));
+  return submap;
+}
+
 /** A street whose fronts tell the place across, not along. */
 inline Submap streetWithoutCorners()
 {
-  Submap street = surroundings("town");
-  const auto seen = street.surfaces.get();
-  SubmapSurfaces fronts;
-  for (std::size_t i = 0; i < seen->planes.size(); ++i)
-  {
-    if (std::abs(seen->planes[i].normal().x()) > 0.05) continue;
-    fronts.planes.push_back(seen->planes[i]);
-    fronts.spreads.push_back(seen->spreads[i]);
-  }
-  street.surfaces = StoredSurfaces(std::make_shared<SubmapStore>(), std::move(fronts));
-  return street;
+  return planesAlong(Vec3::UnitX(), surroundings("town"));
 }
 
 /** The same submap after so much travel.

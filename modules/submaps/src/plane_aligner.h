@@ -131,17 +131,18 @@ class PlaneAligner
     return sums;
   }
 
-  /** Moves the source along the stages. */
+  /** Moves the source along the stages, but not along a direction that is held (zero: none). */
   template <typename Stages>
   [[nodiscard]] std::optional<Pose> follow(
-      const std::vector<Patch>& source, Pose T, const Stages& stages) const
+      const std::vector<Patch>& source, Pose T, const Stages& stages,
+      const Vec3& held = Vec3::Zero()) const
   {
     for (const Stage& stage : stages)
       for (int i = 0; i < stage.iterations; ++i)
       {
         const Alignment sums = align(source, T, stage);
         if (sums.pairs < 20) return std::nullopt;
-        const auto step = stepOf(sums);
+        const auto step = stepOf(sums, held);
         T.R = normalizeRotation(T.R * expSO3(step.head<3>()));
         T.p += step.tail<3>();
         if (step.lpNorm<Eigen::Infinity>() < 1e-5) break;
@@ -282,11 +283,12 @@ class PlaneAligner
     sums.gradient += weight * pair.distance * J;
   }
 
-  static AlignedVector6 stepOf(const Alignment& sums)
+  static AlignedVector6 stepOf(const Alignment& sums, const Vec3& held)
   {
-    // Keeps the guess where nothing constrains it.
-    const Aligned6 H =
-        sums.information + 1e-4 * sums.information.trace() / 6.0 * Aligned6::Identity();
+    // Keeps the guess where nothing constrains it, and, 10,000 times stiffer, where it is held.
+    const double mean = sums.information.trace() / 6.0;
+    Aligned6 H = sums.information + 1e-4 * mean * Aligned6::Identity();
+    H.bottomRightCorner<3, 3>() += 1e4 * mean * held * held.transpose();
     return -H.ldlt().solve(sums.gradient);
   }
 

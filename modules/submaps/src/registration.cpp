@@ -177,6 +177,26 @@ Registration SubmapRegistration::search(
   return result;
 }
 
+Registration SubmapRegistration::alignedAcross(
+    const Vec3& along, const std::vector<VoxelPlane>& source, const Registration& found,
+    const RelativePose& predicted, const Vec3& up) const
+{
+  Registration result = found;
+  result.converged = false;
+  const std::vector<Patch> all = patchesOf(source);
+  Pose start = found.motion.T_a_b;
+  start.p += along * along.dot(predicted.T_a_b.p - start.p);
+  const std::optional<Pose> end = aligner_->follow(sampleOf(all, kFinePlanes), start, kFine, along);
+  if (!end) return result;
+  result = aligner_->finish(all, *end);
+  result.evidence.upright_score = aligner_->uprightScore(all, *end, up);
+  result.evidence.starts = found.evidence.starts;
+  result.evidence.margin = found.evidence.margin;
+  result.evidence.margin_across = found.evidence.margin_across;
+  result.evidence.rival = found.evidence.rival;
+  return result;
+}
+
 std::vector<PlanePair> SubmapRegistration::pairs(
     const std::vector<VoxelPlane>& source, const Pose& T_target_source) const
 {

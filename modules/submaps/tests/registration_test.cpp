@@ -193,16 +193,39 @@ TEST(SubmapRegistration, ReportsTheDirectionsThatTheSurfacesLeaveOpen)
   EXPECT_LT(std::sqrt(found.motion.covariance(5, 5)), 0.03);
 }
 
-/** Walls tell no height, whatever the noise of their normals seems to say. */
-TEST(SubmapRegistration, CountsThePlanesThatTellADirection)
+std::vector<VoxelPlane> wallsOfYard(const Pose& T_submap_world, unsigned seed)
 {
-  const auto all = yard({}, 1);
-  std::vector<VoxelPlane> walls = all;
+  std::vector<VoxelPlane> walls = yard(T_submap_world, seed);
   walls.erase(
       std::remove_if(
           walls.begin(), walls.end(),
           [](const VoxelPlane& plane) { return std::abs(plane.nz) > 0.3F; }),
       walls.end());
+  return walls;
+}
+
+/** Along a direction that is held, the prediction decides, and the surfaces do elsewhere. */
+TEST(SubmapRegistration, AlignsAcrossADirectionThatIsHeld)
+{
+  const SubmapRegistration target(wallsOfYard({}, 1));
+  const auto source = wallsOfYard(kTruth.inverse(), 2);
+  const RelativePose predicted = predictedAt(besideTruth({0.2, -0.1, 0.6}, 0.01), 0.5, 0.03);
+  const Registration found = target.search(source, predicted, Vec3::UnitZ());
+  const Registration held =
+      target.alignedAcross(Vec3::UnitZ(), source, found, predicted, Vec3::UnitZ());
+  ASSERT_TRUE(held.converged);
+  const Vec3 off = held.motion.T_a_b.p - kTruth.p;
+  EXPECT_NEAR(off.z(), 0.6, 0.01);
+  EXPECT_LT(off.head<2>().norm(), 0.02);
+  EXPECT_GT(held.evidence.upright_score, 0.8);
+  EXPECT_EQ(held.evidence.starts, found.evidence.starts);
+  EXPECT_EQ(held.evidence.margin_across, found.evidence.margin_across);
+}
+
+/** Walls tell no height, whatever the noise of their normals seems to say. */
+TEST(SubmapRegistration, CountsThePlanesThatTellADirection)
+{
+  const auto all = yard({}, 1), walls = wallsOfYard({}, 1);
   const RelativePose predicted = predictedAt({}, 0.05, 0.01);
   const auto acrossOf = [&](const std::vector<VoxelPlane>& planes)
   { return SubmapRegistration(planes).search(planes, predicted, Vec3::UnitZ()).evidence; };

@@ -82,7 +82,8 @@ struct ClosureLimits
   /** Where the odometry knows the place this well [m], it excludes places that look alike. Then
    * fewer surfaces suffice, and the closure may leave one direction open. Where the place is not
    * narrow, it may be known to maxStd() only: what looks the same along a street is one place then,
-   * or fewer upright surfaces suffice, as leaves and trunks are other planes in each pass. */
+   * or fewer upright surfaces suffice, as leaves and trunks are other planes in each pass. Where it
+   * is, the height may stay open if only the place on the floor is known this well. */
   double known_place_std = 0.25;
   double known_place_overlap = 0.15;  //!< instead of min_overlap and min_upright
 
@@ -159,6 +160,17 @@ class Mapper
   [[nodiscard]] std::size_t accepted() const { return result_.accepted(); }
 
  private:
+  /** What is around two submaps. */
+  struct Surroundings
+  {
+    Vec3 up;             //!< against gravity, in the frame of the earlier one
+    double range = 0.0;  //!< median, the smaller one [m]
+    bool below_ceiling = false;
+
+    /** Stairwells, corridors and rooms, not streets. */
+    [[nodiscard]] bool isNarrow() const { return below_ceiling || range < 5.0; }
+  };
+
   /** Where a session may be in the map, by one of its submaps. */
   struct Hypothesis
   {
@@ -177,12 +189,13 @@ class Mapper
   [[nodiscard]] RelativePose predictedMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::optional<RelativePose> odometryMotion(std::size_t a, std::size_t b) const;
   [[nodiscard]] Closure compared(std::size_t a, std::size_t b) const;
-  void judge(Closure& closure, bool is_narrow, double range) const;
-  void judgePrediction(Closure& closure, const Vec3& up, bool below_ceiling, double range) const;
+  void judge(Closure& closure, const ClosureLimits& limits, const std::optional<Vec3>& open) const;
+  void judgePrediction(Closure& closure, const Surroundings& around) const;
   [[nodiscard]] RelativePose motionBetween(std::size_t a, std::size_t b) const;
   [[nodiscard]] std::optional<bool> closuresAgree(const Closure& one, const Closure& other) const;
   void acceptAgreeing(const Closure& latest);
-  [[nodiscard]] ClosureLimits limitsFor(const Closure& closure, bool is_narrow, double range) const;
+  [[nodiscard]] bool isFloorKnown(const RelativePose& predicted, const Vec3& up) const;
+  [[nodiscard]] ClosureLimits limitsFor(const Closure& closure, const Surroundings& around) const;
   void settle();
 
   ClosureLimits limits_;

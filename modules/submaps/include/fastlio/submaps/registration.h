@@ -78,6 +78,13 @@ class SubmapRegistration
   [[nodiscard]] Registration search(
       const std::vector<VoxelPlane>& source, const RelativePose& predicted, const Vec3& up) const;
 
+  /** Aligns again what search() has found, for a closure that leaves a direction open: along it,
+   * the source is where the prediction has it. What the search says about rivals stays.
+   * \param along of unit length, in the target's frame */
+  [[nodiscard]] Registration alignedAcross(
+      const Vec3& along, const std::vector<VoxelPlane>& source, const Registration& found,
+      const RelativePose& predicted, const Vec3& up) const;
+
   /** What lies beside each other at a pose. */
   [[nodiscard]] std::vector<PlanePair> pairs(
       const std::vector<VoxelPlane>& source, const Pose& T_target_source) const;
