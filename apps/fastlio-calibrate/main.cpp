@@ -113,6 +113,7 @@ std::string documentOf(
   Json document{
       {"passes", estimate.passes},
       {"innovation_scale", estimate.innovation_scale},
+      {"rotation_contradiction_rad", estimate.rotation_contradiction},
       {"values", values},
       {"beams", beams}};
   document["trial"] = trial ? trialJson(*trial) : Json();

@@ -99,11 +99,11 @@ class Proposal
         given_.sensors.T_vehicle_imu)
       return;
     const auto& motion = survey_.motion;
-    if (motion && motion->conclusive && motion->rotation_known && survey_.rotation_error > kTurned)
+    if (motion && motion->rotation_known && survey_.rotation_error > kTurned)
       set("input.T_vehicle_lidar", config_.sensors.T_vehicle_lidar,
           std::optional<Pose>(Pose{motion->R_imu_lidar, Vec3::Zero()}),
-          "the axes as the motion shows them, to some tenths of a degree; measure the position "
-          "[m]");
+          "the axes as the motion shows them, to a degree or two; measure the position [m]. "
+          "fastlio-calibrate finds both better");
     else
       notes_.emplace_back(
           "The recording has no poses of its sensors: LiDAR and IMU count as one place. Measure "

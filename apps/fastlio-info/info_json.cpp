@@ -124,11 +124,17 @@ Json motionJson(const RecordingSurvey& survey)
       {"conclusive", motion.conclusive},
       {"pairs", motion.turns},
       {"correlation", motion.correlation}};
-  if (!motion.conclusive) return all;
-  all["time_offset_s"] = motion.time_offset;
-  all["time_offset_std_s"] = motion.time_offset_std;
-  all["imu_rate_over_lidar_rate"] = motion.scale;
-  if (motion.rotation_known) all["mounting_error_deg"] = kDegPerRad * survey.rotation_error;
+  if (motion.conclusive)
+  {
+    all["time_offset_s"] = motion.time_offset;
+    all["time_offset_std_s"] = motion.time_offset_std;
+    all["imu_rate_over_lidar_rate"] = motion.scale;
+  }
+  if (motion.rotation_known)
+  {
+    all["mounting_error_deg"] = kDegPerRad * survey.rotation_error;
+    all["mounting_error_std_deg"] = kDegPerRad * motion.rotation_std;
+  }
   return all;
 }
 }  // namespace

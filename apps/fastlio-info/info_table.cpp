@@ -166,32 +166,35 @@ std::string motionText(const RecordingSurvey& survey)
           survey.overlap.seconds, 100.0 * survey.overlap.fraction, survey.overlap.lead));
   if (!survey.motion) return text;
   const MotionCheck& motion = *survey.motion;
-  if (!motion.conclusive)
+  if (motion.conclusive)
+  {
+    text += line(
+        "offset",
+        format(
+            "lidar.time_offset of about %.3f s +- %.3f s (%zu pairs of scans, correlation %.2f)",
+            motion.time_offset, motion.time_offset_std, motion.turns, motion.correlation));
+    text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
+  }
+  else
   {
     const std::string sharpness =
         std::isfinite(motion.time_offset_std)
             ? format(", time offset known to %.3f s", motion.time_offset_std)
             : "";
-    return text + line(
-                      "motion", format(
-                                    "not conclusive: %zu pairs of scans, correlation %.2f",
-                                    motion.turns, motion.correlation) +
-                                    sharpness);
+    text += line(
+        "motion", format(
+                      "not conclusive: %zu pairs of scans, correlation %.2f", motion.turns,
+                      motion.correlation) +
+                      sharpness);
   }
-  text += line(
-      "offset", format(
-                    "lidar.time_offset of about %.3f s +- %.3f s (%zu pairs of scans, correlation "
-                    "%.2f)",
-                    motion.time_offset, motion.time_offset_std, motion.turns, motion.correlation));
-  text += line("gyro", format("turns %.2f times as fast as the LiDAR", motion.scale));
-  return text +
-         line(
-             "rotation", motion.rotation_known
-                             ? format(
-                                   "the given rotation of the LiDAR differs by %.1f deg from the "
-                                   "one that both motions show",
-                                   kDegPerRad * survey.rotation_error)
-                             : std::string("the motion turns about one axis only: not observable"));
+  const std::string rotation =
+      motion.rotation_known
+          ? format(
+                "the given rotation of the LiDAR differs by %.1f deg +- %.1f deg from the one that "
+                "both motions show",
+                kDegPerRad * survey.rotation_error, kDegPerRad * motion.rotation_std)
+          : std::string("not known: turn fast, about more than one axis");
+  return text + line("rotation", rotation);
 }
 
 std::string listText(const char* title, const std::vector<std::string>& sentences)

@@ -185,7 +185,8 @@ std::string calibrateFirst(const std::vector<std::string>& files, Config& config
   const RigEstimate estimate = calibrator.calibrate();
   const CalibrationTrial trial = calibrator.tryOut();
   if (trial.worthUsing()) config = calibrator.configWith(estimate);
-  return "Calibration (--calibrate): " + describe(trial) +
+  const std::string start = describeStart(estimate);
+  return "Calibration (--calibrate): " + start + (start.empty() ? "" : " ") + describe(trial) +
          (trial.worthUsing() ? "" : " The run keeps what was given.");
 }
 

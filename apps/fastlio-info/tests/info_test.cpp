@@ -231,6 +231,10 @@ TEST_F(Info, RealRecordingsOfTheFolder)
   ASSERT_TRUE(office["motion"]["conclusive"]) << table_;
   EXPECT_NEAR(office["motion"]["time_offset_s"], 0.0, 0.01);
   EXPECT_LT(office["motion"]["mounting_error_deg"], 5.0);
+  const Json uav = jsonOf((folder / "uav_livox_xyzirt.rawlog").string());
+  EXPECT_FALSE(uav["motion"]["conclusive"]) << "some of its scans match badly";
+  ASSERT_TRUE(uav["motion"].contains("mounting_error_deg")) << table_;
+  EXPECT_LT(uav["motion"]["mounting_error_deg"], 3.0);
 }
 
 TEST_F(Info, WritesTheParametersThatTheRecordingTells)

@@ -216,7 +216,9 @@ std::vector<CalibrationRow> calibrationRows(const Rig& given, const RigEstimate&
 
 std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
 {
-  std::string text = mrpt::format(
+  std::string text = describeStart(estimate);
+  if (!text.empty()) text += "\n\n";
+  text += mrpt::format(
       "%-36s %10s %10s %9s %9s  unit\n", "value", "given", "found", "std", "prior std");
   for (const CalibrationRow& row : calibrationRows(given, estimate))
     text += mrpt::format(
@@ -236,6 +238,15 @@ std::string calibrationTable(const Rig& given, const RigEstimate& estimate)
         beam.elevation_offset / kRadPerDeg, estimate.beam_stds[i].elevation / kRadPerDeg);
   }
   return text;
+}
+
+std::string describeStart(const RigEstimate& estimate)
+{
+  if (estimate.rotation_contradiction == 0.0) return {};
+  return mrpt::format(
+      "The given poses turn the LiDAR by %.0f deg from what the motions of LiDAR and IMU show. The "
+      "calibration began with the rotation that they show.",
+      estimate.rotation_contradiction / kRadPerDeg);
 }
 
 std::string describe(const CalibrationTrial& trial)

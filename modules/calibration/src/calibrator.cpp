@@ -3,6 +3,7 @@
 
 #include "anderson.h"
 #include "one_rig.h"
+#include "rotation_by_motion.h"
 #include "unknowns.h"
 #include <fastlio/calibration/calibrator.h>
 #include <fastlio/survey/sensor_selection.h>
@@ -19,6 +20,8 @@ namespace
 constexpr std::size_t kRememberedSteps = 8;
 // The last part of a single recording is not fitted to, but tried on.
 constexpr double kFittedPart = 0.6;
+// Who does not know how the LiDAR is turned has not measured where it is [m].
+constexpr double kUnmeasuredPosition = 0.1;
 
 Rig rigIn(const CalibrationRecording& recording, const Config& config)
 {
@@ -93,6 +96,13 @@ Calibrator::Calibrator(
       given_noise_(config_.odometry.imu.noise)
 {
   requireOneRig(recordings_, config_);
+  if (const auto shown = contradictingRotation(recordings_, config_))
+  {
+    given_.T_imu_lidar.R = shown->R_imu_lidar;
+    rotation_contradiction_ = shown->angle;
+    double& position_std = config_.odometry.calibration.extrinsic_translation_std;
+    position_std = std::max(position_std, kUnmeasuredPosition);
+  }
   for (const CalibrationRecording& recording : recordings_)
   {
     const InertialNoise noise = measureInertialNoise(inertialSamples(recording, config_));
@@ -195,6 +205,7 @@ RigEstimate Calibrator::estimateAt(
         {stdOf(step.covariance, unknowns.beamIndex(i)),
          stdOf(step.covariance, unknowns.beamIndex(i) + 1)});
   estimate.innovation_scale = step.innovation_scale;
+  estimate.rotation_contradiction = rotation_contradiction_;
   estimate.passes = passes_;
   estimate.given_noise = given_noise_;
   estimate.noise = noise_;

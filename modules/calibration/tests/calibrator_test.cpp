@@ -67,6 +67,7 @@ TEST_F(CalibratorTest, FindsTheErrorsOfTheGivenCalibration)
   const Calibrator calibrator({recording}, wronglyGiven(), 6);
   const RigEstimate estimate = calibrator.calibrate();
   const Rig& rig = estimate.rig;
+  EXPECT_EQ(describeStart(estimate), "") << "the given rotation is nearly right";
   // No data determine the axes of the housing: gyro and LiDAR may turn together.
   const std::vector<CalibrationRow> rows = calibrationRows(calibrator.given(), estimate);
   const Pose error = rig.T_imu_lidar * truth_.inverse();
@@ -96,6 +97,19 @@ TEST_F(CalibratorTest, ALidarThatIsTurnedByDegreesLeavesTheAxesOfTheImuAlone)
   const Vec3 error = logSO3(estimate.rig.T_imu_lidar.R * truth_.R.transpose());
   EXPECT_LT(kDegPerRad * error.norm(), 0.15) << "deg; it was given as 4.6";
   EXPECT_LT(std::abs(estimate.rig.gyro_matrix(0, 1) - estimate.rig.gyro_matrix(1, 0)), 0.004);
+}
+
+// Nobody has measured the pose, or its axes are those of another frame.
+TEST_F(CalibratorTest, ARotationThatMotionsContradictIsFound)
+{
+  const CalibrationRecording recording = record("walk", 20.0, 3);
+  Config config = config_;
+  config.sensors.T_vehicle_lidar = Pose{expSO3({0.3, -0.2, 1.6}), Vec3::Zero()} * truth_;
+  const RigEstimate estimate = Calibrator({recording}, config, 6).calibrate();
+  EXPECT_NEAR(kDegPerRad * estimate.rotation_contradiction, 94.0, 6.0);
+  EXPECT_NE(describeStart(estimate).find("deg from what the motions"), std::string::npos);
+  const Vec3 error = logSO3(estimate.rig.T_imu_lidar.R * truth_.R.transpose());
+  EXPECT_LT(kDegPerRad * error.norm(), 0.5) << "deg; it was given as 94";
 }
 
 TEST_F(CalibratorTest, StandardDeviationsCoverTheErrors)

@@ -1,6 +1,8 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/linear_algebra.h>
+#include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/survey/motion_check.h>
 
@@ -15,12 +17,17 @@ namespace fastlio
 {
 namespace
 {
-constexpr double kStep = 0.005;           // of the offsets that are tried [s]
-constexpr double kConclusive = 0.95;      // correlation
-constexpr double kSharp = 0.01;           // standard deviation of the offset [s]
-constexpr double kLeastRate = 0.05;       // RMS of the LiDAR's rate: slower says nothing [rad/s]
-constexpr double kLeastSecondAxis = 0.1;  // of the strongest axis' singular value
-constexpr double kUnsteadiness = 0.02;    // what a rate that changes within a scan does [of a scan]
+constexpr double kStep = 0.005;          // of the offsets that are tried [s]
+constexpr double kConclusive = 0.95;     // correlation
+constexpr double kAlike = 0.8;           // correlation of motions that are the same one
+constexpr double kSharp = 0.01;          // standard deviation of the offset [s]
+constexpr double kLeastRate = 0.05;      // RMS of the LiDAR's rate: slower says nothing [rad/s]
+constexpr double kKnownRotation = 0.09;  // standard deviation [rad]
+// Errors of scans that follow each other are alike: the rotations of nine recordings were off by up
+// to 4.5 times what independent errors make of it.
+constexpr double kAlikeErrors = 3.0;
+constexpr double kSoftPairs = 4.0;      // pairs count half at two standard deviations
+constexpr double kUnsteadiness = 0.02;  // what a rate that changes within a scan does [of a scan]
 constexpr std::size_t kFewestTurns = 10;
 
 /** The gyro's integral, to be read at any time. */
@@ -92,35 +99,105 @@ Vec3 meanOf(const std::vector<Vec3>& values)
   return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
 }
 
-/** The rotation that brings both series together, and how well (Wahba's problem). */
+/** The second moments of rates without their means, each pair counting as its weight says. */
+struct RateMoments
+{
+  Mat3 imu_lidar = Mat3::Zero(), lidar = Mat3::Zero();
+  double imu_squares = 0, weights = 0;
+
+  [[nodiscard]] double lidarSquares() const { return lidar.trace(); }
+};
+
+RateMoments momentsOf(const RatePairs& centred, const std::vector<double>& weights)
+{
+  RateMoments sums;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    const Vec3 &lidar = centred.lidar[i], &imu = centred.imu[i];
+    sums.imu_lidar += weights[i] * imu * lidar.transpose();
+    sums.lidar += weights[i] * lidar * lidar.transpose();
+    sums.imu_squares += weights[i] * imu.squaredNorm();
+    sums.weights += weights[i];
+  }
+  return sums;
+}
+
+/** The rotation that brings both series together (Wahba's problem). */
+struct Alignment
+{
+  Mat3 R_imu_lidar = Mat3::Identity();
+  double product = 0;  //!< of the rates of one and the turned rates of the other
+};
+
+Alignment alignmentOf(const RateMoments& sums)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+      sums.imu_lidar, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  Alignment alignment;
+  alignment.R_imu_lidar = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
+  const Vec3 strengths = svd.singularValues();
+  alignment.product = strengths.dot(signs);
+  return alignment;
+}
+
+/** Without means: the bias of the gyro does not matter. */
+RatePairs centred(RatePairs pairs)
+{
+  const Vec3 lidar_mean = meanOf(pairs.lidar), imu_mean = meanOf(pairs.imu);
+  for (Vec3& rate : pairs.lidar)
+    rate -= lidar_mean;
+  for (Vec3& rate : pairs.imu)
+    rate -= imu_mean;
+  return pairs;
+}
+
+/** How well both series agree when the LiDAR is turned. */
 MotionCheck compare(const RatePairs& pairs)
 {
   MotionCheck check;
   check.turns = pairs.lidar.size();
   if (check.turns < kFewestTurns) return check;
-  // Without means: the bias of the gyro does not matter.
-  const Vec3 lidar_mean = meanOf(pairs.lidar), imu_mean = meanOf(pairs.imu);
-  Mat3 sums = Mat3::Zero();
-  double lidar_squares = 0, imu_squares = 0;
-  for (std::size_t i = 0; i < check.turns; ++i)
-  {
-    const Vec3 lidar = pairs.lidar[i] - lidar_mean, imu = pairs.imu[i] - imu_mean;
-    sums += imu * lidar.transpose();
-    lidar_squares += lidar.squaredNorm();
-    imu_squares += imu.squaredNorm();
-  }
-  if (!(lidar_squares > 0) || !(imu_squares > 0)) return check;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sums, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  check.R_imu_lidar = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
-  const Vec3 strengths = svd.singularValues();
-  check.correlation = strengths.dot(signs) / std::sqrt(lidar_squares * imu_squares);
-  check.scale = std::sqrt(imu_squares / lidar_squares);
-  const double rate = std::sqrt(lidar_squares / static_cast<double>(check.turns));
+  const RateMoments sums = momentsOf(centred(pairs), std::vector<double>(check.turns, 1.0));
+  if (!(sums.lidarSquares() > 0) || !(sums.imu_squares > 0)) return check;
+  const Alignment alignment = alignmentOf(sums);
+  check.R_imu_lidar = alignment.R_imu_lidar;
+  check.correlation = alignment.product / std::sqrt(sums.lidarSquares() * sums.imu_squares);
+  check.scale = std::sqrt(sums.imu_squares / sums.lidarSquares());
+  const double rate = std::sqrt(sums.lidarSquares() / static_cast<double>(check.turns));
   check.conclusive = check.correlation > kConclusive && rate > kLeastRate;
-  check.rotation_known = check.conclusive && strengths[1] > kLeastSecondAxis * strengths[0];
   return check;
+}
+
+/** The rotation with pairs that count less the farther they are off: some scans are matched
+ * wrongly. Rates that are turned by a small angle differ by its cross product with them, which
+ * tells how well it is known about its least known axis. */
+void findRotation(const RatePairs& pairs, MotionCheck& check)
+{
+  constexpr int kIterations = 10;
+  if (check.turns < kFewestTurns) return;
+  const RatePairs rates = centred(pairs);
+  std::vector<double> squares(check.turns), weights(check.turns);
+  RateMoments sums;
+  double scale = check.scale, variance = 0;
+  for (int i = 0; i < kIterations; ++i)
+  {
+    for (std::size_t k = 0; k < check.turns; ++k)
+      squares[k] = (rates.imu[k] / scale - check.R_imu_lidar * rates.lidar[k]).squaredNorm();
+    variance = median(squares) / 2.366;  // of each axis: the median of chi-squared with 3 degrees
+    for (std::size_t k = 0; k < check.turns; ++k)
+      weights[k] = 1.0 / (1.0 + squares[k] / (kSoftPairs * std::max(variance, 1e-12)));
+    sums = momentsOf(rates, weights);
+    check.R_imu_lidar = alignmentOf(sums).R_imu_lidar;
+    scale = std::sqrt(sums.imu_squares / sums.lidarSquares());
+  }
+  const Mat3 information = sums.lidarSquares() * Mat3::Identity() - sums.lidar;
+  const double least = symmetricEigensystem(information).values[0];
+  const double rate = std::sqrt(sums.lidarSquares() / sums.weights);
+  check.rotation_std = least > 0 ? kAlikeErrors * std::sqrt(variance / least) : kPi;
+  check.rotation_known =
+      rate > kLeastRate && check.correlation > kAlike && check.rotation_std < kKnownRotation;
 }
 
 /** A parabola through three equidistant values, kStep apart. */
@@ -175,11 +252,12 @@ MotionCheck checkMotion(
   const Parabola parabola{correlationAt(best - 1), best_correlation, correlationAt(best + 1)};
   const double offset = kStep * best + parabola.top();
   MotionCheck check = compare(pairsAt(turns, angle, offset));
+  findRotation(pairsAt(turns, angle, offset), check);
   check.time_offset = offset;
   check.time_offset_std = offsetDeviation(check, parabola.bend(), meanSeconds(turns));
   // At the edge there is no maximum.
-  if (std::abs(best) == most || check.time_offset_std > kSharp)
-    check.conclusive = check.rotation_known = false;
+  if (std::abs(best) == most || check.time_offset_std > kSharp) check.conclusive = false;
+  if (std::abs(best) == most) check.rotation_known = false;
   return check;
 }
 

@@ -132,10 +132,9 @@ void reportImu(
         tilt));
 }
 
-void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
+void diagnoseRates(
+    const MotionCheck& motion, const OdometryOptions& odometry, RecordingSurvey& survey)
 {
-  if (!survey.motion || !survey.motion->conclusive) return;
-  const MotionCheck& motion = *survey.motion;
   if (motion.scale > kDegreesScale)
     warn(
         survey, mrpt::format(
@@ -156,12 +155,20 @@ void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
                     "(correlation %.2f). Half or a whole scan period means that the stamp's "
                     "reference is another (input.point_time_reference).",
                     motion.time_offset, motion.correlation));
+}
+
+void diagnoseMotion(RecordingSurvey& survey, const OdometryOptions& odometry)
+{
+  if (!survey.motion) return;
+  const MotionCheck& motion = *survey.motion;
+  if (motion.conclusive) diagnoseRates(motion, odometry, survey);
   const double angle = kDegPerRad * survey.rotation_error;
   if (motion.rotation_known && angle > kOddRotation)
     warn(
         survey, mrpt::format(
                     "The given poses turn the LiDAR by %.0f deg from what both motions "
-                    "show; check sensorPose, input.T_vehicle_lidar and input.T_vehicle_imu.",
+                    "show; check sensorPose, input.T_vehicle_lidar and input.T_vehicle_imu. "
+                    "fastlio-calibrate finds the right one.",
                     angle));
 }
 }  // namespace

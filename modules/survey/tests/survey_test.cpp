@@ -142,13 +142,47 @@ TEST(MotionCheck, FindsOffsetMountingAndUnit)
 TEST(MotionCheck, SaysWhenItDoesNotKnow)
 {
   const auto turns = turnsOf(Mat3::Identity(), 0.0);
-  EXPECT_FALSE(checkMotion(turns, samplesOf(1.0, 1.0, false)).conclusive);  // another motion
+  const MotionCheck other = checkMotion(turns, samplesOf(1.0, 1.0, false));  // another motion
+  EXPECT_FALSE(other.conclusive || other.rotation_known);
   EXPECT_FALSE(checkMotion({}, samplesOf(1.0, 1.0)).conclusive);
   EXPECT_FALSE(checkMotion(turns, {}).conclusive);
   auto far_off = turns;  // by more than is looked for
   for (ScanTurn& turn : far_off)
     turn.begin_ns += 3'600'000'000'000, turn.end_ns += 3'600'000'000'000;
   EXPECT_FALSE(checkMotion(far_off, samplesOf(1.0, 1.0)).conclusive);
+}
+
+/** Some scans are matched wrongly: the offset of the clocks is not certain then, the rotation is.
+ */
+TEST(MotionCheck, FindsTheRotationDespiteWrongMatches)
+{
+  const Mat3 R_imu_lidar = expSO3(Vec3(0.3, -1.2, 2.0));
+  auto turns = turnsOf(R_imu_lidar, 0.0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> wrong(0.0, 0.06);
+  for (std::size_t i = 0; i < turns.size(); i += 10)
+    turns[i].rotation = Vec3(wrong(random), wrong(random), wrong(random));
+  const MotionCheck check = checkMotion(turns, samplesOf(1.0, 1.0));
+  EXPECT_FALSE(check.conclusive) << check.correlation;
+  ASSERT_TRUE(check.rotation_known) << check.rotation_std;
+  const double error = logSO3(check.R_imu_lidar.transpose() * R_imu_lidar).norm();
+  EXPECT_LT(error, 0.01);
+  EXPECT_LT(error, 4.0 * check.rotation_std);
+}
+
+TEST(MotionCheck, ATurnAboutOneAxisLeavesTheRotationOpen)
+{
+  auto turns = turnsOf(Mat3::Identity(), 0.0);
+  auto samples = samplesOf(1.0, 1.0);
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0.0, 0.003);
+  for (ScanTurn& turn : turns)
+    turn.rotation = Vec3(noise(random), noise(random), turn.rotation.z() + noise(random));
+  for (ImuSample& sample : samples)
+    sample.gyro.head<2>().setZero();
+  const MotionCheck check = checkMotion(turns, samples);
+  EXPECT_GT(check.correlation, 0.95);
+  EXPECT_FALSE(check.rotation_known) << check.rotation_std;
 }
 
 TEST(MotionCheck, ScansOfARoomTellHowTheyWereTurned)

@@ -33,6 +33,9 @@ struct CalibrationRow
 /** The rows as a table with advice, and the beams. */
 [[nodiscard]] std::string calibrationTable(const Rig& given, const RigEstimate& estimate);
 
+/** Says that motions contradict the given rotation; empty: they do not. */
+[[nodiscard]] std::string describeStart(const RigEstimate& estimate);
+
 /** The verdict of the trial, in one or two sentences. */
 [[nodiscard]] std::string describe(const CalibrationTrial& trial);
 

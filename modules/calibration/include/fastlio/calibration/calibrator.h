@@ -51,6 +51,9 @@ struct RigEstimate
   MeasuredBias incidence;  //!< of the range at 80 deg of incidence, measured less true
   /** How many times the squares of the innovations exceed their covariance; 1: as they should. */
   double innovation_scale = 1.0;
+  /** Between the given rotation of the LiDAR and the one that the motions of LiDAR and IMU show,
+   * where they contradict each other: the calibration began with the latter. Else 0 [rad]. */
+  double rotation_contradiction = 0.0;
   int passes = 0;
   ImuNoise given_noise;               //!< densities before
   InertialNoise noise;                //!< by the longest rest
@@ -93,7 +96,8 @@ class Calibrator
    * that of the first. */
   [[nodiscard]] CalibrationTrial tryOut() const;
 
-  /** The rig as it was given. */
+  /** The rig as it was given: the calibration begins with it. Where the motions of LiDAR and IMU
+   * contradict its rotation, it has the rotation that they show. */
   [[nodiscard]] const Rig& given() const { return given_; }
   /** The configuration with the calibration, with the noise densities that the rest determines, and
    * with how well the calibration is known (calibration.*_std), as root mean square over its axes.
@@ -117,6 +121,7 @@ class Calibrator
   int passes_;
   CalibrationProgress progress_;
   Rig given_;
+  double rotation_contradiction_ = 0.0;
   ImuNoise given_noise_;
   InertialNoise noise_;
 };

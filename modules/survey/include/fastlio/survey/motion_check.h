@@ -32,7 +32,8 @@ struct MotionCheck
   double scale = 0;            //!< rate of the IMU over rate of the LiDAR: 1, or 57.3 for deg/s
   Mat3 R_imu_lidar = Mat3::Identity();  //!< LiDAR axes to IMU axes
   bool conclusive = false;              //!< the time offset is certain to some milliseconds
-  bool rotation_known = false;          //!< the motion turned about more than one axis
+  double rotation_std = 0;              //!< of R_imu_lidar, about its least known axis [rad]
+  bool rotation_known = false;          //!< R_imu_lidar is certain to a few degrees
 };
 
 /** Rotation from one scan to the next by matching points with planes; nothing when there is too
