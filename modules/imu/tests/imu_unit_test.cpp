@@ -104,6 +104,7 @@ TEST(ImuConditioner, ASpinThatIsNoneInRadiansStaysFound)
   for (int last = 495; last < 560; ++last)
   {
     std::vector<ImuSample> raw;
+    raw.reserve(1000);
     for (int i = 0; i < 1000; ++i)
       raw.push_back(
           {kStart + i * kPeriod, Vec3(0, 0, i >= 400 && i <= last ? 40.0 : 0.1),
@@ -117,6 +118,7 @@ TEST(ImuConditioner, ASpinThatIsNoneInRadiansStaysFound)
 TEST(ImuConditioner, DegreesPerSecondAreFoundOfAPlatformThatOnlyYaws)
 {
   std::vector<ImuSample> raw;
+  raw.reserve(1000);
   for (int i = 0; i < 1000; ++i)
     raw.push_back({kStart + i * kPeriod, Vec3(0, 0, i < 400 ? 0.1 : 40.0), Vec3(0, 0, kDown)});
   EXPECT_EQ(conditioned(raw).report.gyro_unit, GyroUnit::Degrees);

@@ -95,7 +95,7 @@ TEST(NoiseMeasurement, AGapIsNoNoise)
     stamp += i % 10 == 0 ? 20 * kPeriodNs : kPeriodNs;
     ImuSample sample;
     sample.stamp_ns = stamp;
-    sample.gyro.setConstant(i / 10);  // jumps in every gap
+    sample.gyro.setConstant(std::floor(0.1 * i));  // jumps in every gap
     measurement.add(sample);
   }
   EXPECT_EQ(measurement.atLeast(kSensor).gyro_noise_density, kSensor.gyro_noise_density);

@@ -23,7 +23,7 @@ std::vector<ImuSample> turning()
   {
     const double t = 0.005 * i;
     samples.push_back(
-        {1'700'000'000'000'000'000 + i * 5'000'000, Vec3(std::cos(2.0 * t), 0.1, -0.2),
+        {1'700'000'000'000'000'000 + i * 5'000'000LL, Vec3(std::cos(2.0 * t), 0.1, -0.2),
          Vec3(0.1, 0.2 * std::sin(t), kGravityLength)});
   }
   return samples;

@@ -88,7 +88,7 @@ TEST(OwnBody, IsMaskedAfterSomeTurns)
   std::size_t left = 0;
   for (const float intensity : points.intensity)
     left += intensity > 0.0F ? 1 : 0;
-  constexpr std::size_t kOnCarrier = 16 * 31, kAll = 16 * 360;
+  constexpr std::size_t kOnCarrier = 16UL * 31, kAll = 16UL * 360;
   EXPECT_LT(left, kOnCarrier / 20);
   EXPECT_LE(masked, kOnCarrier) << "walls were masked";
   EXPECT_EQ(points.size() + masked, kAll);

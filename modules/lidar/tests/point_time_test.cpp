@@ -262,7 +262,7 @@ TEST(PointTime, SingleWildTimesDoNotDecide)
           times.push_back(i == 33 ? wild : 0.000999 * i);
         for (double& t : times)
           t /= secondsPer(unit);
-        samples.push_back(sampleOf(kStart + k * 100'000'000, times, false));
+        samples.push_back(sampleOf(kStart + k * 100'000'000LL, times, false));
       }
       EXPECT_EQ(samples.front().points, 100U);
       const PointTimeFinding finding = findPointTimes(samples);

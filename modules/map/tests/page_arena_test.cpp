@@ -75,6 +75,7 @@ TEST(PageArena, SeveralThreadsMayAsk)
   PageArena arena;
   std::vector<std::vector<Piece>> of_thread(4);
   std::vector<std::thread> threads;
+  threads.reserve(of_thread.size());
   for (auto& pieces : of_thread)
     threads.emplace_back([&] { pieces = allocateMany(arena, 100); });
   for (std::thread& thread : threads)

@@ -67,7 +67,7 @@ TEST(PlaneFit, AgreesWithTheIterativeEigenSolver)
       const Vector3d normal = randomVector(rng, 1).normalized();
       const PointMoments m = moments(disc(rng, randomVector(rng, 50), normal, noise, 5));
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> exact(m.covariance);
-      const Vector3d values = exact.eigenvalues();
+      const Vector3d& values = exact.eigenvalues();
       const auto fit = fitPlane(m);
       ASSERT_EQ(bool(fit), values[1] > 1e-6 * values[2]);
       if (!fit) continue;
