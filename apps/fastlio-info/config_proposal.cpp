@@ -99,10 +99,11 @@ class Proposal
         given_.sensors.T_vehicle_imu)
       return;
     const auto& motion = survey_.motion;
-    if (motion && motion->rotation_known && survey_.rotation_error > kTurned)
+    if (motion && motion->rotation_known &&
+        survey_.rotation_error > std::max(kTurned, 2.0 * motion->rotation_std))
       set("input.T_vehicle_lidar", config_.sensors.T_vehicle_lidar,
           std::optional<Pose>(Pose{motion->R_imu_lidar, Vec3::Zero()}),
-          "the axes as the motion shows them, to a degree or two; measure the position [m]. "
+          "the axes as the motion shows them, to a few degrees; measure the position [m]. "
           "fastlio-calibrate finds both better");
     else
       notes_.emplace_back(

@@ -37,7 +37,7 @@ double heightStd(const RelativePose& predicted, const Vec3& up)
   return std::sqrt(up.dot(position * up));
 }
 
-/** Without what is known along a direction. */
+/** A covariance without its part along a direction of the position. */
 Matrix6 across(const Vec3& direction, const Matrix6& covariance)
 {
   Matrix6 P = Matrix6::Identity();

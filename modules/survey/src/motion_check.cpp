@@ -176,7 +176,7 @@ MotionCheck compare(const RatePairs& pairs)
 void findRotation(const RatePairs& pairs, MotionCheck& check)
 {
   constexpr int kIterations = 10;
-  if (check.turns < kFewestTurns) return;
+  if (!(check.scale > 0)) return;  // nothing was compared
   const RatePairs rates = centred(pairs);
   std::vector<double> squares(check.turns), weights(check.turns);
   RateMoments sums;

@@ -146,6 +146,12 @@ TEST(MotionCheck, SaysWhenItDoesNotKnow)
   EXPECT_FALSE(other.conclusive || other.rotation_known);
   EXPECT_FALSE(checkMotion({}, samplesOf(1.0, 1.0)).conclusive);
   EXPECT_FALSE(checkMotion(turns, {}).conclusive);
+  // Neither sensor has moved at all.
+  auto at_rest = turns;
+  for (ScanTurn& turn : at_rest)
+    turn.rotation.setZero();
+  const MotionCheck rest = checkMotion(at_rest, samplesOf(1.0, 1.0));
+  EXPECT_FALSE(rest.conclusive || rest.rotation_known);
   auto far_off = turns;  // by more than is looked for
   for (ScanTurn& turn : far_off)
     turn.begin_ns += 3'600'000'000'000, turn.end_ns += 3'600'000'000'000;

@@ -163,12 +163,16 @@ class Mapper
   /** What is around two submaps. */
   struct Surroundings
   {
-    Vec3 up;             //!< against gravity, in the frame of the earlier one
-    double range = 0.0;  //!< median, the smaller one [m]
+    Vec3 up = Vec3::UnitZ();  //!< against gravity, in the frame of the earlier one
+    double range = 0.0;       //!< median, the smaller one [m]
     bool below_ceiling = false;
 
     /** Stairwells, corridors and rooms, not streets. */
-    [[nodiscard]] bool isNarrow() const { return below_ceiling || range < 5.0; }
+    [[nodiscard]] bool isNarrow() const
+    {
+      constexpr double kNarrow = 5.0;  // [m]
+      return below_ceiling || range < kNarrow;
+    }
   };
 
   /** Where a session may be in the map, by one of its submaps. */

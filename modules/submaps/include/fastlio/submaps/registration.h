@@ -79,7 +79,8 @@ class SubmapRegistration
       const std::vector<VoxelPlane>& source, const RelativePose& predicted, const Vec3& up) const;
 
   /** Aligns again what search() has found, for a closure that leaves a direction open: along it,
-   * the source is where the prediction has it. What the search says about rivals stays.
+   * the source is where the prediction has it. What the search says about rivals stays. It has not
+   * converged where too few planes lie beside each other.
    * \param along of unit length, in the target's frame */
   [[nodiscard]] Registration alignedAcross(
       const Vec3& along, const std::vector<VoxelPlane>& source, const Registration& found,
