@@ -37,12 +37,12 @@ double heightStd(const RelativePose& predicted, const Vec3& up)
   return std::sqrt(up.dot(position * up));
 }
 
-/** A covariance without its part along a direction of the position. */
-Matrix6 across(const Vec3& direction, const Matrix6& covariance)
+/** How uncertain the place on the floor is, in its least known direction [m]. */
+double floorStd(const RelativePose& predicted, const Vec3& up)
 {
-  Matrix6 P = Matrix6::Identity();
-  P.bottomRightCorner<3, 3>() -= direction * direction.transpose();
-  return P * covariance * P.transpose();
+  const Mat3 level = Mat3::Identity() - up * up.transpose();
+  const Mat3 position = predicted.covariance.bottomRightCorner<3, 3>();
+  return std::sqrt(symmetricEigensystem(Mat3(level * position * level)).values[2]);
 }
 
 /** Ceilings are in view: planes that are seen from below. In simulated streets, crowns and eaves
@@ -137,7 +137,7 @@ std::optional<Shortcoming> shortcomingOf(
 bool Mapper::isFloorKnown(const RelativePose& predicted, const Vec3& up) const
 {
   return limits_.narrow_deviation * heightStd(predicted, up) <= limits_.least_storey &&
-         largestPositionStd(across(up, predicted.covariance)) <= limits_.known_place_std;
+         floorStd(predicted, up) <= limits_.known_place_std;
 }
 
 ClosureLimits Mapper::limitsFor(const Closure& closure, const Surroundings& around) const
@@ -171,10 +171,11 @@ void Mapper::judge(
     return decide(closure, shortcoming->verdict, std::move(shortcoming->reason));
   RelativePose& motion = closure.registration.motion;
   GraphEdge edge{0, 1, motion, true};
-  // Along an open direction the odometry decides alone.
+  // With an open direction little is left that could show a wrong attitude: the odometry alone says
+  // what is too far off.
   if (open)
   {
-    edge.measured.covariance = across(*open, motion.covariance);
+    edge.measured.covariance.setZero();
     motion.covariance.bottomRightCorner<3, 3>() += kOpen * kOpen * *open * open->transpose();
   }
   edge.measured.covariance = withFloor(edge.measured.covariance + closure.predicted.covariance);
