@@ -140,7 +140,8 @@ bool Mapper::isFloorKnown(const RelativePose& predicted, const Vec3& up) const
          floorStd(predicted, up) <= limits_.known_place_std;
 }
 
-ClosureLimits Mapper::limitsFor(const Closure& closure, const Surroundings& around) const
+ClosureLimits Mapper::limitsFor(
+    const Closure& closure, const Surroundings& around, const std::optional<Vec3>& weak) const
 {
   ClosureLimits limits = limits_;
   const double std = largestPositionStd(closure.predicted.covariance);
@@ -154,7 +155,6 @@ ClosureLimits Mapper::limitsFor(const Closure& closure, const Surroundings& arou
     else
       limits.open_directions = 1;
   }
-  const auto weak = weakDirection(closure.registration, limits);
   const bool is_height = weak && std::abs(weak->dot(around.up)) > kVertical;
   if (around.isNarrow() && is_height && isFloorKnown(closure.predicted, around.up))
     limits.open_directions = 1;
@@ -213,9 +213,9 @@ Closure Mapper::compared(std::size_t a, std::size_t b) const
   const SubmapRegistration surfaces(target->planes, workers_);
   Registration& found = closure.registration;
   found = surfaces.search(source->planes, closure.predicted, around.up);
-  const ClosureLimits limits = limitsFor(closure, around);
-  std::optional<Vec3> open;
-  if (limits.open_directions > 0) open = weakDirection(found, limits);
+  const std::optional<Vec3> weak = weakDirection(found, limits_);
+  const ClosureLimits limits = limitsFor(closure, around, weak);
+  const std::optional<Vec3> open = limits.open_directions > 0 ? weak : std::nullopt;
   if (open)
     found = surfaces.alignedAcross(*open, source->planes, found, closure.predicted, around.up);
   judge(closure, limits, open);

@@ -112,6 +112,15 @@ void compareWithRivals(const std::vector<Found>& places, Registration& result)
   if (across != places.end()) evidence.margin_across = across->cost - best.cost;
 }
 
+/** \param up against gravity, in the frame of the target */
+Registration finished(
+    const PlaneAligner& aligner, const std::vector<Patch>& source, const Pose& T, const Vec3& up)
+{
+  Registration result = aligner.finish(source, T);
+  result.evidence.upright_score = aligner.uprightScore(source, T, up);
+  return result;
+}
+
 /** Half of the squared normalized distance from the prediction. */
 double priorCost(const RelativePose& predicted, const Pose& T)
 {
@@ -170,8 +179,7 @@ Registration SubmapRegistration::search(
     places.push_back(found.pose);
   const std::vector<Found> refined = likeliest(follow(places, fine, kFine), fine, kMostRivals);
   if (refined.empty()) return none;
-  Registration result = aligner_->finish(all, refined.front().pose);
-  result.evidence.upright_score = aligner_->uprightScore(all, refined.front().pose, up);
+  Registration result = finished(*aligner_, all, refined.front().pose, up);
   result.evidence.starts = starts.size();
   compareWithRivals(refined, result);
   return result;
@@ -188,8 +196,7 @@ Registration SubmapRegistration::alignedAcross(
   start.p += along * along.dot(predicted.T_a_b.p - start.p);
   const std::optional<Pose> end = aligner_->follow(sampleOf(all, kFinePlanes), start, kFine, along);
   if (!end) return result;
-  result = aligner_->finish(all, *end);
-  result.evidence.upright_score = aligner_->uprightScore(all, *end, up);
+  result = finished(*aligner_, all, *end, up);
   result.evidence.starts = found.evidence.starts;
   result.evidence.margin = found.evidence.margin;
   result.evidence.margin_across = found.evidence.margin_across;

@@ -1,13 +1,11 @@
 // mrpt_fastlio: LiDAR-inertial odometry (FAST-LIO) for MRPT.
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <fastlio/math/angles.h>
 #include <fastlio/math/linear_algebra.h>
 #include <fastlio/math/statistics.h>
 #include <fastlio/math/time.h>
 #include <fastlio/survey/motion_check.h>
-
-#include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +17,7 @@ namespace
 {
 constexpr double kStep = 0.005;          // of the offsets that are tried [s]
 constexpr double kConclusive = 0.95;     // correlation
-constexpr double kAlike = 0.8;           // correlation of motions that are the same one
+constexpr double kSameMotion = 0.8;      // correlation
 constexpr double kSharp = 0.01;          // standard deviation of the offset [s]
 constexpr double kLeastRate = 0.05;      // RMS of the LiDAR's rate: slower says nothing [rad/s]
 constexpr double kKnownRotation = 0.09;  // standard deviation [rad]
@@ -70,7 +68,16 @@ class TurnedAngle
   std::vector<Vec3> sums_;
 };
 
-/** Rates of both sensors over the same intervals. */
+Vec3 meanOf(const std::vector<Vec3>& values)
+{
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& v : values)
+    sum += v;
+  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
+}
+
+/** Rates of both sensors over the same intervals, less their means: the bias of the gyro does not
+ * matter. */
 struct RatePairs
 {
   std::vector<Vec3> lidar, imu;
@@ -88,32 +95,35 @@ RatePairs pairsAt(const std::vector<ScanTurn>& turns, const TurnedAngle& angle, 
     pairs.lidar.emplace_back(turn.rotation / seconds);
     pairs.imu.emplace_back(*turned / seconds);
   }
+  for (std::vector<Vec3>* rates : {&pairs.lidar, &pairs.imu})
+  {
+    const Vec3 mean = meanOf(*rates);
+    for (Vec3& rate : *rates)
+      rate -= mean;
+  }
   return pairs;
 }
 
-Vec3 meanOf(const std::vector<Vec3>& values)
-{
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& v : values)
-    sum += v;
-  return sum / static_cast<double>(std::max<std::size_t>(1, values.size()));
-}
-
-/** The second moments of rates without their means, each pair counting as its weight says. */
+/** The second moments of rates, each pair counting as its weight says. */
 struct RateMoments
 {
   Mat3 imu_lidar = Mat3::Zero(), lidar = Mat3::Zero();
   double imu_squares = 0, weights = 0;
 
   [[nodiscard]] double lidarSquares() const { return lidar.trace(); }
+  /** RMS of the LiDAR's [rad/s]. */
+  [[nodiscard]] double rate() const { return std::sqrt(lidarSquares() / weights); }
+  [[nodiscard]] double scale() const { return std::sqrt(imu_squares / lidarSquares()); }
+  /** The rotation that brings both series together (Wahba's problem). */
+  [[nodiscard]] Mat3 rotation() const { return normalizeRotation(imu_lidar); }
 };
 
-RateMoments momentsOf(const RatePairs& centred, const std::vector<double>& weights)
+RateMoments momentsOf(const RatePairs& pairs, const std::vector<double>& weights)
 {
   RateMoments sums;
   for (std::size_t i = 0; i < weights.size(); ++i)
   {
-    const Vec3 &lidar = centred.lidar[i], &imu = centred.imu[i];
+    const Vec3 &lidar = pairs.lidar[i], &imu = pairs.imu[i];
     sums.imu_lidar += weights[i] * imu * lidar.transpose();
     sums.lidar += weights[i] * lidar * lidar.transpose();
     sums.imu_squares += weights[i] * imu.squaredNorm();
@@ -122,51 +132,19 @@ RateMoments momentsOf(const RatePairs& centred, const std::vector<double>& weigh
   return sums;
 }
 
-/** The rotation that brings both series together (Wahba's problem). */
-struct Alignment
-{
-  Mat3 R_imu_lidar = Mat3::Identity();
-  double product = 0;  //!< of the rates of one and the turned rates of the other
-};
-
-Alignment alignmentOf(const RateMoments& sums)
-{
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
-      sums.imu_lidar, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  Alignment alignment;
-  alignment.R_imu_lidar = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): g++ fears for a reference
-  const Vec3 strengths = svd.singularValues();
-  alignment.product = strengths.dot(signs);
-  return alignment;
-}
-
-/** Without means: the bias of the gyro does not matter. */
-RatePairs centred(RatePairs pairs)
-{
-  const Vec3 lidar_mean = meanOf(pairs.lidar), imu_mean = meanOf(pairs.imu);
-  for (Vec3& rate : pairs.lidar)
-    rate -= lidar_mean;
-  for (Vec3& rate : pairs.imu)
-    rate -= imu_mean;
-  return pairs;
-}
-
 /** How well both series agree when the LiDAR is turned. */
 MotionCheck compare(const RatePairs& pairs)
 {
   MotionCheck check;
   check.turns = pairs.lidar.size();
   if (check.turns < kFewestTurns) return check;
-  const RateMoments sums = momentsOf(centred(pairs), std::vector<double>(check.turns, 1.0));
+  const RateMoments sums = momentsOf(pairs, std::vector<double>(check.turns, 1.0));
   if (!(sums.lidarSquares() > 0) || !(sums.imu_squares > 0)) return check;
-  const Alignment alignment = alignmentOf(sums);
-  check.R_imu_lidar = alignment.R_imu_lidar;
-  check.correlation = alignment.product / std::sqrt(sums.lidarSquares() * sums.imu_squares);
-  check.scale = std::sqrt(sums.imu_squares / sums.lidarSquares());
-  const double rate = std::sqrt(sums.lidarSquares() / static_cast<double>(check.turns));
-  check.conclusive = check.correlation > kConclusive && rate > kLeastRate;
+  check.R_imu_lidar = sums.rotation();
+  check.correlation = check.R_imu_lidar.cwiseProduct(sums.imu_lidar).sum() /
+                      std::sqrt(sums.lidarSquares() * sums.imu_squares);
+  check.scale = sums.scale();
+  check.conclusive = check.correlation > kConclusive && sums.rate() > kLeastRate;
   return check;
 }
 
@@ -177,27 +155,25 @@ void findRotation(const RatePairs& pairs, MotionCheck& check)
 {
   constexpr int kIterations = 10;
   if (!(check.scale > 0)) return;  // nothing was compared
-  const RatePairs rates = centred(pairs);
   std::vector<double> squares(check.turns), weights(check.turns);
   RateMoments sums;
   double scale = check.scale, variance = 0;
   for (int i = 0; i < kIterations; ++i)
   {
     for (std::size_t k = 0; k < check.turns; ++k)
-      squares[k] = (rates.imu[k] / scale - check.R_imu_lidar * rates.lidar[k]).squaredNorm();
+      squares[k] = (pairs.imu[k] / scale - check.R_imu_lidar * pairs.lidar[k]).squaredNorm();
     variance = median(squares) / 2.366;  // of each axis: the median of chi-squared with 3 degrees
     for (std::size_t k = 0; k < check.turns; ++k)
       weights[k] = 1.0 / (1.0 + squares[k] / (kSoftPairs * std::max(variance, 1e-12)));
-    sums = momentsOf(rates, weights);
-    check.R_imu_lidar = alignmentOf(sums).R_imu_lidar;
-    scale = std::sqrt(sums.imu_squares / sums.lidarSquares());
+    sums = momentsOf(pairs, weights);
+    check.R_imu_lidar = sums.rotation();
+    scale = sums.scale();
   }
   const Mat3 information = sums.lidarSquares() * Mat3::Identity() - sums.lidar;
   const double least = symmetricEigensystem(information).values[0];
-  const double rate = std::sqrt(sums.lidarSquares() / sums.weights);
   check.rotation_std = least > 0 ? kAlikeErrors * std::sqrt(variance / least) : kPi;
-  check.rotation_known =
-      rate > kLeastRate && check.correlation > kAlike && check.rotation_std < kKnownRotation;
+  check.rotation_known = sums.rate() > kLeastRate && check.correlation > kSameMotion &&
+                         check.rotation_std < kKnownRotation;
 }
 
 /** A parabola through three equidistant values, kStep apart. */
@@ -251,8 +227,9 @@ MotionCheck checkMotion(
   }
   const Parabola parabola{correlationAt(best - 1), best_correlation, correlationAt(best + 1)};
   const double offset = kStep * best + parabola.top();
-  MotionCheck check = compare(pairsAt(turns, angle, offset));
-  findRotation(pairsAt(turns, angle, offset), check);
+  const RatePairs pairs = pairsAt(turns, angle, offset);
+  MotionCheck check = compare(pairs);
+  findRotation(pairs, check);
   check.time_offset = offset;
   check.time_offset_std = offsetDeviation(check, parabola.bend(), meanSeconds(turns));
   // At the edge there is no maximum.

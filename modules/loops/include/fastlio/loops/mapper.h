@@ -199,7 +199,8 @@ class Mapper
   [[nodiscard]] std::optional<bool> closuresAgree(const Closure& one, const Closure& other) const;
   void acceptAgreeing(const Closure& latest);
   [[nodiscard]] bool isFloorKnown(const RelativePose& predicted, const Vec3& up) const;
-  [[nodiscard]] ClosureLimits limitsFor(const Closure& closure, const Surroundings& around) const;
+  [[nodiscard]] ClosureLimits limitsFor(
+      const Closure& closure, const Surroundings& around, const std::optional<Vec3>& weak) const;
   void settle();
 
   ClosureLimits limits_;

@@ -27,7 +27,8 @@ using Mat3 = Eigen::Matrix3d;
 /** Left Jacobian A(u) of SO(3); its transpose is the right Jacobian. A(0) = I. */
 [[nodiscard]] Mat3 leftJacobianSO3(const Vec3& u);
 
-/** The rotation matrix nearest to a matrix that drifted off SO(3) by rounding. */
+/** The rotation nearest to a matrix that drifted off SO(3) by rounding; of a sum of products a b^T,
+ * the one that turns each b to its a best (Wahba's problem). */
 [[nodiscard]] Mat3 normalizeRotation(const Mat3& R);
 
 }  // namespace fastlio
